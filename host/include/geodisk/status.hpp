@@ -1,0 +1,69 @@
+// Status, Error and Result<T>: how every geodisk call reports failure. No geodisk function throws,
+// prints, aborts or reads the environment.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace geodisk {
+
+/// Outcome of a call. Zero is success, positive is valid but incomplete, negative is failure.
+enum class Status : std::int32_t {
+    ok = 0,
+    not_finished = 1,          ///< More rounds are needed (recording callers only).
+    invalid_argument = -1,     ///< A parameter is out of its documented range.
+    mesh_rejected = -2,        ///< The mesh cannot be sampled; `Error::element` names the place.
+    device_lacks = -3,         ///< The device misses a required limit or feature.
+    no_device = -4,            ///< No Vulkan loader, driver or device was found.
+    workspace_too_small = -5,  ///< A buffer is too small; the message names the size that fits.
+    out_of_host_memory = -6,
+    out_of_device_memory = -7,
+    device_lost = -8,
+    cancelled = -9,            ///< The progress callback asked to stop.
+    internal = -10,            ///< A broken invariant of geodisk itself or of the driver.
+};
+
+/// Name of a status as spelled above, for messages.
+const char* to_string(Status status) noexcept;
+
+/// Marks an Error that does not concern one element.
+inline constexpr std::uint64_t kNoElement = ~std::uint64_t{0};
+
+/// A failure: what kind, which element, and one line of text for a person.
+struct Error {
+    Status status = Status::internal;
+    std::string message;                  ///< One line, no trailing newline.
+    std::uint64_t element = kNoElement;   ///< Index of the offending vertex or face, if any.
+    std::int32_t vk_result = 0;           ///< The VkResult behind the failure, if any.
+};
+
+/// Either a value or an Error.
+///
+/// `value()` may only be called when the result holds one, `error()` only when it does not.
+template <class T>
+class [[nodiscard]] Result {
+  public:
+    Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
+    Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
+
+    explicit operator bool() const noexcept { return content_.index() == 0; }
+    T& value() & noexcept { return *std::get_if<0>(&content_); }
+    const T& value() const& noexcept { return *std::get_if<0>(&content_); }
+    T&& value() && noexcept { return std::move(*std::get_if<0>(&content_)); }
+    T* operator->() noexcept { return std::get_if<0>(&content_); }
+    const T* operator->() const noexcept { return std::get_if<0>(&content_); }
+    T& operator*() & noexcept { return value(); }
+    const T& operator*() const& noexcept { return value(); }
+    const Error& error() const& noexcept { return *std::get_if<1>(&content_); }
+    Error&& error() && noexcept { return std::move(*std::get_if<1>(&content_)); }
+
+  private:
+    std::variant<T, Error> content_;
+};
+
+/// Result of a call that returns nothing but success or failure.
+struct Done {};
+
+} // namespace geodisk
