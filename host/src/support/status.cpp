@@ -1,0 +1,36 @@
+#include <geodisk/export.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+GEODISK_API const char* to_string(Status status) noexcept {
+    switch (status) {
+    case Status::ok:
+        return "ok";
+    case Status::not_finished:
+        return "not_finished";
+    case Status::invalid_argument:
+        return "invalid_argument";
+    case Status::mesh_rejected:
+        return "mesh_rejected";
+    case Status::device_lacks:
+        return "device_lacks";
+    case Status::no_device:
+        return "no_device";
+    case Status::workspace_too_small:
+        return "workspace_too_small";
+    case Status::out_of_host_memory:
+        return "out_of_host_memory";
+    case Status::out_of_device_memory:
+        return "out_of_device_memory";
+    case Status::device_lost:
+        return "device_lost";
+    case Status::cancelled:
+        return "cancelled";
+    case Status::internal:
+        return "internal";
+    }
+    return "unknown"; // A value from outside the enumeration, such as a newer library's.
+}
+
+} // namespace geodisk
