@@ -1,0 +1,123 @@
+// Tables of Vulkan functions, one per instance and one per device, filled from the function pointer
+// the caller lends. The library calls Vulkan through these tables only: there are no linked
+// prototypes and no globals. They are plain structs so that a test may replace single entries, for
+// instance by one that fails its third call.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <geodisk/device.hpp>
+#include <geodisk/export.hpp>
+#include <geodisk/status.hpp>
+
+// clang-format off
+#define GEODISK_INSTANCE_FUNCTIONS(X)            \
+    X(vkDestroyInstance)                         \
+    X(vkEnumeratePhysicalDevices)                \
+    X(vkEnumerateDeviceExtensionProperties)      \
+    X(vkGetPhysicalDeviceProperties)             \
+    X(vkGetPhysicalDeviceProperties2)            \
+    X(vkGetPhysicalDeviceFeatures)               \
+    X(vkGetPhysicalDeviceMemoryProperties)       \
+    X(vkGetPhysicalDeviceQueueFamilyProperties)  \
+    X(vkCreateDevice)                            \
+    X(vkGetDeviceProcAddr)
+
+// Core Vulkan 1.0 and 1.1 only, so that each entry exists on every device geodisk accepts.
+// There is no vkDeviceWaitIdle or vkQueueWaitIdle: a borrowed device may be busy with other work.
+#define GEODISK_DEVICE_FUNCTIONS(X)       \
+    X(vkDestroyDevice)                    \
+    X(vkGetDeviceQueue)                   \
+    X(vkQueueSubmit)                      \
+                                          \
+    X(vkAllocateMemory)                   \
+    X(vkFreeMemory)                       \
+    X(vkMapMemory)                        \
+    X(vkUnmapMemory)                      \
+    X(vkFlushMappedMemoryRanges)          \
+    X(vkInvalidateMappedMemoryRanges)     \
+    X(vkCreateBuffer)                     \
+    X(vkDestroyBuffer)                    \
+    X(vkGetBufferMemoryRequirements)      \
+    X(vkGetBufferMemoryRequirements2)     \
+    X(vkBindBufferMemory)                 \
+                                          \
+    X(vkCreateShaderModule)               \
+    X(vkDestroyShaderModule)              \
+    X(vkCreatePipelineCache)              \
+    X(vkDestroyPipelineCache)             \
+    X(vkGetPipelineCacheData)             \
+    X(vkCreatePipelineLayout)             \
+    X(vkDestroyPipelineLayout)            \
+    X(vkCreateComputePipelines)           \
+    X(vkDestroyPipeline)                  \
+                                          \
+    X(vkCreateDescriptorSetLayout)        \
+    X(vkDestroyDescriptorSetLayout)       \
+    X(vkCreateDescriptorPool)             \
+    X(vkDestroyDescriptorPool)            \
+    X(vkResetDescriptorPool)              \
+    X(vkAllocateDescriptorSets)           \
+    X(vkFreeDescriptorSets)               \
+    X(vkUpdateDescriptorSets)             \
+                                          \
+    X(vkCreateCommandPool)                \
+    X(vkDestroyCommandPool)               \
+    X(vkResetCommandPool)                 \
+    X(vkAllocateCommandBuffers)           \
+    X(vkFreeCommandBuffers)               \
+    X(vkBeginCommandBuffer)               \
+    X(vkEndCommandBuffer)                 \
+    X(vkResetCommandBuffer)               \
+                                          \
+    X(vkCmdBindPipeline)                  \
+    X(vkCmdBindDescriptorSets)            \
+    X(vkCmdPushConstants)                 \
+    X(vkCmdDispatch)                      \
+    X(vkCmdDispatchBase)                  \
+    X(vkCmdDispatchIndirect)              \
+    X(vkCmdFillBuffer)                    \
+    X(vkCmdCopyBuffer)                    \
+    X(vkCmdUpdateBuffer)                  \
+    X(vkCmdPipelineBarrier)               \
+                                          \
+    X(vkCreateFence)                      \
+    X(vkDestroyFence)                     \
+    X(vkResetFences)                      \
+    X(vkGetFenceStatus)                   \
+    X(vkWaitForFences)                    \
+                                          \
+    X(vkCreateQueryPool)                  \
+    X(vkDestroyQueryPool)                 \
+    X(vkGetQueryPoolResults)              \
+    X(vkCmdResetQueryPool)                \
+    X(vkCmdWriteTimestamp)
+// clang-format on
+
+namespace geodisk {
+
+#define GEODISK_MEMBER(name) PFN_##name name = nullptr;
+
+/// Functions of an instance and its physical devices. Members carry the names of the functions.
+struct InstanceTable {
+    GEODISK_INSTANCE_FUNCTIONS(GEODISK_MEMBER)
+};
+
+/// Functions of one device, without the loader's trampolines. Members carry the names of the
+/// functions.
+struct DeviceTable {
+    GEODISK_DEVICE_FUNCTIONS(GEODISK_MEMBER)
+};
+
+#undef GEODISK_MEMBER
+
+/// Fills the table of `instance`. Errors: `invalid_argument` for a null argument, `device_lacks`
+/// naming the first function that is missing.
+GEODISK_API Result<InstanceTable>
+load_instance_table(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance) noexcept;
+
+/// Fills the table of `refs.device`. Errors: `invalid_argument` naming the handle that is null,
+/// `device_lacks` for an API version below 1.1 or naming the first function that is missing.
+GEODISK_API Result<DeviceTable> load_device_table(const DeviceRefs& refs) noexcept;
+
+} // namespace geodisk
