@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <geodisk/device.hpp>
 
 #include "support/guard.hpp"
 #include "vk/dispatch.hpp"
-#include "vk/result.hpp"
+#include "vk/extensions.hpp"
 
 namespace geodisk {
 namespace {
@@ -25,27 +24,6 @@ constexpr std::uint64_t kNeededSharedMemorySize = 16 * 1024;
 template <std::size_t Size>
 std::string text_of(const char (&field)[Size]) {
     return std::string(field, std::find(field, field + Size, '\0'));
-}
-
-Result<bool> has_extension(const InstanceTable& vk, VkPhysicalDevice physical_device,
-                           std::string_view name) {
-    std::vector<VkExtensionProperties> extensions;
-    VkResult result = VK_INCOMPLETE;
-    while (result == VK_INCOMPLETE) { // The list may grow between the two calls.
-        std::uint32_t count = 0;
-        result = vk.vkEnumerateDeviceExtensionProperties(physical_device, nullptr, &count, nullptr);
-        if (result != VK_SUCCESS)
-            break;
-        extensions.resize(count);
-        result = vk.vkEnumerateDeviceExtensionProperties(physical_device, nullptr, &count,
-                                                         extensions.data());
-        extensions.resize(count);
-    }
-    if (result != VK_SUCCESS)
-        return vk_error("vkEnumerateDeviceExtensionProperties", result);
-    return std::any_of(extensions.begin(), extensions.end(), [&](const auto& extension) {
-        return name == static_cast<const char*>(extension.extensionName);
-    });
 }
 
 void read_properties(const VkPhysicalDeviceProperties& properties, DeviceReport& report) {
@@ -75,7 +53,7 @@ void read_properties(const VkPhysicalDeviceProperties& properties, DeviceReport&
 Result<Done> read_properties2(const InstanceTable& vk, VkPhysicalDevice physical_device,
                               DeviceReport& report) {
     const Result<bool> has_driver_properties =
-        has_extension(vk, physical_device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+        has_device_extension(vk, physical_device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
     if (!has_driver_properties)
         return has_driver_properties.error();
 

@@ -1,0 +1,193 @@
+#include <geodisk/context.hpp>
+
+#include <mutex>
+#include <utility>
+
+#include "owned/context_access.hpp"
+#include "owned/instance.hpp"
+#include "support/guard.hpp"
+#include "vk/extensions.hpp"
+#include "vk/result.hpp"
+
+namespace geodisk {
+namespace {
+
+// The header that names it is still marked beta and not installed everywhere.
+constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
+
+std::vector<DeviceReport> take_reports(std::vector<FoundDevice>&& found) {
+    std::vector<DeviceReport> reports;
+    reports.reserve(found.size());
+    for (FoundDevice& device : found)
+        reports.push_back(std::move(device.report));
+    return reports;
+}
+
+/// A device with one queue of `family` and no optional feature, robustBufferAccess included: the
+/// kernels check their indices themselves.
+Result<VkDevice> create_device(const InstanceTable& vk, VkPhysicalDevice physical_device,
+                               std::uint32_t family) {
+    const Result<bool> portability = has_device_extension(vk, physical_device, kPortabilitySubset);
+    if (!portability)
+        return portability.error();
+
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    const VkPhysicalDeviceFeatures no_features{};
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &no_features;
+    if (*portability) { // Where it is listed, Vulkan demands that it be enabled.
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &kPortabilitySubset;
+    }
+    VkDevice device = VK_NULL_HANDLE;
+    const VkResult result = vk.vkCreateDevice(physical_device, &info, nullptr, &device);
+    if (result != VK_SUCCESS)
+        return vk_error("vkCreateDevice", result);
+    return device;
+}
+
+} // namespace
+
+struct Context::Impl {
+    std::unique_ptr<Instance> instance;
+    DeviceReport report;
+    VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    PFN_vkDestroyDevice vkDestroyDevice = nullptr;
+    std::mutex queue_mutex;
+
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl() {
+        if (device != VK_NULL_HANDLE && vkDestroyDevice != nullptr)
+            vkDestroyDevice(device, nullptr);
+    }
+
+    Result<Done> open_device();
+};
+
+/// Creates the device of `physical_device` and `report`.
+Result<Done> Context::Impl::open_device() {
+    const InstanceTable& vk = instance->functions();
+    const std::uint32_t family = report.compute_queue_family.value_or(0);
+    const Result<VkDevice> created = create_device(vk, physical_device, family);
+    if (!created)
+        return created.error();
+    device = *created;
+    vkDestroyDevice =
+        reinterpret_cast<PFN_vkDestroyDevice>(vk.vkGetDeviceProcAddr(device, "vkDestroyDevice"));
+    const auto get_queue =
+        reinterpret_cast<PFN_vkGetDeviceQueue>(vk.vkGetDeviceProcAddr(device, "vkGetDeviceQueue"));
+    if (vkDestroyDevice == nullptr || get_queue == nullptr)
+        return Error{Status::device_lacks, "the Vulkan device does not provide basic functions"};
+    get_queue(device, family, 0, &queue);
+    return Done{};
+}
+
+Result<Context> ContextAccess::create(Loader loader, const ContextOptions& options) noexcept {
+    return guarded([&]() -> Result<Context> {
+        Result<std::unique_ptr<Instance>> instance = Instance::create(
+            std::move(loader), {options.validation, options.on_validation_message});
+        if (!instance)
+            return std::move(instance).error();
+        Result<std::vector<FoundDevice>> found = (*instance)->find_devices();
+        if (!found)
+            return std::move(found).error();
+
+        std::vector<VkPhysicalDevice> handles;
+        for (const FoundDevice& device : *found)
+            handles.push_back(device.handle);
+        std::vector<DeviceReport> reports = take_reports(std::move(found).value());
+        Result<std::size_t> chosen = select_device(reports, options.device);
+        if (!chosen)
+            return std::move(chosen).error();
+
+        auto impl = std::make_unique<Context::Impl>();
+        impl->instance = std::move(instance).value();
+        impl->physical_device = handles[*chosen];
+        impl->report = std::move(reports[*chosen]);
+        Result<Done> opened = impl->open_device();
+        if (!opened)
+            return std::move(opened).error();
+        return Context(std::move(impl));
+    });
+}
+
+Result<std::vector<DeviceReport>> ContextAccess::list(Loader loader) noexcept {
+    return guarded([&]() -> Result<std::vector<DeviceReport>> {
+        Result<std::unique_ptr<Instance>> instance = Instance::create(std::move(loader), {});
+        if (!instance)
+            return std::move(instance).error();
+        Result<std::vector<FoundDevice>> found = (*instance)->find_devices();
+        if (!found)
+            return std::move(found).error();
+        return take_reports(std::move(found).value());
+    });
+}
+
+Result<std::vector<DeviceReport>> list_devices() noexcept {
+    Result<Loader> loader = Loader::open();
+    if (!loader)
+        return std::move(loader).error();
+    return ContextAccess::list(std::move(loader).value());
+}
+
+Result<Context> Context::create(const ContextOptions& options) noexcept {
+    Result<Loader> loader = Loader::open();
+    if (!loader)
+        return std::move(loader).error();
+    return ContextAccess::create(std::move(loader).value(), options);
+}
+
+Context::Context(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+Context::~Context() = default;
+
+DeviceRefs Context::device() const noexcept {
+    DeviceRefs refs;
+    refs.instance = impl_->instance->handle();
+    refs.physical_device = impl_->physical_device;
+    refs.device = impl_->device;
+    refs.get_instance_proc_addr = impl_->instance->get_instance_proc_addr();
+    refs.api_version = Instance::kApiVersion;
+    return refs;
+}
+
+QueueRef Context::queue() const noexcept {
+    QueueRef ref;
+    ref.queue = impl_->queue;
+    ref.family = impl_->report.compute_queue_family.value_or(0);
+    ref.lock_user = &impl_->queue_mutex;
+    ref.lock = [](void* mutex) { static_cast<std::mutex*>(mutex)->lock(); };
+    ref.unlock = [](void* mutex) { static_cast<std::mutex*>(mutex)->unlock(); };
+    return ref;
+}
+
+const DeviceReport& Context::report() const noexcept {
+    return impl_->report;
+}
+
+std::size_t Context::validation_message_count() const noexcept {
+    const ValidationLog* log = impl_->instance->validation_log();
+    return log != nullptr ? log->count() : 0;
+}
+
+Result<std::vector<std::string>> Context::validation_messages() const noexcept {
+    return guarded([&]() -> Result<std::vector<std::string>> {
+        const ValidationLog* log = impl_->instance->validation_log();
+        return log != nullptr ? log->messages() : std::vector<std::string>{};
+    });
+}
+
+} // namespace geodisk

@@ -1,0 +1,42 @@
+// Collects what the validation layer has to say.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <vulkan/vulkan_core.h>
+
+namespace geodisk {
+
+/// Messages of severity warning and above. Safe to use from several threads.
+class ValidationLog {
+  public:
+    explicit ValidationLog(std::function<void(std::string_view)> on_message)
+        : on_message_(std::move(on_message)) {}
+
+    /// A messenger description that reports to this log; the log must outlive the messenger and
+    /// the instance.
+    VkDebugUtilsMessengerCreateInfoEXT messenger_info() noexcept;
+
+    std::size_t count() const noexcept;
+    std::vector<std::string> messages() const;
+
+  private:
+    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                                  VkDebugUtilsMessageTypeFlagsEXT types,
+                                                  const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                  void* user) noexcept;
+    void add(const std::string& message);
+
+    std::function<void(std::string_view)> on_message_;
+    mutable std::mutex mutex_;
+    std::size_t count_ = 0;
+    std::vector<std::string> messages_;
+};
+
+} // namespace geodisk

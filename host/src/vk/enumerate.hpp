@@ -1,0 +1,28 @@
+// Vulkan's two-call idiom: ask for the count, then for the elements.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <vulkan/vulkan_core.h>
+
+namespace geodisk {
+
+/// Fills `out` from `call(std::uint32_t* count, T* elements) -> VkResult`. Returns the first result
+/// that is not success. May throw std::bad_alloc.
+template <class T, class Call>
+VkResult enumerate(std::vector<T>& out, Call&& call) {
+    VkResult result = VK_INCOMPLETE;
+    while (result == VK_INCOMPLETE) { // The list may have grown between the two calls.
+        std::uint32_t count = 0;
+        result = call(&count, static_cast<T*>(nullptr));
+        if (result != VK_SUCCESS)
+            break;
+        out.resize(count);
+        result = call(&count, out.data());
+        out.resize(count);
+    }
+    return result;
+}
+
+} // namespace geodisk
