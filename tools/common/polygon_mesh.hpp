@@ -1,0 +1,23 @@
+// What the OBJ and PLY readers hand over: faces as the file lists them, not yet checked against
+// the vertices and not yet split into triangles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace geodisk::tools {
+
+struct PolygonMesh {
+    std::vector<double> positions;      ///< x y z per vertex.
+    std::vector<std::uint32_t> corners; ///< Vertex indices of all faces, one face after another.
+    std::vector<std::size_t> face_ends; ///< For each face, the end of its corners.
+    std::vector<std::string> warnings;
+
+    /// 1-based line of each vertex and face for messages; empty where records have no lines.
+    std::vector<std::uint32_t> vertex_lines;
+    std::vector<std::uint32_t> face_lines;
+};
+
+} // namespace geodisk::tools

@@ -1,0 +1,68 @@
+#include "common/text.hpp"
+
+#include <limits>
+
+namespace geodisk::tools {
+
+void split_tokens(std::string_view line, std::vector<std::string_view>& tokens) {
+    constexpr std::string_view kBlanks = " \t";
+    tokens.clear();
+    std::size_t begin = line.find_first_not_of(kBlanks);
+    while (begin != std::string_view::npos) {
+        const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
+        tokens.push_back(line.substr(begin, end - begin));
+        begin = line.find_first_not_of(kBlanks, end);
+    }
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(" \t");
+    if (begin == std::string_view::npos) {
+        return {};
+    }
+    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+namespace {
+
+/// std::from_chars reports "too big" and "too small" alike; the digits tell which.
+double out_of_range_value(std::string_view text) {
+    const bool negative = text.starts_with('-');
+    const std::size_t exponent = text.find_first_of("eE");
+    const bool small = exponent != std::string_view::npos
+                           ? text.substr(exponent + 1).starts_with('-')
+                           : text.find_first_of("123456789") > text.find('.');
+    const double magnitude = small ? 0.0 : std::numeric_limits<double>::infinity();
+    return negative ? -magnitude : magnitude;
+}
+
+} // namespace
+
+std::optional<double> parse_real(std::string_view text) {
+    if (text.starts_with('+')) {
+        text.remove_prefix(1);
+        if (text.starts_with('-')) {
+            return std::nullopt;
+        }
+    }
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc::invalid_argument || stop != end) {
+        return std::nullopt;
+    }
+    return error == std::errc::result_out_of_range ? out_of_range_value(text) : value;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    std::string result = "'";
+    for (const char character : text.substr(0, kLongest)) {
+        const bool printable = character >= ' ' && character <= '~';
+        result += printable ? character : '?';
+    }
+    result += text.size() > kLongest ? "...'" : "'";
+    return result;
+}
+
+} // namespace geodisk::tools
