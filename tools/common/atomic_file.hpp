@@ -1,0 +1,34 @@
+// Output files that appear complete or not at all.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+namespace geodisk::tools {
+
+/// Writes to a temporary file beside `target` that commit() moves into its place. Without commit()
+/// the temporary file is removed and an existing target stays as it was.
+class AtomicFile {
+  public:
+    /// Throws UserError(bad_output), like all members, with the path and the system's reason.
+    explicit AtomicFile(const std::filesystem::path& target);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(std::string_view bytes);
+
+    /// Flushes to the disk, closes and renames. The last call.
+    void commit();
+
+  private:
+    [[noreturn]] void fail(int error) const;
+    void discard() noexcept;
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    std::FILE* file_ = nullptr;
+};
+
+} // namespace geodisk::tools

@@ -1,0 +1,54 @@
+// Sample files: what `geodisk sample` writes and `geodisk verify` reads.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace geodisk::tools {
+
+/// One sample. `bary` are the weights of the three corners of triangle `face`, in the order of
+/// MeshFile::triangles.
+struct SampleRow {
+    double position[3] = {};
+    float normal[3] = {};
+    std::uint32_t face = 0;
+    float bary[3] = {};
+    std::uint32_t candidate = 0;
+};
+
+/// Key and value of each header comment, in order: version, mesh, parameters, device and so on.
+/// Line breaks in them are written as blanks.
+struct SampleHeader {
+    std::vector<std::pair<std::string, std::string>> entries;
+};
+
+struct SampleFile {
+    std::vector<SampleRow> rows;
+    SampleHeader header;
+};
+
+/// Writes `rows` in the format of the extension of `path`:
+///   .ply  binary little endian, or ascii on request: element vertex with x y z nx ny nz
+///         face_index bary_u bary_v bary_w candidate; the header as "comment KEY: VALUE". x y z are
+///         float, or double where float would blur them: far from the origin for their extent.
+///   .csv  a header row with the same names; the header before it as "# KEY: VALUE"
+///   .xyz  x y z per line and nothing else
+/// Numbers in text are the shortest that read back exactly. The file appears complete or not at
+/// all. Throws UserError as check_output_path() does.
+void write_samples(const std::filesystem::path& path, const SampleHeader& header,
+                   std::span<const SampleRow> rows, bool ascii_ply);
+
+/// Fails before long work where write_samples() would fail after it: UserError(usage) for an
+/// unknown extension, UserError(bad_output) for a folder, a missing folder or no permission.
+void check_output_path(const std::filesystem::path& path);
+
+/// Reads a sample file of either PLY format or CSV. Columns may come in any order and type; x y z
+/// face_index bary_u bary_v bary_w must be there, the others are 0 if absent, unknown ones are
+/// skipped. Throws UserError(bad_input) naming the file and the line or record.
+SampleFile read_samples(const std::filesystem::path& path);
+
+} // namespace geodisk::tools

@@ -1,0 +1,225 @@
+#include "common/sample_file.hpp"
+
+#include "common/file_input.hpp"
+#include "common/ply_file.hpp"
+#include "common/sample_columns.hpp"
+#include "common/text.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace geodisk::tools {
+
+namespace {
+
+/// Where each column of a sample stands in the file.
+using ColumnPlaces = std::array<std::optional<std::size_t>, kSampleColumnNames.size()>;
+
+bool is_required(SampleColumn column) {
+    return column <= SampleColumn::z ||
+           (column >= SampleColumn::face_index && column <= SampleColumn::bary_w);
+}
+
+void check_columns(const std::filesystem::path& path, const ColumnPlaces& places) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!places[i] && is_required(SampleColumn{i})) {
+            fail_input(path, "has no column " + std::string(kSampleColumnNames[i]));
+        }
+    }
+}
+
+bool set_index(std::uint32_t& index, double value) {
+    if (!(value >= 0 && value <= std::numeric_limits<std::uint32_t>::max())) {
+        return false;
+    }
+    index = static_cast<std::uint32_t>(value);
+    return static_cast<double>(index) == value;
+}
+
+/// False if `value` makes no sense in that column.
+bool set_value(SampleRow& row, SampleColumn column, double value) {
+    const std::size_t i = static_cast<std::size_t>(column);
+    switch (column) {
+    case SampleColumn::x:
+    case SampleColumn::y:
+    case SampleColumn::z:
+        row.position[i] = value;
+        return std::isfinite(value);
+    case SampleColumn::nx:
+    case SampleColumn::ny:
+    case SampleColumn::nz:
+        row.normal[i - static_cast<std::size_t>(SampleColumn::nx)] = static_cast<float>(value);
+        return std::isfinite(value);
+    case SampleColumn::bary_u:
+    case SampleColumn::bary_v:
+    case SampleColumn::bary_w:
+        row.bary[i - static_cast<std::size_t>(SampleColumn::bary_u)] = static_cast<float>(value);
+        return std::isfinite(value);
+    case SampleColumn::face_index:
+        return set_index(row.face, value);
+    case SampleColumn::candidate:
+        return set_index(row.candidate, value);
+    }
+    return false;
+}
+
+/// The row whose column i has the value `value_at(place)`; `fail(name)` must not return.
+template <typename ValueAt, typename Fail>
+SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fail& fail) {
+    SampleRow row;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (places[i] && !set_value(row, SampleColumn{i}, value_at(*places[i]))) {
+            fail(std::string(kSampleColumnNames[i]) + " is out of range");
+        }
+    }
+    return row;
+}
+
+void add_entry(SampleHeader& header, std::string_view comment) {
+    if (const std::size_t colon = comment.find(": "); colon != std::string_view::npos) {
+        header.entries.emplace_back(comment.substr(0, colon), comment.substr(colon + 2));
+    }
+}
+
+SampleFile read_ply_samples(const std::filesystem::path& path) {
+    PlyFile file(path);
+    SampleFile samples;
+    for (const std::string& comment : file.comments()) {
+        add_entry(samples.header, comment);
+    }
+    bool has_vertices = false;
+    for (const PlyElement& element : file.elements()) {
+        if (element.name != "vertex") {
+            file.read_records(element, [](std::uint64_t, const PlyRecord&) {});
+            continue;
+        }
+        has_vertices = true;
+        ColumnPlaces places;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            places[i] = element.find_scalar(kSampleColumnNames[i]);
+        }
+        check_columns(path, places);
+        samples.rows.reserve(file.possible_records(element));
+        file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
+            samples.rows.push_back(make_row(
+                places, [&](std::size_t place) { return record.scalars[place]; },
+                [&](const std::string& message) { file.fail(element, index, message); }));
+        });
+    }
+    if (!has_vertices) {
+        fail_input(path, "has no element vertex");
+    }
+    if (const std::string warning = file.trailing_data_warning(); !warning.empty()) {
+        fail_input(path, "has data after the last sample");
+    }
+    return samples;
+}
+
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
+    cells.clear();
+    std::size_t comma = 0;
+    while ((comma = line.find(',')) != std::string_view::npos) {
+        cells.push_back(trimmed(line.substr(0, comma)));
+        line.remove_prefix(comma + 1);
+    }
+    cells.push_back(trimmed(line));
+}
+
+/// Reads a CSV sample file line by line.
+class CsvReader {
+  public:
+    explicit CsvReader(const std::filesystem::path& path) : path_(path), bytes_(read_file(path)) {}
+
+    SampleFile read() {
+        SampleFile samples;
+        ColumnPlaces places;
+        std::size_t column_count = 0;
+        while (next_row(samples.header)) {
+            if (column_count == 0) {
+                column_count = cells_.size();
+                places = find_columns();
+                continue;
+            }
+            if (cells_.size() != column_count) {
+                fail("has " + std::to_string(cells_.size()) + " columns instead of " +
+                     std::to_string(column_count));
+            }
+            samples.rows.push_back(make_row(
+                places, [this](std::size_t place) { return value_at(place); },
+                [this](const std::string& message) { fail(message); }));
+        }
+        if (column_count == 0) {
+            fail_input(path_, "has no header row");
+        }
+        return samples;
+    }
+
+  private:
+    /// Fills cells_ from the next line that is neither blank nor a comment.
+    bool next_row(SampleHeader& header) {
+        while (position_ < bytes_.size()) {
+            const std::size_t end = std::min(bytes_.find('\n', position_), bytes_.size());
+            std::string_view line(bytes_.data() + position_, end - position_);
+            position_ = end + 1;
+            ++line_;
+            line = trimmed(line.substr(0, line.ends_with('\r') ? line.size() - 1 : line.size()));
+            if (line.starts_with('#')) {
+                add_entry(header, trimmed(line.substr(1)));
+            } else if (!line.empty()) {
+                split_cells(line, cells_);
+                return true;
+            }
+        }
+        return false;
+    }
+
+    ColumnPlaces find_columns() const {
+        ColumnPlaces places;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            for (std::size_t place = 0; place < cells_.size(); ++place) {
+                if (cells_[place] == kSampleColumnNames[i]) {
+                    places[i] = place;
+                }
+            }
+        }
+        check_columns(path_, places);
+        return places;
+    }
+
+    double value_at(std::size_t place) const {
+        const std::optional<double> value = parse_real(cells_[place]);
+        if (!value) {
+            fail(in_quotes(cells_[place]) + " is not a number");
+        }
+        return *value;
+    }
+
+    [[noreturn]] void fail(const std::string& message) const {
+        fail_input(path_, "line " + std::to_string(line_) + ": " + message);
+    }
+
+    const std::filesystem::path& path_;
+    std::string bytes_;
+    std::size_t position_ = 0;
+    std::size_t line_ = 0;
+    std::vector<std::string_view> cells_;
+};
+
+} // namespace
+
+SampleFile read_samples(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(path);
+    if (extension == ".ply") {
+        return read_ply_samples(path);
+    }
+    if (extension == ".csv") {
+        return CsvReader(path).read();
+    }
+    if (extension == ".xyz") {
+        fail_input(path, "an .xyz file has no face_index and bary columns; use .ply or .csv");
+    }
+    fail_input(path, "unknown sample format; known are .ply and .csv");
+}
+
+} // namespace geodisk::tools
