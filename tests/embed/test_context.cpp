@@ -1,0 +1,283 @@
+// Context: choosing a device, owning it, and failing in words.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <geodisk/context.hpp>
+
+#include "fake_driver.hpp"
+#include "owned/context_access.hpp"
+#include "vk/dispatch.hpp"
+
+using namespace geodisk;
+
+namespace {
+
+constexpr const char* kHexDigits = "0123456789abcdef";
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+ContextOptions on_device(std::string name) {
+    ContextOptions options;
+    options.device = std::move(name);
+    return options;
+}
+
+DeviceReport report_of(const char* name, VkPhysicalDeviceType type) {
+    DeviceReport report;
+    report.name = name;
+    report.type = type;
+    return report;
+}
+
+/// Submits nothing and waits for it: the least that shows a device and queue to work.
+VkResult submit_and_wait(const Context& context) {
+    const DeviceRefs refs = context.device();
+    const Result<DeviceTable> vk = load_device_table(refs);
+    REQUIRE(vk);
+    VkFenceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFence fence = VK_NULL_HANDLE;
+    REQUIRE(vk->vkCreateFence(refs.device, &info, nullptr, &fence) == VK_SUCCESS);
+    const QueueRef queue = context.queue();
+    queue.lock(queue.lock_user);
+    const VkResult submitted = vk->vkQueueSubmit(queue.queue, 0, nullptr, fence);
+    queue.unlock(queue.lock_user);
+    REQUIRE(submitted == VK_SUCCESS);
+    const VkResult result = vk->vkWaitForFences(refs.device, 1, &fence, VK_TRUE, 10'000'000'000u);
+    vk->vkDestroyFence(refs.device, fence, nullptr);
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("a context on lavapipe is chosen by a part of the name") {
+    for (const char* name : {"llvmpipe", "LLVMpipe", "llvm"}) {
+        CAPTURE(name);
+        const Result<Context> context = Context::create(on_device(name));
+        REQUIRE(context);
+        const DeviceReport& report = context->report();
+        CHECK(contains(report.name, "llvmpipe"));
+        CHECK(report.type == VK_PHYSICAL_DEVICE_TYPE_CPU);
+        CHECK(report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE);
+        CHECK(report.rounds_natively);
+        CHECK(report.usable());
+        CHECK(context->device().api_version == VK_API_VERSION_1_1);
+        CHECK(context->queue().family == report.compute_queue_family);
+        CHECK(context->validation_message_count() == 0);
+        CHECK(submit_and_wait(*context) == VK_SUCCESS);
+    }
+}
+
+TEST_CASE("a context is chosen by index and by UUID") {
+    const Result<Context> first = Context::create(on_device("0"));
+    REQUIRE(first);
+    std::string uuid;
+    for (const std::uint8_t byte : first->report().uuid) {
+        uuid += kHexDigits[byte >> 4];
+        uuid += kHexDigits[byte & 15];
+    }
+    const Result<Context> same = Context::create(on_device(uuid));
+    REQUIRE(same);
+    CHECK(same->report().uuid == first->report().uuid);
+}
+
+TEST_CASE("a name that matches no device is answered with the list of devices") {
+    for (const char* name : {"no such device", "99", "00000000-0000-0000-0000-000000000001"}) {
+        CAPTURE(name);
+        const Result<Context> context = Context::create(on_device(name));
+        REQUIRE_FALSE(context);
+        CHECK(context.error().status == Status::no_device);
+        CHECK(contains(context.error().message, name));
+        CHECK(contains(context.error().message, "llvmpipe"));
+    }
+}
+
+TEST_CASE("two contexts are independent of each other") {
+    Result<Context> first = Context::create(on_device("llvmpipe"));
+    Result<Context> second = Context::create(on_device("llvmpipe"));
+    REQUIRE(first);
+    REQUIRE(second);
+    CHECK(first->device().device != second->device().device);
+    CHECK(first->device().instance != second->device().instance);
+    CHECK(submit_and_wait(*first) == VK_SUCCESS);
+    first = Error{}; // Destroys the first context.
+    CHECK(submit_and_wait(*second) == VK_SUCCESS);
+}
+
+TEST_CASE("a context keeps its handles when moved") {
+    Result<Context> created = Context::create(on_device("llvmpipe"));
+    REQUIRE(created);
+    const VkDevice device = created->device().device;
+    Context moved = std::move(created).value();
+    CHECK(moved.device().device == device);
+    Result<Context> other = Context::create(on_device("llvmpipe"));
+    REQUIRE(other);
+    moved = std::move(other).value();
+    CHECK(moved.device().device != VK_NULL_HANDLE);
+    CHECK(submit_and_wait(moved) == VK_SUCCESS);
+}
+
+TEST_CASE("the lock of the queue excludes other threads") {
+    const Result<Context> context = Context::create(on_device("llvmpipe"));
+    REQUIRE(context);
+    int counter = 0;
+    const auto work = [&] {
+        const QueueRef queue = context->queue();
+        for (int i = 0; i < 10'000; ++i) {
+            queue.lock(queue.lock_user);
+            ++counter;
+            queue.unlock(queue.lock_user);
+        }
+    };
+    std::thread other(work);
+    work();
+    other.join();
+    CHECK(counter == 20'000);
+}
+
+TEST_CASE("the best usable device is preferred") {
+    std::vector<DeviceReport> reports{
+        report_of("cpu", VK_PHYSICAL_DEVICE_TYPE_CPU),
+        report_of("virtual", VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU),
+        report_of("integrated", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
+        report_of("discrete A", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),
+        report_of("discrete B", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),
+    };
+    CHECK(select_device(reports, "").value() == 3);
+    reports[3].reasons_against = {"too old"};
+    CHECK(select_device(reports, "").value() == 4);
+    CHECK(select_device(reports, "discrete").value() == 4);
+    reports[4].reasons_against = {"too small"};
+    CHECK(select_device(reports, "").value() == 2);
+    reports[2].reasons_against = {"too slow"};
+    CHECK(select_device(reports, "").value() == 1);
+    reports[1].reasons_against = {"too virtual"};
+    CHECK(select_device(reports, "").value() == 0);
+}
+
+TEST_CASE("an explicit choice of an unusable device is refused with every reason") {
+    std::vector<DeviceReport> reports{
+        report_of("good", VK_PHYSICAL_DEVICE_TYPE_CPU),
+        report_of("bad", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),
+    };
+    reports[1].reasons_against = {"first reason", "second reason"};
+    for (const char* name : {"bad", "1"}) {
+        const Result<std::size_t> chosen = select_device(reports, name);
+        REQUIRE_FALSE(chosen);
+        CHECK(chosen.error().status == Status::device_lacks);
+        CHECK(contains(chosen.error().message, "first reason"));
+        CHECK(contains(chosen.error().message, "second reason"));
+    }
+}
+
+TEST_CASE("a number that is no index is looked for in the names") {
+    std::vector<DeviceReport> reports{
+        report_of("Radeon 780M", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
+        report_of("GeForce RTX 4090", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),
+    };
+    reports[0].uuid[0] = 0xAB;
+    CHECK(select_device(reports, "4090").value() == 1);
+    CHECK(select_device(reports, "780").value() == 0);
+    CHECK(select_device(reports, "0").value() == 0);
+    CHECK(select_device(reports, "1").value() == 1);
+    CHECK(select_device(reports, "AB000000-0000-0000-0000-000000000000").value() == 0);
+    CHECK(select_device(reports, "ab000000000000000000000000000000").value() == 0);
+    CHECK(select_device(reports, "-1").error().status == Status::no_device);
+    CHECK(select_device(reports, "2").error().status == Status::no_device);
+    CHECK(select_device({}, "").error().status == Status::no_device);
+    CHECK(select_device({}, "0").error().status == Status::no_device);
+}
+
+TEST_CASE("a missing loader is reported with a hint") {
+    const Result<Loader> loader = Loader::open("no-such-vulkan-loader");
+    REQUIRE_FALSE(loader);
+    CHECK(loader.error().status == Status::no_device);
+    CHECK(contains(loader.error().message, "no-such-vulkan-loader"));
+    CHECK(contains(loader.error().message, "install"));
+}
+
+#if defined(__linux__)
+TEST_CASE("a library that is no Vulkan loader is refused") {
+    const Result<Loader> loader = Loader::open("libm.so.6");
+    REQUIRE_FALSE(loader);
+    CHECK(loader.error().status == Status::no_device);
+}
+#endif
+
+TEST_CASE("a machine without a working driver is reported with a hint") {
+    test::FakeDriver driver;
+    SUBCASE("no driver at all") {
+        driver.failing["vkCreateInstance"] = VK_ERROR_INCOMPATIBLE_DRIVER;
+    }
+    SUBCASE("a driver that cannot initialize") {
+        driver.failing["vkEnumeratePhysicalDevices"] = VK_ERROR_INITIALIZATION_FAILED;
+    }
+    SUBCASE("a driver without a device") {
+        driver.hide_devices = true;
+    }
+    SUBCASE("a loader of Vulkan 1.0") {
+        driver.missing = {"vkEnumerateInstanceVersion"};
+    }
+
+    const Result<Context> context = ContextAccess::create(driver.loader(), {});
+    REQUIRE_FALSE(context);
+    CHECK(context.error().status == Status::no_device);
+    CHECK((contains(context.error().message, "install") ||
+           contains(context.error().message, "update")));
+    const auto list = ContextAccess::list(driver.loader());
+    REQUIRE_FALSE(list);
+    CHECK(list.error().status == Status::no_device);
+    CHECK(driver.live_instances() == 0);
+}
+
+TEST_CASE("a failure of device creation keeps its code and leaks nothing") {
+    test::FakeDriver driver;
+    Status expected = Status::ok;
+    SUBCASE("out of memory") {
+        driver.failing["vkCreateDevice"] = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        expected = Status::out_of_device_memory;
+    }
+    SUBCASE("lost") {
+        driver.failing["vkCreateDevice"] = VK_ERROR_DEVICE_LOST;
+        expected = Status::device_lost;
+    }
+    SUBCASE("incomplete device") {
+        driver.missing = {"vkGetDeviceQueue"};
+        expected = Status::device_lacks;
+    }
+    SUBCASE("incomplete instance") {
+        driver.missing = {"vkGetPhysicalDeviceMemoryProperties"};
+        expected = Status::device_lacks;
+    }
+    const Result<Context> context = ContextAccess::create(driver.loader(), {});
+    REQUIRE_FALSE(context);
+    CHECK(context.error().status == expected);
+    CHECK(driver.live_instances() == 0);
+    CHECK(driver.live_devices() == 0);
+}
+
+TEST_CASE("a context destroys what it created") {
+    test::FakeDriver driver;
+    {
+        const Result<Context> context = ContextAccess::create(driver.loader(), {});
+        REQUIRE(context);
+        CHECK(driver.live_instances() == 1);
+        CHECK(driver.live_devices() == 1);
+    }
+    CHECK(driver.live_instances() == 0);
+    CHECK(driver.live_devices() == 0);
+}
+
+TEST_CASE("the list of devices holds lavapipe") {
+    const auto list = list_devices();
+    REQUIRE(list);
+    bool found = false;
+    for (const DeviceReport& report : *list)
+        found = found || report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE;
+    CHECK(found);
+}
