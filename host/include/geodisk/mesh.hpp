@@ -1,0 +1,106 @@
+// Triangle meshes: the view a caller hands in, and the prepared intrinsic surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geodisk/status.hpp"
+
+namespace geodisk {
+
+/// A triangle mesh in the caller's memory; nothing is copied until `PreparedMesh::prepare`.
+///
+/// `positions` holds `dimension` coordinates per vertex, `triangles` three vertex indices per face.
+/// Faces may be oriented either way, share an edge by any number, touch in single vertices, have
+/// zero area, and leave borders open. Vertices that no face uses are ignored.
+struct MeshView {
+    std::span<const double> positions;
+    std::span<const std::uint32_t> triangles;
+    std::uint32_t dimension = 3;
+};
+
+/// One half-edge, `h = 3 * face + corner`, running from that corner to the next one of its face.
+///
+/// Its frame has the origin at the start, x along the edge and the face in y >= 0. Lengths are in
+/// mesh units. Only lengths enter, so the frame is intrinsic.
+struct HalfEdge {
+    double length;
+    double apex_x, apex_y;        ///< The face's third corner in this frame; apex_y >= 0.
+    double cosine, sine;          ///< Of the face's angle at the origin.
+    std::uint32_t origin;         ///< Vertex the half-edge starts from.
+    std::uint32_t around;         ///< Next half-edge of the same undirected edge, see `around_*`.
+    std::uint32_t fan_angles;     ///< The corner at the origin within its vertex's fan: start in the
+                                  ///< low 16 bits, size in the high ones, units of 2^-13 radian.
+};
+
+/// `HalfEdge::around` packs the next half-edge around the same undirected edge (itself on a border,
+/// the twin on a manifold edge, a cycle of three or more otherwise) with one bit that tells whether
+/// it runs the same way.
+constexpr std::uint32_t around_half_edge(std::uint32_t around) { return around >> 1; }
+constexpr bool around_same_way(std::uint32_t around) { return (around & 1u) != 0; }
+
+constexpr std::uint32_t next_in_face(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+constexpr std::uint32_t previous_in_face(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// The corners around one vertex, in rotational order where there is one.
+struct VertexFan {
+    std::uint32_t first_corner; ///< Into `PreparedMesh::corners`.
+    std::uint32_t corner_count;
+    std::uint32_t total_angle;  ///< In units of 2^-13 radian.
+    std::uint32_t flags;        ///< `gpu::kFan*` bits of shaders/shared/constants.h.
+};
+
+/// Column of the alias table that draws faces in proportion to their area (Walker 1977, Vose 1991).
+struct AliasColumn {
+    std::uint32_t threshold; ///< Fractions below it, of 2^32, keep the column's own face.
+    std::uint32_t alias;     ///< The face of all other fractions.
+};
+
+struct MeshStatistics {
+    std::uint64_t vertices = 0;          ///< Vertices used by a face.
+    std::uint64_t triangles = 0;
+    std::uint64_t components = 0;        ///< Parts with no path between them.
+    std::uint64_t boundary_edges = 0;    ///< Edges of one face.
+    std::uint64_t nonmanifold_edges = 0; ///< Edges of three or more faces.
+    std::uint64_t repeated_index_faces = 0; ///< Faces naming a vertex twice; they take no part.
+    std::uint64_t zero_area_faces = 0;   ///< Faces without area; they connect but hold no sample.
+    double area = 0;
+    double diagonal = 0;                 ///< Of the bounding box of the used vertices.
+    double longest_edge = 0;
+};
+
+/// The surface in intrinsic form, independent of the sampling distance.
+///
+/// Immutable after `prepare`, so one object may serve many threads. All arrays are indexed as in
+/// the caller's mesh: face f owns half-edges 3f, 3f+1, 3f+2.
+class PreparedMesh {
+  public:
+    /// Builds connectivity, intrinsic frames, vertex fans and the area table. Time and memory are
+    /// linear in the mesh (about 300 bytes per face).
+    ///
+    /// Fails with `mesh_rejected` and the face or vertex in `Error::element` when an index is out of
+    /// range, a used coordinate is not finite, there is no face with area, or the mesh is too large
+    /// to index with 32 bits; with `out_of_host_memory` when memory runs out.
+    static Result<PreparedMesh> prepare(const MeshView& mesh) noexcept;
+
+    std::span<const HalfEdge> half_edges() const noexcept { return half_edges_; }
+    std::span<const VertexFan> fans() const noexcept { return fans_; }
+    std::span<const std::uint32_t> corners() const noexcept { return corners_; }
+    std::span<const AliasColumn> alias_columns() const noexcept { return alias_; }
+    std::uint32_t face_count() const noexcept {
+        return static_cast<std::uint32_t>(half_edges_.size() / 3);
+    }
+    std::uint32_t vertex_count() const noexcept { return static_cast<std::uint32_t>(fans_.size()); }
+    const MeshStatistics& statistics() const noexcept { return statistics_; }
+
+  private:
+    std::vector<HalfEdge> half_edges_;
+    std::vector<VertexFan> fans_;
+    std::vector<std::uint32_t> corners_;
+    std::vector<AliasColumn> alias_;
+    MeshStatistics statistics_;
+};
+
+} // namespace geodisk

@@ -1,0 +1,58 @@
+// What a run is asked to do, and the numbers that follow from it.
+#pragma once
+
+#include <cstdint>
+
+#include "geodisk/mesh.hpp"
+#include "geodisk/status.hpp"
+
+namespace geodisk {
+
+/// Packing density (paper section 5.2) that dart throwing from a pool of the default ratio reaches
+/// on average; used to translate between a count and a distance.
+inline constexpr double kExpectedRho = 0.725;
+inline constexpr double kDefaultPoolRatio = 20;
+
+/// A sampling job. Lengths are in mesh units.
+struct SampleParams {
+    double min_distance = 0;   ///< D > 0: no two samples are closer along the surface.
+    std::uint64_t seed = 0;
+    double pool_ratio = kDefaultPoolRatio; ///< Candidates per expected sample, 1 to 10,000.
+};
+
+/// The guard band that makes float decisions safe, in units of the minimum distance.
+///
+/// Conflicts are tested against `1 + guard`. A window chain of `chain` crossings errs by less than
+/// `guard` when each crossing errs by at most 2^-22 of the distances met: the largest is one disk
+/// plus the longest edge.
+struct Tolerances {
+    float limit;  ///< 1 + guard.
+    float margin; ///< A window is dropped only when beaten by more than this.
+    float slack;  ///< Intervals are widened by this for hits and apexes.
+    double guard;
+    std::uint32_t chain; ///< Crossings the guard covers.
+};
+
+/// Expected number of samples for a distance: rho^2 A / (2 sqrt(3) r^2) with r = D / 2.
+double expected_count(double area, double min_distance) noexcept;
+
+/// The distance that should give about `count` samples.
+double distance_for_count(double area, double count) noexcept;
+
+/// Packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
+double packing_density(double area, double min_distance, double count) noexcept;
+
+/// Candidates in the pool: pool_ratio times the expected count, at least 64.
+///
+/// Fails with `invalid_argument` when a parameter is out of range, and when the pool cannot be
+/// indexed with 32 bits; the message tells how many candidates and bytes it would take.
+Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+/// Crossings to provide for: a bound guessed from the faces a disk covers, at least 64.
+std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept;
+
+/// Tolerances for window chains of at most `chain` crossings.
+Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
+                          std::uint32_t chain) noexcept;
+
+} // namespace geodisk

@@ -1,0 +1,78 @@
+#include "geodisk/params.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace geodisk {
+namespace {
+
+const double kTwoRootThree = 2 * std::sqrt(3.0);
+constexpr double kMinimumPool = 64;
+// Ranks share words with flags.
+constexpr double kMaximumPool = 0x1p30;
+constexpr double kBytesPerCandidate = 28;
+constexpr std::uint32_t kMinimumChain = 64;
+constexpr std::uint32_t kMaximumChain = 1u << 16;
+
+} // namespace
+
+double expected_count(double area, double min_distance) noexcept {
+    const double radius = min_distance / 2;
+    return kExpectedRho * kExpectedRho * area / (kTwoRootThree * radius * radius);
+}
+
+double distance_for_count(double area, double count) noexcept {
+    return 2 * kExpectedRho * std::sqrt(area / (kTwoRootThree * count));
+}
+
+double packing_density(double area, double min_distance, double count) noexcept {
+    return min_distance / 2 * std::sqrt(kTwoRootThree * count / area);
+}
+
+Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    const auto invalid = [](std::string message) {
+        return Error{Status::invalid_argument, std::move(message)};
+    };
+    if (!(params.min_distance > 0) || !std::isfinite(params.min_distance)) {
+        return invalid("the minimum distance must be a positive finite number");
+    }
+    if (!(params.pool_ratio >= 1 && params.pool_ratio <= 10000)) {
+        return invalid("the pool ratio must be 1 to 10,000");
+    }
+    const MeshStatistics& statistics = mesh.statistics();
+    const double wanted =
+        std::ceil(params.pool_ratio * expected_count(statistics.area, params.min_distance));
+    if (!(wanted <= kMaximumPool)) {
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "the minimum distance is too small for this surface: the pool would take %.3g "
+                      "candidates and %.3g bytes, the most is %.0f candidates",
+                      wanted, wanted * kBytesPerCandidate, kMaximumPool);
+        return invalid(text);
+    }
+    return static_cast<std::uint32_t>(std::max(wanted, kMinimumPool));
+}
+
+std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept {
+    const double disks = std::max(1.0, expected_count(mesh.statistics().area, min_distance));
+    // One disk covers about 2 F / N faces; a straight path crosses about their square root.
+    const double guess = 8 + 4 * std::sqrt(2.0 * mesh.face_count() / disks);
+    return static_cast<std::uint32_t>(
+        std::clamp<double>(guess, kMinimumChain, kMaximumChain));
+}
+
+Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
+                          std::uint32_t chain) noexcept {
+    const double longest = mesh.statistics().longest_edge / min_distance;
+    Tolerances t{};
+    t.chain = chain;
+    t.guard = 0x1p-22 * (chain + 4 * std::ceil(longest));
+    t.limit = static_cast<float>(1 + t.guard);
+    t.margin = static_cast<float>(t.guard);
+    t.slack = static_cast<float>(0x1p-22 * (2 + longest));
+    return t;
+}
+
+} // namespace geodisk

@@ -1,0 +1,435 @@
+// Twin of shaders/kernels/detect.comp: the geodesic disk of one point by windows (improved
+// Chen-Han, Xin and Wang 2009), cut at the limit, and the points in it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "constants.h"
+#include "geodisk/params.hpp"
+#include "kernels/bins.hpp"
+#include "lib/scalar.hpp"
+#include "lib/surface.hpp"
+
+namespace geodisk::ref {
+
+/// What one disk took; the shaders count the same.
+struct DiskCount {
+    std::uint32_t windows = 0;  ///< Windows and vertex events pushed.
+    std::uint32_t peak = 0;     ///< Most in the heap at once.
+    std::uint32_t chain = 0;    ///< Longest chain of crossings.
+    std::uint32_t vertices = 0; ///< Vertices reached.
+    std::uint32_t tested = 0;   ///< Candidates whose distance was computed.
+};
+
+/// Computes geodesic disks one after the other; keeps its working memory between them.
+template <class Real>
+class Detector {
+  public:
+    /// Both arguments must outlive the detector.
+    Detector(const Surface<Real>& surface, const Bins<Real>& bins, const Tolerances& tolerances,
+             Real limit)
+        : surface_(surface), bins_(bins), limit_(limit), margin_(tolerances.margin),
+          slack_(tolerances.slack), vertices_(surface.fans.size()) {
+        grids_.reserve(surface.face_count());
+        for (std::uint32_t f = 0; f < surface.face_count(); ++f) {
+            grids_.push_back(face_grid(surface, f));
+        }
+    }
+
+    /// Calls `hit(place, distance)` for every place of `bins` with `wanted(place)` whose geodesic
+    /// distance from `source` is below the limit, once for each path found.
+    template <class Wanted, class Hit>
+    DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
+        begin();
+        spread_from_source(source, wanted, hit);
+        while (!heap_.empty()) {
+            const std::uint32_t slot = pop();
+            const Record record = records_[slot];
+            if (record.edge & gpu::kVertexEvent) {
+                spread_from_vertex(record, wanted, hit);
+            } else {
+                cross_edge(record, wanted, hit);
+            }
+        }
+        return count_;
+    }
+
+  private:
+    /// A window in the frame of the half-edge it leaves its face through, the source at (x, y) with
+    /// y >= 0; or a vertex event with `edge` the marked vertex, `corner` where the path came in.
+    struct Record {
+        std::uint32_t edge, corner;
+        Real x, y, b0, b1, sigma;
+        std::uint32_t chain;
+    };
+    struct HeapEntry {
+        Real key;
+        std::uint32_t slot;
+        /// std heaps keep the largest in front.
+        bool operator<(const HeapEntry& o) const {
+            return key != o.key ? key > o.key : slot > o.slot;
+        }
+    };
+    struct VertexNote {
+        Real distance;
+        Real crossing;            ///< Where the best ray crossed `through`.
+        std::uint32_t through;    ///< Half-edge the best ray entered the face through.
+        std::uint32_t generation;
+    };
+    static constexpr std::uint32_t kNoEdge = ~0u;
+    static constexpr std::uint32_t kWholeFan = ~0u;
+
+    static Real square(Real v) { return v * v; }
+
+    void begin() {
+        ++generation_;
+        heap_.clear();
+        records_.clear();
+        free_.clear();
+        count_ = {};
+    }
+
+    Real distance_at(std::uint32_t v) const {
+        return vertices_[v].generation == generation_ ? vertices_[v].distance
+                                                      : static_cast<Real>(kFar);
+    }
+
+    /// Takes slots as the shader does, the one freed last first: slots decide ties.
+    void push(Real key, const Record& record) {
+        std::uint32_t slot;
+        if (free_.empty()) {
+            slot = static_cast<std::uint32_t>(records_.size());
+            records_.push_back(record);
+        } else {
+            slot = free_.back();
+            free_.pop_back();
+            records_[slot] = record;
+        }
+        heap_.push_back({key, slot});
+        std::push_heap(heap_.begin(), heap_.end());
+        ++count_.windows;
+        count_.peak = std::max(count_.peak, static_cast<std::uint32_t>(heap_.size()));
+        count_.chain = std::max(count_.chain, record.chain);
+    }
+
+    std::uint32_t pop() {
+        std::pop_heap(heap_.begin(), heap_.end());
+        const std::uint32_t slot = heap_.back().slot;
+        heap_.pop_back();
+        free_.push_back(slot);
+        return slot;
+    }
+
+    /// A path of the given length ends at v, having come in through `corner`.
+    void reach(std::uint32_t v, Real distance, std::uint32_t corner, std::uint32_t through,
+               Real crossing, bool whole_fan, std::uint32_t chain) {
+        if (!(distance < distance_at(v)) || !(distance < limit_)) {
+            return;
+        }
+        count_.vertices += vertices_[v].generation != generation_;
+        vertices_[v] = {distance, crossing, through, generation_};
+        if (whole_fan || (surface_.fans[v].flags & gpu::kFanBends)) {
+            push(distance, {v | gpu::kVertexEvent, whole_fan ? kWholeFan : corner, 0, 0, 0, 0,
+                            distance, chain});
+        }
+    }
+
+    /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e.
+    void leave(std::uint32_t e, Real x, Real y, Real b0, Real b1, Real sigma, std::uint32_t chain) {
+        if (around_half_edge(surface_.edges[e].around) == e || !(b0 < b1)) {
+            return;
+        }
+        y = y < static_cast<Real>(kSmallestOffset) ? Real{0} : y;
+        const Real aside = x < b0 ? b0 - x : (x > b1 ? x - b1 : Real{0});
+        const Real key = sigma + root(aside * aside + y * y);
+        if (!(key < limit_) || beaten_at_ends(e, x, y, b0, b1, sigma)) {
+            return;
+        }
+        push(key, {e, 0, x, y, b0, b1, sigma, chain});
+    }
+
+    /// Whether `known` plus a straight way of length `way` beats the window's own distance to a
+    /// point at squared distance `square` from its source, by more than the margin.
+    bool beats(Real known, Real way, Real sigma, Real own_square) const {
+        const Real rest = ((known + way) - sigma) + margin_;
+        return rest < 0 || rest * rest < own_square;
+    }
+
+    /// Xin and Wang's filter by the two ends of the edge.
+    bool beaten_at_ends(std::uint32_t e, Real x, Real y, Real b0, Real b1, Real sigma) const {
+        const Real start = distance_at(surface_.edges[e].origin);
+        const Real end = distance_at(surface_.edges[next_in_face(e)].origin);
+        const Real length = surface_.edges[e].length;
+        return beats(start, b1, sigma, square(x - b1) + y * y) ||
+               beats(end, length - b0, sigma, square(x - b0) + y * y);
+    }
+
+    /// The same by the corner opposite to e, which lies at e's apex: against the end of the lit
+    /// interval next to the edge the window came through.
+    bool beaten_at_apex(std::uint32_t e, Real x, Real y, Real b, Real sigma) const {
+        const Edge<Real>& edge = surface_.edges[e];
+        const Real known = distance_at(surface_.edges[previous_in_face(e)].origin);
+        const Real way = root(square(edge.apex_x - b) + edge.apex_y * edge.apex_y);
+        return beats(known, way, sigma, square(x - b) + y * y);
+    }
+
+    template <class Wanted, class Hit>
+    void spread_from_source(FacePoint<Real> source, Wanted& wanted, Hit& hit) {
+        const std::uint32_t first = 3 * source.face;
+        const auto at = position_in(surface_, first, source);
+        scan_face(first, at.x, at.y, Real{0}, wanted, hit);
+        for (std::uint32_t e = first; e < first + 3; ++e) {
+            const auto p = position_in(surface_, e, source);
+            const Real distance = root(p.x * p.x + p.y * p.y);
+            reach(surface_.edges[e].origin, distance, e, kNoEdge, 0,
+                  distance <= static_cast<Real>(kNearVertex), 1);
+            leave(e, p.x, p.y, 0, surface_.edges[e].length, 0, 1);
+        }
+    }
+
+    /// Whether a shortest path that came in through corner `from` may go on into `corner`: it must
+    /// keep an angle of pi on both sides, or on one side of an open fan.
+    bool in_shadow(const VertexFan& fan, std::uint32_t from, std::uint32_t corner) const {
+        if (from == kWholeFan || (fan.flags & gpu::kFanIrregular)) {
+            return true;
+        }
+        const auto [from_start, from_end] = angles(from);
+        const auto [start, end] = angles(corner);
+        std::uint32_t left = end - from_start;
+        std::uint32_t right = from_end - start;
+        if (start < from_start) {
+            left += fan.total_angle;
+        } else if (corner != from) {
+            right += fan.total_angle;
+        }
+        const std::uint32_t needed = gpu::kAnglePi - gpu::kAngleTolerance;
+        if (fan.flags & gpu::kFanOpen) {
+            return start < from_start ? from_end - start >= needed : end - from_start >= needed;
+        }
+        return left >= needed && right >= needed;
+    }
+
+    std::pair<std::uint32_t, std::uint32_t> angles(std::uint32_t corner) const {
+        const std::uint32_t word = surface_.edges[corner].fan_angles;
+        const std::uint32_t start = word & 0xffffu;
+        return {start, start + (word >> 16)};
+    }
+
+    template <class Wanted, class Hit>
+    void spread_from_vertex(const Record& event, Wanted& wanted, Hit& hit) {
+        const std::uint32_t v = event.edge & ~gpu::kVertexEvent;
+        if (distance_at(v) < event.sigma) {
+            return;
+        }
+        const VertexFan& fan = surface_.fans[v];
+        for (std::uint32_t i = 0; i < fan.corner_count; ++i) {
+            const std::uint32_t corner = surface_.corners[fan.first_corner + i];
+            if (!in_shadow(fan, event.corner, corner)) {
+                continue;
+            }
+            const std::uint32_t e = next_in_face(corner);
+            const std::uint32_t back = previous_in_face(corner);
+            const Edge<Real>& edge = surface_.edges[e];
+            reach(edge.origin, event.sigma + surface_.edges[corner].length, e, kNoEdge, 0, false,
+                  event.chain + 1);
+            reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back,
+                  kNoEdge, 0, false, event.chain + 1);
+            leave(e, edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1);
+            scan_face(e, edge.apex_x, edge.apex_y, event.sigma, wanted, hit);
+        }
+    }
+
+    /// A window enters every other face of its edge.
+    template <class Wanted, class Hit>
+    void cross_edge(const Record& window, Wanted& wanted, Hit& hit) {
+        const Real length = surface_.edges[window.edge].length;
+        bool same_way = true;
+        std::uint32_t h = window.edge;
+        for (;;) {
+            const std::uint32_t around = surface_.edges[h].around;
+            same_way = same_way == around_same_way(around);
+            h = around_half_edge(around);
+            if (h == window.edge) {
+                return;
+            }
+            if (same_way) {
+                enter_face(h, window.x, window.y, window.b0, window.b1, window, wanted, hit);
+            } else {
+                enter_face(h, length - window.x, window.y, length - window.b1, length - window.b0,
+                           window, wanted, hit);
+            }
+        }
+    }
+
+    /// The window enters the face of h, lit on [b0, b1] of h from (x, -y) in the frame of h.
+    template <class Wanted, class Hit>
+    void enter_face(std::uint32_t h, Real x, Real y, Real b0, Real b1, const Record& window,
+                    Wanted& wanted, Hit& hit) {
+        const Real sigma = window.sigma;
+        const Edge<Real>& edge = surface_.edges[h];
+        const std::uint32_t left = previous_in_face(h);
+        const std::uint32_t right = next_in_face(h);
+        const Real crossing = x + (edge.apex_x - x) * ratio(y, edge.apex_y + y);
+        bool to_left = crossing > b0;
+        bool to_right = crossing < b1;
+        if (crossing >= b0 - slack_ && crossing <= b1 + slack_) {
+            const std::uint32_t apex = surface_.edges[left].origin;
+            const Real distance =
+                sigma + root(square(edge.apex_x - x) + square(edge.apex_y + y));
+            split_once(apex, h, crossing, distance, to_left, to_right);
+            reach(apex, distance, left, h, crossing, false, window.chain + 1);
+        }
+        if (to_left) {
+            lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, window);
+        }
+        if (to_right) {
+            lit_child(right, false, h, edge.length - x, y, edge.length - b1,
+                      crossing > b0 ? kFull : edge.length - b0, window);
+        }
+        scan_wedge(h, x, y, b0, b1, sigma, wanted, hit);
+    }
+
+    static constexpr Real kFull = -1;
+
+    /// One angle, one split (Chen and Han 1990): when another window reached the apex through the
+    /// same angle by a shorter path, only the child on this window's own side can matter.
+    void split_once(std::uint32_t apex, std::uint32_t h, Real crossing, Real distance,
+                    bool& to_left, bool& to_right) const {
+        const VertexNote& note = vertices_[apex];
+        if (note.generation != generation_ || note.through != h || !to_left || !to_right ||
+            !(distance > note.distance + margin_)) {
+            return;
+        }
+        (crossing < note.crossing ? to_right : to_left) = false;
+    }
+
+    /// The part of the child edge e that the rays through `near` and `far` light. For the left
+    /// child all is measured from the start of h, for the right one from its end.
+    void lit_child(std::uint32_t e, bool left, std::uint32_t h, Real x, Real y, Real near, Real far,
+                   const Record& window) {
+        const Edge<Real>& child = surface_.edges[e];
+        const Edge<Real>& edge = surface_.edges[h];
+        const Edge<Real>& angle = left ? edge : child;
+        const Real apex_x = left ? edge.apex_x : edge.length - edge.apex_x;
+        const auto along = [&](Real b) {
+            const Real part = ratio(y * b, y * apex_x + edge.apex_y * (x - b));
+            return child.length * part;
+        };
+        const Real low = along(near);
+        const Real high = far == kFull ? child.length : along(far);
+        const Real child_x = x * angle.cosine - y * angle.sine;
+        const Real child_y = x * angle.sine + y * angle.cosine;
+        if (left) {
+            const Real b0 = child.length - high;
+            const Real b1 = child.length - low;
+            leave_checked(e, child.length - child_x, child_y, b0, b1, b1, window);
+        } else {
+            leave_checked(e, child_x, child_y, low, high, low, window);
+        }
+    }
+
+    void leave_checked(std::uint32_t e, Real x, Real y, Real b0, Real b1, Real near,
+                       const Record& window) {
+        if (!beaten_at_apex(e, x, y, near, window.sigma)) {
+            leave(e, x, y, b0, b1, window.sigma, window.chain + 1);
+        }
+    }
+
+    /// Points of h's face at straight distance from (x, y) in the frame of h.
+    template <class Wanted, class Hit>
+    void scan_face(std::uint32_t h, Real x, Real y, Real sigma, Wanted& wanted, Hit& hit) {
+        scan(h, x, y, sigma, wanted, hit, [](Real, Real) { return true; });
+    }
+
+    /// Points of h's face that (x, -y) sees through [b0, b1] of h.
+    template <class Wanted, class Hit>
+    void scan_wedge(std::uint32_t h, Real x, Real y, Real b0, Real b1, Real sigma, Wanted& wanted,
+                    Hit& hit) {
+        const Real low = (b0 - slack_) - x;
+        const Real high = (b1 + slack_) - x;
+        scan(h, x, -y, sigma, wanted, hit, [=](Real dx, Real dy) {
+            const Real at = dx * y;
+            return at >= low * dy && at <= high * dy;
+        });
+    }
+
+    template <class Wanted, class Hit, class Lit>
+    void scan(std::uint32_t h, Real x, Real y, Real sigma, Wanted& wanted, Hit& hit, Lit lit) {
+        const std::uint32_t f = h / 3;
+        const Grid& grid = grids_[f];
+        const std::uint32_t first = bins_.first_cell[f];
+        const Real rest = limit_ - sigma;
+        const auto scan_places = [&](std::uint32_t from, std::uint32_t to) {
+            for (std::uint32_t place = from; place < to; ++place) {
+                if (!wanted(place)) {
+                    continue;
+                }
+                ++count_.tested;
+                const auto q = position_in(surface_, h, bins_.points[place]);
+                const Real dx = q.x - x;
+                const Real dy = q.y - y;
+                const Real distance2 = dx * dx + dy * dy;
+                if (distance2 < rest * rest && lit(dx, dy)) {
+                    hit(place, sigma + std::sqrt(distance2));
+                }
+            }
+        };
+        if (grid.single()) {
+            scan_places(bins_.starts[first], bins_.starts[first + 1]);
+            return;
+        }
+        const auto center = in_grid_frame(h, grid.base, x, y);
+        const Real reach = rest + static_cast<Real>(kCellPadding) *
+                                      (surface_.edges[grid.base].length + 1);
+        const std::uint32_t column0 = cell_at(center.x - reach, grid.columns);
+        const std::uint32_t column1 = cell_at(center.x + reach, grid.columns);
+        const std::uint32_t row1 = cell_at(center.y + reach, grid.rows);
+        for (std::uint32_t row = cell_at(center.y - reach, grid.rows); row <= row1; ++row) {
+            const std::uint32_t start = first + row * grid.columns;
+            scan_places(bins_.starts[start + column0], bins_.starts[start + column1 + 1]);
+        }
+    }
+
+    static std::uint32_t cell_at(Real x, std::uint32_t count) {
+        const Real scaled = x * static_cast<Real>(gpu::kCellsPerDistance);
+        if (scaled <= 0) {
+            return 0;
+        }
+        const Real last = static_cast<Real>(count - 1);
+        return scaled >= last ? count - 1 : static_cast<std::uint32_t>(scaled);
+    }
+
+    /// A point given in the frame of h, in the frame of `base`, another half-edge of the face.
+    Position<Real> in_grid_frame(std::uint32_t h, std::uint32_t base, Real x, Real y) const {
+        const Edge<Real>& b = surface_.edges[base];
+        if (h == base) {
+            return {x, y};
+        }
+        if (h == next_in_face(base)) {
+            const Edge<Real>& e = surface_.edges[h];
+            return {b.length - x * e.cosine - y * e.sine, x * e.sine - y * e.cosine};
+        }
+        return {b.apex_x - x * b.cosine + y * b.sine, b.apex_y - x * b.sine - y * b.cosine};
+    }
+
+    /// Sources closer than this to a vertex light its whole fan: unfolding around so near a vertex
+    /// would lose the direction.
+    static constexpr double kNearVertex = 0x1p-10;
+    /// Rounding of positions against cell borders, relative to the face's extent.
+    static constexpr double kCellPadding = 0x1p-20;
+
+    const Surface<Real>& surface_;
+    const Bins<Real>& bins_;
+    Real limit_, margin_, slack_;
+    std::vector<Grid> grids_;
+    std::vector<VertexNote> vertices_;
+    std::uint32_t generation_ = 0;
+    std::vector<HeapEntry> heap_;
+    std::vector<Record> records_;
+    std::vector<std::uint32_t> free_;
+    DiskCount count_;
+};
+
+} // namespace geodisk::ref

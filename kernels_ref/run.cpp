@@ -1,0 +1,37 @@
+#include "run.hpp"
+
+namespace geodisk::ref {
+
+template <class Real>
+RunResult throw_darts(const Surface<Real>& surface, const Bins<Real>& bins,
+                      const Tolerances& tolerances) {
+    RunResult result;
+    const auto count = static_cast<std::uint32_t>(bins.order.size());
+    std::vector<std::uint32_t> places(count);
+    for (std::uint32_t place = 0; place < count; ++place) {
+        places[bins.order[place]] = place;
+    }
+    std::vector<std::uint8_t> decided(count, 0);
+    Detector<Real> detector(surface, bins, tolerances, tolerances.limit);
+    for (std::uint32_t rank = 0; rank < count; ++rank) {
+        const std::uint32_t place = places[rank];
+        if (decided[place]) {
+            continue;
+        }
+        decided[place] = 1;
+        result.ranks.push_back(rank);
+        const DiskCount disk =
+            detector.run(bins.points[place], [&](std::uint32_t q) { return !decided[q]; },
+                         [&](std::uint32_t q, Real) { decided[q] = 1; });
+        result.windows += disk.windows;
+        result.tested += disk.tested;
+        result.largest_heap = std::max(result.largest_heap, disk.peak);
+        result.longest_chain = std::max(result.longest_chain, disk.chain);
+    }
+    return result;
+}
+
+template RunResult throw_darts(const Surface<float>&, const Bins<float>&, const Tolerances&);
+template RunResult throw_darts(const Surface<double>&, const Bins<double>&, const Tolerances&);
+
+} // namespace geodisk::ref

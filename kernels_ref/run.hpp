@@ -1,0 +1,27 @@
+// Sequential dart throwing over the pool: what every parallel run must return, and the yardstick
+// for speed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geodisk/params.hpp"
+#include "kernels/bins.hpp"
+#include "kernels/detect.hpp"
+
+namespace geodisk::ref {
+
+struct RunResult {
+    std::vector<std::uint32_t> ranks; ///< Accepted candidates, in rank order.
+    std::uint64_t windows = 0;
+    std::uint64_t tested = 0;
+    std::uint32_t largest_heap = 0;
+    std::uint32_t longest_chain = 0;
+};
+
+/// Walks the ranks upwards and accepts each candidate that no accepted one rejected.
+template <class Real>
+RunResult throw_darts(const Surface<Real>& surface, const Bins<Real>& bins,
+                      const Tolerances& tolerances);
+
+} // namespace geodisk::ref

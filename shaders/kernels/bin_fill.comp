@@ -1,0 +1,28 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Sorts the candidates by cell, after the scan turned counts into starts. The count of cell c went
+// into word c + 1, so the scan leaves c's start there, and filling moves it on to c's end, which is
+// where cell c + 1 starts. One invocation per candidate.
+// reads: alias columns   writes: starts, points, places   spec: local size, rounding
+
+#include "../lib/prelude.glsl"
+#include "../lib/candidate.glsl"
+
+layout(local_size_x_id = 0) in;
+
+GEODISK_BUFFER(kBindCells, coherent, uint, cells);
+GEODISK_BUFFER(kBindPlaces, , uint, places);
+GEODISK_BUFFER(kBindPoints, writeonly, uvec4, points);
+
+void main() {
+    uint rank = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
+                gl_GlobalInvocationID.x;
+    if (rank >= push.candidates) {
+        return;
+    }
+    Candidate c = draw_candidate(rank);
+    uint place = atomicAdd(cells[push.faces + places[rank] + 1u], 1u);
+    places[rank] = place;
+    points[place] =
+        uvec4(floatBitsToUint(c.weight1), floatBitsToUint(c.weight2), rank, c.face);
+}

@@ -1,0 +1,38 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Draws the pool and counts the candidates of every cell (paper GenerateDensePoints, sections 3.3
+// and 4.2). One invocation per candidate.
+// reads: alias columns, half-edges   writes: cell counts (one word late, see bin_fill), cell of each
+// candidate into places   spec: local size, rounding
+
+#include "../lib/prelude.glsl"
+#include "../lib/candidate.glsl"
+#include "../lib/half_edge.glsl"
+#include "../lib/cells.glsl"
+
+layout(local_size_x_id = 0) in;
+
+GEODISK_BUFFER(kBindCells, coherent, uint, cells);
+GEODISK_BUFFER(kBindPlaces, writeonly, uint, places);
+
+uint cell_of(Candidate c) {
+    uint word = cells[c.face];
+    if (single_cell(word)) {
+        return word & kFirstCellMask;
+    }
+    Edge edge;
+    Grid grid = face_grid(c.face, word, edge);
+    vec2 at = position_in(grid.base, edge, c.weight1, c.weight2);
+    return grid.first + cell_at(at.y, grid.rows) * grid.columns + cell_at(at.x, grid.columns);
+}
+
+void main() {
+    uint rank = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
+                gl_GlobalInvocationID.x;
+    if (rank >= push.candidates) {
+        return;
+    }
+    uint cell = cell_of(draw_candidate(rank));
+    places[rank] = cell;
+    atomicAdd(cells[push.faces + cell + 1u], 1u);
+}

@@ -1,0 +1,27 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Forgets the active batch, whose slices overflowed: its candidates are idle again and will be
+// selected with larger slices. Nothing was decided. One invocation per slot.
+// reads: slots   writes: states, control   spec: local size
+
+#include "../lib/prelude.glsl"
+
+layout(local_size_x_id = 0) in;
+
+GEODISK_BUFFER(kBindStates, writeonly, uint, states);
+GEODISK_BUFFER(kBindSlots, readonly, uvec4, slots);
+GEODISK_CONTROL;
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot < control.slots_used) {
+        states[slots[slot * kSlotRows].x] = kIdle;
+    }
+    if (slot == 0u) {
+        control.next_rank = control.batch_rank;
+        control.unfinished = 0u;
+        control.undecided = 0u;
+        control.overflow = 0u;
+        control.groups_x = 0u;
+    }
+}

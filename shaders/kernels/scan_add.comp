@@ -1,0 +1,23 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Third step: every word gains the sum of the blocks before its own.
+// reads: sums   writes: marks[scan_base ..] (any buffer bound there)
+
+#include "../lib/prelude.glsl"
+
+layout(local_size_x = 128) in;
+
+GEODISK_BUFFER(kBindMarks, , uint, words);
+GEODISK_BUFFER(kBindSums, readonly, uint, sums);
+
+void main() {
+    uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (block * kScanBlock >= push.scan_count) {
+        return;
+    }
+    uint before = sums[block];
+    uint end = min((block + 1u) * kScanBlock, push.scan_count);
+    for (uint i = block * kScanBlock + gl_LocalInvocationID.x; i < end; i += kScanLanes) {
+        words[push.scan_base + i] += before;
+    }
+}

@@ -1,0 +1,218 @@
+// Windows (improved Chen-Han: Xin and Wang 2009; one angle one split: Chen and Han 1990) cut at the
+// limit. kernels_ref/kernels/detect.hpp is the same in plain C++ and easier to read first.
+//
+// A window is kept in the frame of the half-edge it leaves its face through: source at (x, y), y >=
+// 0, lit interval [b0, b1]. Rows: (edge, x, y, b0), (b1, sigma, chain, corner). A vertex event has
+// the marked vertex for the edge and in `corner` where its path came in.
+#ifndef GEODISK_PROPAGATE_GLSL
+#define GEODISK_PROPAGATE_GLSL
+
+// The operation in flight, see SlotRec.
+uint half_edge;
+uint mode;
+float x;
+float y;
+float b0;
+float b1;
+float sigma;
+uint chain;
+uint window_edge;
+uint entered_by;
+uint longest_chain;
+
+void push_record(float key, uvec4 row0, uvec4 row1) {
+    longest_chain = max(longest_chain, chain + 1u);
+    push_window(key, row0, row1);
+}
+
+// Whether `known` plus a straight way beats the window's own distance to a point at this squared
+// distance from its source, by more than the margin.
+bool beats(float known, float way, float own_square) {
+    precise float rest = ((known + way) - sigma) + push.margin;
+    precise float square = rest * rest;
+    return rest < 0.0 || square < own_square;
+}
+
+float squared(float dx, float dy) {
+    precise float square = dx * dx + dy * dy;
+    return square;
+}
+
+// A path of this length ends at the vertex, having come in through `corner`. Returns what is now
+// known of the vertex; `key` stays negative unless an event is due.
+float reach(uint vertex, float known, float distance, uint corner, uint through, float crossing,
+            bool whole_fan, inout float key, out uvec4 row0, out uvec4 row1) {
+    row0 = uvec4(0u);
+    row1 = uvec4(0u);
+    if (!(distance < known) || !(distance < push.limit)) {
+        return known;
+    }
+    note_vertex(vertex, distance, through, crossing);
+    if (whole_fan || (fans[vertex].w & kFanBends) != 0u) {
+        key = distance;
+        row0.x = vertex | kVertexEvent;
+        row1 = uvec4(0u, floatBitsToUint(distance), chain + 1u, whole_fan ? kWholeFan : corner);
+    }
+    return distance;
+}
+
+// A window leaves through half-edge e, lit on [i0, i1] from (sx, sy) in its frame. `key` stays
+// negative unless it is to be pushed.
+void leave(uint e, Edge edge, float start, float end, float sx, float sy, float i0, float i1,
+           inout float key, out uvec4 row0, out uvec4 row1) {
+    row0 = uvec4(0u);
+    row1 = uvec4(0u);
+    if (edge.border || !(i0 < i1)) {
+        return;
+    }
+    sy = sy < kSmallestOffset ? 0.0 : sy;
+    precise float left_of = i0 - sx;
+    precise float right_of = sx - i1;
+    float aside = sx < i0 ? left_of : (sx > i1 ? right_of : 0.0);
+    precise float distance = sigma + root(squared(aside, sy));
+    precise float to_end = edge.len - i0;
+    if (!(distance < push.limit) || beats(start, i1, squared(right_of, sy)) ||
+        beats(end, to_end, squared(-left_of, sy))) {
+        return;
+    }
+    key = distance;
+    row0 = uvec4(e, floatBitsToUint(sx), floatBitsToUint(sy), floatBitsToUint(i0));
+    row1 = uvec4(floatBitsToUint(i1), floatBitsToUint(sigma), chain + 1u, 0u);
+}
+
+// How far along a child edge the ray through b falls, for a source at (sx, -sy), all measured from
+// the corner that parent and child share.
+float along(float b, float sx, float sy, float apex_x, float apex_y, float child_length) {
+    precise float over = sy * b;
+    precise float under = sy * apex_x + apex_y * (sx - b);
+    precise float result = child_length * ratio(over, under);
+    return result;
+}
+
+// The window in flight enters the face of half_edge; the source then lies at (entry_x, -y) in its
+// frame.
+float entry_x(float len) {
+    precise float mirrored = len - x;
+    return mode == kModeOpposite ? mirrored : x;
+}
+
+vec2 entry_interval(float len) {
+    precise float low = len - b1;
+    precise float high = len - b0;
+    return mode == kModeOpposite ? vec2(low, high) : vec2(b0, b1);
+}
+
+// The child of the window that enters at (sx, [i0, i1]) over the left or right edge of the face.
+void spread_child(bool left, bool whole, float sx, float near, float far, Edge parent, uint e,
+                  Edge child, float start, float end, float third, Turn angle, inout float key,
+                  out uvec4 row0, out uvec4 row1) {
+    precise float mirrored_apex = parent.len - parent.apex_x;
+    float apex_x = left ? parent.apex_x : mirrored_apex;
+    float low = along(near, sx, y, apex_x, parent.apex_y, child.len);
+    float high = child.len;
+    if (!whole) {
+        high = along(far, sx, y, apex_x, parent.apex_y, child.len);
+    }
+    precise float child_x = sx * angle.cosine - y * angle.sine;
+    precise float child_y = sx * angle.sine + y * angle.cosine;
+    precise float turned_x = child.len - child_x;
+    precise float turned_low = child.len - high;
+    precise float turned_high = child.len - low;
+    float px = left ? turned_x : child_x;
+    float i0 = left ? turned_low : low;
+    float i1 = left ? turned_high : high;
+    float b = left ? i1 : i0;
+    precise float apex_dx = child.apex_x - b;
+    precise float own_dx = px - b;
+    row0 = uvec4(0u);
+    row1 = uvec4(0u);
+    if (!beats(third, root(squared(apex_dx, child.apex_y)), squared(own_dx, child_y))) {
+        leave(e, child, start, end, px, child_y, i0, i1, key, row0, row1);
+    }
+}
+
+// What the operation in flight does to vertices and edges: at most three records, from one place.
+void spread(float source_square, bool near_vertex) {
+    uint left = previous_in_face(half_edge);
+    uint right = next_in_face(half_edge);
+    Edge edge = load_edge(half_edge);
+    Edge left_edge = load_edge(left);
+    Edge right_edge = load_edge(right);
+    uvec3 corner = uvec3(edge.origin, right_edge.origin, left_edge.origin);
+    vec3 known;
+    uvec4 apex_note = uvec4(0u);
+    for (uint i = 0u; i < 3u; ++i) {
+        ++trips;
+        find_vertex(corner[i], apex_note);
+        known[i] = known_distance(apex_note);
+    }
+
+    bool inside = mode == kModeInside;
+    bool from_vertex = inside && entered_by != kNoVertex;
+    float sx = entry_x(edge.len);
+    vec2 lit = entry_interval(edge.len);
+    precise float apex_dx = edge.apex_x - sx;
+    precise float apex_dy = edge.apex_y + y;
+    precise float crossing = sx + apex_dx * ratio(y, apex_dy);
+    bool to_left = crossing > lit.x;
+    bool to_right = crossing < lit.y;
+    precise float slack_low = lit.x - push.slack;
+    precise float slack_high = lit.y + push.slack;
+    bool sees_apex = !inside && crossing >= slack_low && crossing <= slack_high;
+    precise float apex_distance = sigma + root(squared(apex_dx, apex_dy));
+    bool whole_left = to_right;
+    bool whole_right = to_left;
+    if (sees_apex && to_left && to_right && apex_note.x != 0u && apex_note.z == half_edge) {
+        // One angle, one split: behind a shorter window through the same angle only the child on
+        // this window's own side can matter.
+        precise float beaten_from = known.z + push.margin;
+        if (apex_distance > beaten_from) {
+            bool on_left = crossing < uintBitsToFloat(apex_note.w);
+            to_left = on_left;
+            to_right = !on_left;
+        }
+    }
+    precise float end_distance0 = sigma + (from_vertex ? left_edge.len : root(source_square));
+    precise float end_distance1 = sigma + right_edge.len;
+    Turn own_angle = load_turn(half_edge);
+    Turn right_angle = load_turn(right);
+
+    for (uint item = 0u; item < 3u; ++item) {
+        ++trips;
+        float key = -1.0;
+        uvec4 row0 = uvec4(0u);
+        uvec4 row1 = uvec4(0u);
+        if (item == 0u || (item == 1u && inside)) {
+            uint at = inside ? item : 2u;
+            bool wanted = inside ? (item == 0u || from_vertex) : sees_apex;
+            if (wanted) {
+                float distance =
+                    inside ? (item == 0u ? end_distance0 : end_distance1) : apex_distance;
+                uint by = inside ? (item == 0u ? half_edge : right) : left;
+                known[at] =
+                    reach(corner[at], known[at], distance, by, inside ? kNoHalfEdge : half_edge,
+                          inside ? 0.0 : crossing, near_vertex && item == 0u, key, row0, row1);
+            }
+        } else if (inside) {
+            leave(half_edge, edge, known.x, known.y, x, y, 0.0, edge.len, key, row0, row1);
+        } else {
+            bool is_left = item == 1u;
+            if (is_left ? to_left : to_right) {
+                precise float mirrored = edge.len - sx;
+                precise float from_end = edge.len - lit.y;
+                precise float from_start = edge.len - lit.x;
+                spread_child(is_left, is_left ? whole_left : whole_right, is_left ? sx : mirrored,
+                             is_left ? lit.x : from_end, is_left ? lit.y : from_start, edge,
+                             is_left ? left : right, is_left ? left_edge : right_edge,
+                             is_left ? known.z : known.y, is_left ? known.x : known.z,
+                             is_left ? known.y : known.x, is_left ? own_angle : right_angle, key,
+                             row0, row1);
+            }
+        }
+        if (key >= 0.0) {
+            push_record(key, row0, row1);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,19 @@
+// Every epsilon of the shaders, in units of the minimum distance where it is a length.
+#ifndef GEODISK_TOLERANCES_GLSL
+#define GEODISK_TOLERANCES_GLSL
+
+// Part of an edge below which a position counts as the edge's end; keeps quotients normal.
+const float kSmallestRatio = 9.094947e-13;  // 2^-40
+// Coordinates below it count as zero.
+const float kSmallestOffset = 9.094947e-13; // 2^-40
+// Squares below it count as zero.
+const float kSmallestSquare = 7.888609e-31; // 2^-100
+// Stands for a distance not known; its square is still finite.
+const float kFar = 1073741824.0;            // 2^30
+// Sources closer than this to a vertex light its whole fan: unfolding around so near a vertex would
+// lose the direction.
+const float kNearVertex = 0.0009765625;     // 2^-10
+// Rounding of positions against cell borders, relative to the face's extent.
+const float kCellPadding = 9.5367432e-7;    // 2^-20
+
+#endif

@@ -1,0 +1,23 @@
+// The language switch: these headers are read by GLSL and by C++.
+#ifndef GEODISK_SHARED_ABI_H
+#define GEODISK_SHARED_ABI_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#define GEODISK_BEGIN_SHARED namespace geodisk::gpu { using uint = std::uint32_t;
+#define GEODISK_END_SHARED }
+#define GEODISK_CONST inline constexpr
+#else
+#define GEODISK_BEGIN_SHARED
+#define GEODISK_END_SHARED
+#define GEODISK_CONST const
+#endif
+
+GEODISK_BEGIN_SHARED
+
+// Raised with every change of a record, a push block or the meaning of a constant.
+GEODISK_CONST uint kAbi = 1u;
+
+GEODISK_END_SHARED
+
+#endif

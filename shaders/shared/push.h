@@ -1,0 +1,40 @@
+// The push block, one for all kernels: what does not change during a run, and the layout of a pool
+// slice, which does when a slice overflows.
+#ifndef GEODISK_SHARED_PUSH_H
+#define GEODISK_SHARED_PUSH_H
+
+#include "abi.h"
+
+GEODISK_BEGIN_SHARED
+
+struct Push {
+    uint candidates;      // size of the pool of candidates
+    uint faces;
+    uint vertices;
+    uint cells;
+    uint seed_low;
+    uint seed_high;
+    float limit;          // conflict below it: 1 + guard, in units of the minimum distance
+    float margin;         // by how much a window must be beaten before it is dropped
+    float slack;          // by how much an interval is widened for hits
+    uint slots;           // most candidates active at a time
+    uint window_capacity; // windows in the heap of one slot
+    uint table_capacity;  // vertex table of one slot, a power of two
+    uint list_capacity;   // conflicts one slot can list
+    uint slice_rows;      // rows of four words per slot
+    uint trip_budget;     // loop iterations an invocation may start per dispatch
+    uint restart;         // select: forget the active batch and select again
+    uint scan_count;      // scans: words to scan, and where they start
+    uint scan_base;
+};
+
+GEODISK_END_SHARED
+
+#ifdef __cplusplus
+#include <cstddef>
+namespace geodisk::gpu {
+static_assert(sizeof(Push) == 72 && offsetof(Push, scan_base) == 68);
+}
+#endif
+
+#endif
