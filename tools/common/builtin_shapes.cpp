@@ -22,7 +22,7 @@ constexpr Entry kEntries[] = {
     {{"cube", "unit cube; parts per edge", 1, 1, 1000}, make_cube},
     {{"icosphere", "unit sphere; subdivision steps", 4, 0, 9}, make_icosphere},
     {{"torus-knot", "trefoil tube; points around", 32, 3, 800}, make_torus_knot},
-    {{"lattice", "smooth frame of bars, genus 81; parts per bar width", 3, 1, 24}, make_lattice},
+    {{"lattice", "smooth frame of bars, genus 81; parts per bar width", 4, 1, 12}, make_lattice},
     {{"plate", "closed box of 1 x 1 x 0.01; parts per long edge", 32, 1, 2000}, make_plate},
     {{"folded-sheet", "open sheet in 5 layers 0.01 apart; parts per layer", 32, 1, 1000},
      make_folded_sheet},
