@@ -1,0 +1,182 @@
+// The odd and broken files and the meshes of the shared data folder, if it is there.
+#include "common/mesh_file.hpp"
+#include "common/text.hpp"
+
+#include "mesh_facts.hpp"
+#include "test_files.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace geodisk::tools;
+
+namespace {
+
+const std::filesystem::path kSharedData = GEODISK_SHARED_DATA;
+
+bool has_shared_data() {
+    if (std::filesystem::is_directory(kSharedData)) {
+        return true;
+    }
+    MESSAGE("skipped: no folder " << kSharedData.string() << ", set GEODISK_SHARED_DATA");
+    return false;
+}
+
+struct Expected {
+    std::string name;
+    std::string verdict;
+    std::optional<std::size_t> vertices;
+    std::optional<std::size_t> triangles;
+    std::optional<double> area;
+};
+
+/// The table expected.tsv.
+std::vector<Expected> expected_files() {
+    std::ifstream file(kSharedData / "bad" / "expected.tsv");
+    std::vector<Expected> files;
+    std::string line;
+    std::getline(file, line);
+    while (std::getline(file, line)) {
+        std::vector<std::string> cells(1);
+        for (const char c : line) {
+            if (c == '\t') {
+                cells.emplace_back();
+            } else {
+                cells.back() += c;
+            }
+        }
+        REQUIRE(cells.size() >= 5);
+        files.push_back({cells[0], cells[1], parse_integer<std::size_t>(cells[2]),
+                         parse_integer<std::size_t>(cells[3]), parse_real(cells[4])});
+    }
+    REQUIRE(files.size() > 100);
+    return files;
+}
+
+void check_mesh(const Expected& expected, const MeshFile& mesh) {
+    CHECK(expected.vertices.value_or(0) == mesh.positions.size() / 3);
+    if (expected.name != "warn_coincident_corner.obj") { // May keep or drop its flat faces.
+        CHECK(expected.triangles.value_or(0) == mesh.triangles.size() / 3);
+    }
+    if (expected.area) {
+        CHECK(std::abs(total_area(mesh) - *expected.area) <= 1e-12 * *expected.area);
+    }
+}
+
+/// Files whose oddity the reader repairs or skips, so the reader must say so.
+const std::set<std::string> kReaderWarns{
+    "warn_zero_area_cap.obj",   "warn_repeated_index.obj",    "warn_coincident_corner.obj",
+    "warn_duplicate_faces.obj", "warn_duplicate_flipped.obj", "warn_isolated_nan.obj",
+    "warn_trailing_data.ply",   "warn_ply_face_2_corners.ply"};
+
+/// Reading must end in a mesh or a UserError, whatever the bytes.
+void check_survives(const TemporaryFolder& folder, const std::string& extension,
+                    std::string_view bytes) {
+    const std::filesystem::path path = folder.write("mutated" + extension, bytes);
+    try {
+        const MeshFile mesh = read_mesh(path.string());
+        CHECK_FALSE(mesh.triangles.empty());
+    } catch (const UserError& error) {
+        CHECK(error.code() == ExitCode::bad_input);
+    }
+}
+
+} // namespace
+
+TEST_CASE("odd and broken files get their expected verdict") {
+    if (!has_shared_data()) {
+        return;
+    }
+    for (const Expected& expected : expected_files()) {
+        CAPTURE(expected.name);
+        const std::string path = (kSharedData / "bad" / expected.name).string();
+        MeshFile mesh;
+        const std::optional<UserError> error = error_of([&] { mesh = read_mesh(path); });
+        if (error) {
+            INFO(error->what());
+            CHECK((expected.verdict == "err" || expected.verdict == "any"));
+            CHECK(error->code() == ExitCode::bad_input);
+            CHECK(contains(error->what(), expected.name));
+            CHECK_FALSE(contains(error->what(), "\n"));
+            continue;
+        }
+        CHECK(expected.verdict != "err");
+        check_mesh(expected, mesh);
+        const bool says_something = !mesh.warnings.empty();
+        CHECK(says_something == kReaderWarns.contains(expected.name));
+    }
+}
+
+TEST_CASE("cut and altered files are read or refused") {
+    if (!has_shared_data()) {
+        return;
+    }
+    const TemporaryFolder folder;
+    std::uint32_t random = 12345;
+    const auto next_random = [&random] { return random = random * 1664525u + 1013904223u; };
+    for (const Expected& expected : expected_files()) {
+        CAPTURE(expected.name);
+        const std::filesystem::path path = kSharedData / "bad" / expected.name;
+        const std::string bytes = bytes_of(path);
+        if (bytes.empty() || bytes.size() > 4000) {
+            continue;
+        }
+        const std::string extension = path.extension().string();
+        for (std::size_t size = 0; size < bytes.size(); size += 97) {
+            check_survives(folder, extension, std::string_view(bytes).substr(0, size));
+        }
+        for (int round = 0; round < 20; ++round) {
+            std::string altered = bytes;
+            for (int i = 0; i < 3; ++i) {
+                altered[(next_random() >> 8) % altered.size()] =
+                    static_cast<char>(next_random() >> 24);
+            }
+            check_survives(folder, extension, altered);
+        }
+    }
+}
+
+TEST_CASE("the meshes have the documented numbers of vertices and triangles") {
+    if (!has_shared_data()) {
+        return;
+    }
+    struct Size {
+        const char* name;
+        std::size_t vertices;
+        std::size_t triangles;
+    };
+    constexpr Size kSizes[] = {
+        {"armadillo_29k.obj", 14587, 29170},
+        {"boot_40k.obj", 19931, 39906},
+        {"bunny_144k.ply", 72002, 144000},
+        {"bunny_14k.obj", 7002, 14000},
+        {"bunny_1k4.obj", 702, 1400},
+        {"bunny_69k.ply", 35947, 69451},
+        {"cornell_box_multimaterial.obj", 76, 36},
+        {"cycloidal_43k.ply", 21384, 43368},
+        {"fandisk_13k.obj", 6475, 12946},
+        {"gargoyle_52k.obj", 25953, 51902},
+        {"human_man_14k.obj", 6890, 13776},
+        {"human_neutral_21k.obj", 10475, 20908},
+        {"human_woman_14k.obj", 6890, 13776},
+        {"lucy_100k.ply", 49987, 99970},
+        {"mountain_51k.obj", 25600, 50562},
+        {"negative_indices.obj", 8, 12},
+        {"rocker_arm_20k.obj", 10044, 20088},
+        {"spot_pose_a_6k.obj", 2930, 5856},
+        {"spot_pose_b_6k.obj", 2930, 5856},
+        {"spot_quads_uv.obj", 188, 372},
+        {"teapot_6k.obj", 3644, 6320},
+        {"tray_4k5.ply", 2216, 4520},
+    };
+    for (const Size& size : kSizes) {
+        CAPTURE(size.name);
+        const MeshFile mesh = read_mesh((kSharedData / "meshes" / size.name).string());
+        CHECK(mesh.positions.size() / 3 == size.vertices);
+        CHECK(mesh.triangles.size() / 3 == size.triangles);
+        CHECK(mesh.warnings.empty());
+    }
+}

@@ -1,0 +1,152 @@
+#include "common/mesh_file.hpp"
+
+#include "mesh_facts.hpp"
+#include "test_files.hpp"
+
+#include <filesystem>
+
+using namespace geodisk::tools;
+
+namespace {
+
+constexpr std::string_view kPlyTriangle = "ply\nformat ascii 1.0\n"
+                                          "element vertex 3\nproperty float x\n"
+                                          "property float y\nproperty float z\n"
+                                          "element face 1\n"
+                                          "property list uchar int vertex_indices\nend_header\n"
+                                          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+std::string replaced(std::string_view text, std::string_view old_part, std::string_view new_part) {
+    std::string result(text);
+    const std::size_t at = result.find(old_part);
+    REQUIRE(at != std::string::npos);
+    return result.replace(at, old_part.size(), new_part);
+}
+
+/// read_mesh() of a file with these bytes.
+MeshFile mesh_of(std::string_view name, std::string_view bytes) {
+    const TemporaryFolder folder;
+    return read_mesh(folder.write(name, bytes).string());
+}
+
+void check_refused(std::string_view name, std::string_view bytes, std::string_view part) {
+    CAPTURE(bytes);
+    check_fails(ExitCode::bad_input, part, [&] { mesh_of(name, bytes); });
+}
+
+} // namespace
+
+TEST_CASE("read_mesh names what is wrong with a path") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "folder.obj");
+    check_fails(ExitCode::bad_input, "no such file",
+                [&] { read_mesh((folder / "missing.obj").string()); });
+    check_fails(ExitCode::bad_input, "folder",
+                [&] { read_mesh((folder / "folder.obj").string()); });
+    check_fails(ExitCode::bad_input, "unknown mesh format",
+                [&] { read_mesh(folder.write("mesh.stl", "solid").string()); });
+    check_fails(ExitCode::bad_input, "mesh.obj: is empty",
+                [&] { read_mesh(folder.write("mesh.obj", "").string()); });
+    check_fails(ExitCode::usage, "showpiece", [] { read_mesh("builtin:nonsense"); });
+    check_fails(ExitCode::usage, "not a resolution", [] { read_mesh("builtin:cube:x"); });
+    check_fails(ExitCode::usage, "must be 1 to", [] { read_mesh("builtin:cube:0"); });
+#ifndef _WIN32
+    std::filesystem::create_symlink("/dev/zero", folder / "endless.ply");
+    check_fails(ExitCode::bad_input, "not a regular file",
+                [&] { read_mesh((folder / "endless.ply").string()); });
+#endif
+}
+
+TEST_CASE("extensions may be in capitals") {
+    CHECK(mesh_of("a.PLY", kPlyTriangle).triangles.size() == 3);
+    CHECK(mesh_of("a.Obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").triangles.size() == 3);
+}
+
+TEST_CASE("OBJ coordinates are exact doubles") {
+    const MeshFile mesh = mesh_of("a.obj", "v 10000000.724609375 0.1 -1e-320\n"
+                                           "v 123456789.123456789 2.2250738585072014e-308 5e-324\n"
+                                           "v 0 1 0\nf 1 2 3");
+    CHECK(mesh.positions == std::vector<double>{10000000.724609375, 0.1, -1e-320,
+                                                123456789.123456789, 2.2250738585072014e-308,
+                                                5e-324, 0, 1, 0});
+}
+
+TEST_CASE("OBJ faces are taken in order and split in place") {
+    const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
+                                           "f -4 -1 -3 # first\nf 1/7 2//9 3/1/1 4/\nf 5 3 2\n");
+    CHECK(mesh.triangles == std::vector<std::uint32_t>{1, 4, 2, 0, 1, 2, 0, 2, 3});
+    CHECK(mesh.warnings.size() == 1); // The last face copies the first.
+}
+
+TEST_CASE("OBJ faults are reported with their line") {
+    const std::string triangle = "v 0 0 0\nv 1 0 0\r\n\rv 0 1 \\\n 0\n";
+    CHECK(mesh_of("a.obj", triangle + "f 1 2 3").triangles.size() == 3);
+    check_refused("a.obj", triangle + "f 1 2 4", "a.obj: line 6: vertex index 4");
+    check_refused("a.obj", triangle + "# c \\\nf 1 2 a", "line 7: 'a'");
+    check_refused("a.obj", triangle + "f 1 2 -4", "line 6");
+    check_refused("a.obj", triangle + "f 1 2 3/x", "line 6");
+    check_refused("a.obj", triangle + "f 1 2 3/1/1/1", "line 6");
+    check_refused("a.obj", triangle + "f 1 2 +3", "line 6");
+    check_refused("a.obj", triangle + "f", "line 6");
+    check_refused("a.obj", triangle + "v 1 2 3 x", "line 6: 'x'");
+    check_refused("a.obj", triangle + "v 1 nan 3\nf 1 2 4", "line 6, vertex 4");
+}
+
+TEST_CASE("repeated corners are dropped or simplified with one warning") {
+    const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                           "f 1 2 2\nf 1 2 3 3\nf 1 1 3 4 1\nf 1 2 1 2\n");
+    CHECK(mesh.triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3});
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(contains(mesh.warnings[0], ": 4"));
+}
+
+TEST_CASE("PLY headers are read strictly") {
+    CHECK(mesh_of("a.ply", kPlyTriangle).triangles == std::vector<std::uint32_t>{0, 1, 2});
+    const auto check = [](std::string_view old_part, std::string_view new_part,
+                          std::string_view message) {
+        check_refused("a.ply", replaced(kPlyTriangle, old_part, new_part), message);
+    };
+    check("ply\n", "plx\n", "not a PLY file");
+    check("1.0", "2.0", "line 2");
+    check("vertex 3", "vertex 99999999999999999999", "line 3");
+    check("vertex 3", "vertex -3", "line 3");
+    check("vertex 3", "vertex 3 3", "line 3");
+    check("element face", "element vertex", "declared twice");
+    check("float y", "float x", "declared twice");
+    check("float y", "real y", "line 5: unknown property type 'real'");
+    check("list uchar", "list float", "count");
+    check("list uchar int", "list int", "line 8");
+    check("element face 1", "elephant 1", "unknown header record 'elephant'");
+    check("float z", "float w", "no property z");
+    check("vertex_indices", "corners", "vertex_indices");
+}
+
+TEST_CASE("PLY records are read strictly") {
+    const auto check = [](std::string_view old_part, std::string_view new_part,
+                          std::string_view message) {
+        check_refused("a.ply", replaced(kPlyTriangle, old_part, new_part), message);
+    };
+    check("1 0 0\n", "1 0\n", "element vertex, record 1: the line has too few");
+    check("1 0 0\n", "1 0 0 0\n", "element vertex, record 1: the line has too many");
+    check("1 0 0\n", "1 inf 0\n", "element vertex, record 1");
+    check("3 0 1 2", "3 0 1", "element face, record 0");
+    check("3 0 1 2", "3 0 1 1.5", "vertex index 1.5");
+    check("3 0 1 2", "3 0 1 -1", "vertex index -1");
+    check("3 0 1 2", "3 0 1 3", "vertex index 3 is out of range");
+    check("3 0 1 2", "-3 0 1 2", "'-3'");
+    check("3 0 1 2", "2 0 1", "no face");
+    check("3 0 1 2\n", "", "ends inside element face");
+}
+
+TEST_CASE("an element without properties cannot stall the reader") {
+    const std::string text = replaced(kPlyTriangle, "element face",
+                                      "element nothing 18446744073709551615\nelement face");
+    CHECK(mesh_of("a.ply", text).triangles.size() == 3);
+}
+
+TEST_CASE("a face without area is kept with a warning") {
+    const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv .5 0 0\n"
+                                           "f 1 2 3\nf 1 4 2\n");
+    CHECK(mesh.triangles.size() == 6);
+    CHECK(mesh.warnings == std::vector<std::string>{"triangles without area kept: 1"});
+}

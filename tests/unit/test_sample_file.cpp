@@ -1,0 +1,198 @@
+#include "common/sample_file.hpp"
+
+#include "common/mesh_file.hpp"
+#include "test_files.hpp"
+
+#include <cmath>
+#include <cstring>
+
+using namespace geodisk::tools;
+
+namespace {
+
+std::vector<SampleRow> some_rows(double offset) {
+    std::vector<SampleRow> rows;
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        SampleRow row;
+        for (int k = 0; k < 3; ++k) {
+            row.position[k] = offset + std::sin(i * 1.7 + k);
+            row.normal[k] = static_cast<float>(std::cos(i * 0.3 + k));
+        }
+        row.face = i == 99 ? 2147483647u : 7 * i;
+        row.bary[0] = 1.0f / static_cast<float>(i + 1);
+        row.bary[1] = 1e-30f;
+        row.bary[2] = 1.0f - row.bary[0];
+        row.candidate = i == 99 ? 4294967295u : 1000003u * i;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+const SampleHeader kHeader{{{"version", "0.1.0"},
+                            {"mesh", "a: b.obj"},
+                            {"min_distance", "0.01"},
+                            {"device", "llvmpipe (LLVM 15, 256 bits)"}}};
+
+void check_same(const SampleRow& a, const SampleRow& b, bool float_positions) {
+    for (int k = 0; k < 3; ++k) {
+        if (float_positions) {
+            CHECK(static_cast<float>(a.position[k]) == static_cast<float>(b.position[k]));
+        } else {
+            CHECK(a.position[k] == b.position[k]);
+        }
+        CHECK(a.normal[k] == b.normal[k]);
+        CHECK(a.bary[k] == b.bary[k]);
+    }
+    CHECK(a.face == b.face);
+    CHECK(a.candidate == b.candidate);
+}
+
+std::string csv_with(std::string_view row) {
+    return "x,y,z,face_index,bary_u,bary_v,bary_w\n" + std::string(row) + "\n";
+}
+
+void check_refused(std::string_view name, std::string_view bytes, std::string_view part) {
+    const TemporaryFolder folder;
+    check_fails(ExitCode::bad_input, part, [&] { read_samples(folder.write(name, bytes)); });
+}
+
+} // namespace
+
+TEST_CASE("samples read back as written") {
+    const TemporaryFolder folder;
+    for (const double offset : {0.0, 1e7}) {
+        const std::vector<SampleRow> rows = some_rows(offset);
+        for (const std::string name : {"a.ply", "b.PLY", "c.csv"}) {
+            CAPTURE(name);
+            CAPTURE(offset);
+            const bool ascii = name == "b.PLY";
+            write_samples(folder / name, kHeader, rows, ascii);
+            const SampleFile read = read_samples(folder / name);
+            CHECK(read.header.entries == kHeader.entries);
+            REQUIRE(read.rows.size() == rows.size());
+            const bool float_positions = offset == 0 && name != "c.csv";
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                check_same(rows[i], read.rows[i], float_positions);
+            }
+        }
+    }
+    CHECK(folder.file_count() == 3);
+}
+
+TEST_CASE("positions far from the origin stay apart") {
+    const TemporaryFolder folder;
+    SampleRow row;
+    row.position[0] = 1e7 + 0.25;
+    write_samples(folder / "a.ply", {}, std::vector<SampleRow>{row}, false);
+    CHECK(read_samples(folder / "a.ply").rows.at(0).position[0] == 1e7 + 0.25);
+    CHECK(contains(bytes_of(folder / "a.ply"), "property double x"));
+}
+
+TEST_CASE("no samples make a valid file") {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.ply", "a.csv", "a.xyz"}) {
+        write_samples(folder / name, kHeader, {}, true);
+    }
+    CHECK(read_samples(folder / "a.ply").rows.empty());
+    CHECK(read_samples(folder / "a.csv").rows.empty());
+    CHECK(bytes_of(folder / "a.xyz").empty());
+}
+
+TEST_CASE("the text formats are plain") {
+    const TemporaryFolder folder;
+    SampleRow row;
+    row.position[0] = 0.1;
+    row.position[1] = -2;
+    row.position[2] = 1e-7;
+    row.normal[2] = 1;
+    row.face = 5;
+    row.bary[0] = 0.2f;
+    row.bary[1] = 0.8f;
+    row.candidate = 17;
+    const std::vector<SampleRow> rows{row, SampleRow{}};
+    const SampleHeader header{{{"mesh", "two\nlines"}}};
+    write_samples(folder / "a.xyz", header, rows, false);
+    CHECK(bytes_of(folder / "a.xyz") == "0.1 -2 1e-07\n0 0 0\n");
+    write_samples(folder / "a.csv", header, rows, false);
+    CHECK(bytes_of(folder / "a.csv") ==
+          "# mesh: two lines\n"
+          "x,y,z,nx,ny,nz,face_index,bary_u,bary_v,bary_w,candidate\n"
+          "0.1,-2,1e-07,0,0,1,5,0.2,0.8,0,17\n0,0,0,0,0,0,0,0,0,0,0\n");
+    write_samples(folder / "a.ply", header, rows, true);
+    CHECK(bytes_of(folder / "a.ply") ==
+          "ply\nformat ascii 1.0\ncomment mesh: two lines\nelement vertex 2\n"
+          "property float x\nproperty float y\nproperty float z\n"
+          "property float nx\nproperty float ny\nproperty float nz\nproperty int face_index\n"
+          "property float bary_u\nproperty float bary_v\nproperty float bary_w\n"
+          "property uint candidate\nend_header\n0.1 -2 1e-07 0 0 1 5 0.2 0.8 0 17\n"
+          "0 0 0 0 0 0 0 0 0 0 0\n");
+}
+
+TEST_CASE("binary samples have the documented layout") {
+    const TemporaryFolder folder;
+    write_samples(folder / "a.ply", {}, some_rows(0), false);
+    const std::string bytes = bytes_of(folder / "a.ply");
+    const std::size_t body = bytes.find("end_header\n") + 11;
+    CHECK(bytes.size() - body == 100 * 11 * 4);
+    CHECK(static_cast<unsigned char>(bytes[body + 44 + 24]) == 7); // face_index of row 1
+}
+
+TEST_CASE("output paths are checked early") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "folder.ply");
+    check_fails(ExitCode::usage, ".ply, .csv and .xyz",
+                [&] { check_output_path(folder / "a.txt"); });
+    check_fails(ExitCode::usage, ".ply, .csv and .xyz", [&] { check_output_path(folder / "a"); });
+    check_fails(ExitCode::bad_output, "No such file",
+                [&] { check_output_path(folder / "missing" / "a.ply"); });
+    check_fails(ExitCode::bad_output, "is a folder",
+                [&] { check_output_path(folder / "folder.ply"); });
+    check_output_path(folder / "a.ply");
+    CHECK(folder.file_count() == 1);
+    check_fails(ExitCode::usage, "known are",
+                [&] { write_samples(folder / "a.txt", {}, {}, false); });
+}
+
+TEST_CASE("sample files may lack and add columns in any order") {
+    const TemporaryFolder folder;
+    const SampleFile samples = read_samples(
+        folder.write("a.csv", "\n# seed: 7\r\nquality,bary_w,bary_v,bary_u,face_index,z,y,x\r\n"
+                              "9, 0.5,0.25,0.25, 3,1,2,3\r\n\n"));
+    REQUIRE(samples.rows.size() == 1);
+    CHECK(samples.rows[0].position[0] == 3);
+    CHECK(samples.rows[0].bary[2] == 0.5f);
+    CHECK(samples.rows[0].face == 3);
+    CHECK(samples.rows[0].candidate == 0);
+    CHECK(samples.header.entries.size() == 1);
+}
+
+TEST_CASE("broken sample files are refused with their line or record") {
+    check_refused("a.xyz", "0 0 0\n", "face_index");
+    check_refused("a.txt", "0 0 0\n", "unknown sample format");
+    check_refused("a.csv", "", "no header row");
+    check_refused("a.csv", "x,y,z\n1,2,3\n", "no column face_index");
+    check_refused("a.csv", csv_with("1,2,3,0,1,0"), "line 2");
+    check_refused("a.csv", csv_with("1,2,3,0,1,0,0,0"), "line 2");
+    check_refused("a.csv", csv_with("1,2,x,0,1,0,0"), "line 2: 'x'");
+    check_refused("a.csv", csv_with("1,2,nan,0,1,0,0"), "line 2: z");
+    check_refused("a.csv", csv_with("1,2,3,-1,1,0,0"), "line 2: face_index");
+    check_refused("a.csv", csv_with("1,2,3,0.5,1,0,0"), "line 2: face_index");
+    check_refused("a.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n",
+                  "no element vertex");
+
+    const TemporaryFolder folder;
+    write_samples(folder / "a.ply", kHeader, some_rows(0), false);
+    const std::string bytes = bytes_of(folder / "a.ply");
+    check_refused("a.ply", bytes.substr(0, bytes.size() - 1), "record 99");
+    check_refused("a.ply", bytes + "x", "after the last sample");
+}
+
+TEST_CASE("a mesh file is not a sample file and the other way round") {
+    const TemporaryFolder folder;
+    write_samples(folder / "a.ply", kHeader, some_rows(0), false);
+    check_fails(ExitCode::bad_input, "no faces", [&] { read_mesh((folder / "a.ply").string()); });
+    check_refused("b.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+                  "property float y\nproperty float z\nend_header\n",
+                  "no column face_index");
+}
