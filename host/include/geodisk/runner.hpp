@@ -1,0 +1,99 @@
+// Runner: samples a mesh on a lent device and queue, from upload to result. It allocates, submits
+// and waits; for full control over those, use Sampler.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <geodisk/device.hpp>
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/sampler.hpp>
+
+namespace geodisk {
+
+/// An accepted candidate.
+struct Sample {
+    std::uint32_t candidate; ///< Its index in dart-throwing order.
+    std::uint32_t face;      ///< Index of its triangle in the caller's mesh.
+    float weights[3];        ///< Of the triangle's corners in order; they sum to exactly 1.
+};
+
+/// How a run went. Seconds are wall time.
+struct RunReport {
+    std::uint32_t candidates = 0;
+    std::uint32_t iterations = 0;   ///< Batches of active candidates.
+    std::uint32_t dispatches = 0;   ///< Recorded, empty ones included.
+    std::uint32_t disks = 0;        ///< Geodesic disks computed, more than samples.
+    std::uint32_t regrown = 0;      ///< Times a batch was repeated with larger slices.
+    std::uint64_t windows = 0;      ///< Windows and vertex events of all disks.
+    std::uint64_t tested = 0;       ///< Candidate distances computed in all disks.
+    std::uint32_t largest_heap = 0; ///< Most windows in one heap.
+    std::uint32_t longest_chain = 0;
+    double guard = 0;               ///< Conflicts were tested against min_distance * (1 + guard).
+    std::uint64_t device_bytes = 0; ///< Memory allocated on the device.
+    RunPlan plan;                   ///< As it stood at the end.
+    struct {
+        double upload = 0, sample = 0, readback = 0;
+    } seconds;
+};
+
+struct SampleSet {
+    std::vector<Sample> samples; ///< In dart-throwing order.
+    RunReport report;
+};
+
+/// How far a run is.
+struct Progress {
+    std::uint32_t ranks_passed; ///< Candidates decided or being worked on, of `candidates`.
+    std::uint32_t candidates;
+    std::uint32_t accepted;
+};
+
+struct RunnerOptions {
+    SamplerOptions sampler;
+    /// Most bytes of the pool of window slices; bounded by one binding of the device.
+    std::uint64_t pool_bytes = std::uint64_t{256} << 20;
+    /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice changes
+    /// the samples.
+    RunPlan plan;
+    /// A submission that takes longer counts as hung.
+    std::uint32_t stall_seconds = 120;
+};
+
+/// Called between submissions; return false to stop the run with `cancelled`.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+/// Not thread-safe; several runners may share a device, and a queue through QueueRef's lock.
+class GEODISK_API Runner {
+  public:
+    /// Compiles the pipelines and checks on the device that arithmetic rounds as decisions need.
+    /// Errors: as Sampler::create; `device_lacks` when the check fails.
+    static Result<Runner> create(const DeviceRefs& device, const QueueRef& queue,
+                                 const RunnerOptions& options = {}) noexcept;
+    Runner(Runner&&) noexcept;
+    Runner& operator=(Runner&&) noexcept;
+    ~Runner();
+
+    /// Returns the set that sequential dart throwing over the same candidates returns, whatever
+    /// device, driver or plan. Slices that overflow are grown and the batch repeated; a run whose
+    /// window chains outgrow the guard is repeated with a wider one.
+    ///
+    /// Errors: `invalid_argument`, `device_lacks` and `workspace_too_small` as Sampler's functions;
+    /// `out_of_device_memory`, `device_lost`, `cancelled`.
+    Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
+                                      const ProgressCallback& progress = {}) noexcept;
+
+    const Sampler& sampler() const noexcept;
+
+    struct Impl; ///< Internal.
+
+  private:
+    explicit Runner(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace geodisk

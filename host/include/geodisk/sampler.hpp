@@ -1,0 +1,181 @@
+// Sampler: records a sampling job into the caller's command buffers. It allocates no memory,
+// submits nothing and waits for nothing.
+//
+// How a job goes:
+//   1. plan_run             how many candidates to work on at a time, and how large their slices are
+//   2. workspace_needs      sizes of the buffers; the caller allocates them
+//   3. mesh_bytes           what to upload into the mesh buffers before the first use
+//   4. make_job             writes descriptor sets; nothing is recorded yet
+//   5. record_begin         draws and bins the candidates
+//   6. record_rounds        a fixed number of rounds; finished ones cost an empty dispatch. Submit,
+//                           read gpu::ControlRec from the control buffer, and record more until
+//                           `done`. With `overflow` set nothing was decided since; grow_plan, set it
+//                           on the job and record_rewind first.
+//   7. record_finish        gpu::SampleRec per accepted candidate, in rank order
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <vulkan/vulkan_core.h>
+
+#include <geodisk/device.hpp>
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+/// How shaders divide and take roots. Both ways return the correctly rounded result.
+enum class Rounding : std::uint32_t {
+    automatic, ///< Native where the device is known to round correctly, else emulated.
+    native,
+    emulated,
+};
+
+struct SamplerOptions {
+    /// Invocations per work group of the per-element kernels; 0 chooses. A power of two up to the
+    /// device's limit.
+    std::uint32_t local_size = 0;
+    Rounding rounding = Rounding::automatic;
+};
+
+/// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
+enum class BufferRole : std::uint32_t {
+    half_edges, fans, alias, cells, points, states, places, slots, pool, control, marks, sums,
+    samples,
+};
+inline constexpr std::size_t kBufferRoles = 13;
+
+/// A range of a caller's buffer, bound as storage buffer: `offset` a multiple of the device's
+/// minStorageBufferOffsetAlignment.
+struct BufferRange {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize size = 0;
+};
+
+/// The memory of one job. Owned by the caller; ranges must not overlap while the job runs. Create
+/// the buffers with `kWorkspaceUsage`.
+using Workspace = std::array<BufferRange, kBufferRoles>;
+inline constexpr VkBufferUsageFlags kWorkspaceUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+
+/// Bytes each buffer needs at least.
+struct WorkspaceNeeds {
+    std::array<VkDeviceSize, kBufferRoles> bytes{};
+    VkDeviceSize total() const noexcept;
+};
+
+/// How a job is cut into work. None of this changes which samples come out.
+struct RunPlan {
+    std::uint32_t slots = 0;           ///< Candidates active at a time.
+    std::uint32_t window_capacity = 0; ///< Windows per slot, even.
+    std::uint32_t table_capacity = 0;  ///< Vertices per slot, a power of two.
+    std::uint32_t list_capacity = 0;   ///< Conflicts per slot, a multiple of 4.
+    std::uint32_t trip_budget = 0;     ///< Loop iterations per invocation and dispatch.
+    std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
+
+    std::uint32_t slice_rows() const noexcept;   ///< Of 16 bytes, per slot.
+    std::uint64_t pool_bytes() const noexcept;
+};
+
+/// Stages and accesses of the first commands that touch the workspace (the caller's earlier writes
+/// must be made visible to them) and of the last ones (to be waited for before reading).
+struct SyncScope {
+    VkPipelineStageFlags stages;
+    VkAccessFlags access;
+};
+
+class Job;
+
+/// The pipelines. Immutable after `create`, so any number of threads may record with one Sampler.
+class GEODISK_API Sampler {
+  public:
+    /// Compiles the pipelines on the lent device.
+    /// Errors: `device_lacks` with every reason, `invalid_argument` for a local size the device does
+    /// not allow, or as Vulkan fails.
+    static Result<Sampler> create(const DeviceRefs& device, const SamplerOptions& options = {}) noexcept;
+    Sampler(Sampler&&) noexcept;
+    Sampler& operator=(Sampler&&) noexcept;
+    ~Sampler();
+
+    const DeviceReport& report() const noexcept;
+
+    /// A plan for this device whose pool is at most `pool_bytes` (and one binding) large.
+    /// Errors: `invalid_argument` as pool_size(); `workspace_too_small` when not even one slice fits.
+    Result<RunPlan> plan_run(const PreparedMesh& mesh, const SampleParams& params,
+                             std::uint64_t pool_bytes) const noexcept;
+
+    /// The plan after an overflow: the capacities named by `overflow` (gpu::kOverflow* bits) doubled,
+    /// the slots fewer if the pool would grow past `pool_bytes`.
+    /// Errors: `workspace_too_small` naming the bytes one slice takes.
+    Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
+                              std::uint64_t pool_bytes) const noexcept;
+
+    /// Errors: `invalid_argument` as pool_size(), `device_lacks` when a buffer would exceed what the
+    /// device can bind, naming buffer, candidates and bytes.
+    Result<WorkspaceNeeds> workspace_needs(const PreparedMesh& mesh, const SampleParams& params,
+                                           const RunPlan& plan) const noexcept;
+
+    /// Writes the bytes of a mesh buffer (half_edges, fans, alias or cells) for the caller to
+    /// upload. `out` must hold exactly as many bytes as `mesh_bytes_size` tells; for cells that is
+    /// less than the buffer's size.
+    Result<Done> mesh_bytes(const PreparedMesh& mesh, const SampleParams& params, BufferRole role,
+                            std::span<std::byte> out) const noexcept;
+    std::size_t mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept;
+
+    /// Writes descriptor sets for a workspace. The job keeps no reference to mesh or params; the
+    /// Sampler must outlive it.
+    Result<Job> make_job(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
+                         const Workspace& workspace) const noexcept;
+
+    // Recording. The command buffer must be in the recording state, outside a render pass, on a
+    // family with compute. Each call leaves compute pipeline, descriptor set 0 and push constants
+    // changed, and begins and ends with its own barriers among the job's buffers.
+    void record_begin(VkCommandBuffer commands, const Job& job) const noexcept;
+    void record_rounds(VkCommandBuffer commands, const Job& job, std::uint32_t rounds) const noexcept;
+    void record_rewind(VkCommandBuffer commands, const Job& job) const noexcept;
+    void record_finish(VkCommandBuffer commands, const Job& job) const noexcept;
+
+    static constexpr SyncScope kFirstUse{
+        VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+        VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+    static constexpr SyncScope kLastUse{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                        VK_ACCESS_SHADER_WRITE_BIT};
+
+    struct Impl; ///< Internal.
+
+  private:
+    friend class Runner;
+    explicit Sampler(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// A workspace made ready for one sampling job. Movable. One recording thread at a time; its command
+/// buffers must run one after the other, and it must outlive their execution.
+class GEODISK_API Job {
+  public:
+    Job(Job&&) noexcept;
+    Job& operator=(Job&&) noexcept;
+    ~Job();
+
+    const RunPlan& plan() const noexcept;
+    /// Replaces the plan, for rounds recorded from now on. Its pool must fit the workspace's.
+    Result<Done> set_plan(const RunPlan& plan) noexcept;
+    std::uint32_t candidates() const noexcept;
+
+    struct Impl; ///< Internal.
+
+  private:
+    friend class Sampler;
+    explicit Job(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace geodisk

@@ -1,0 +1,156 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/sampler.hpp>
+
+#include "engine/device_mesh.hpp"
+#include "engine/sampler_impl.hpp"
+#include "support/guard.hpp"
+#include "vk/result.hpp"
+
+namespace geodisk {
+namespace {
+
+Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
+                             const DeviceLimits& limits) {
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        const BufferRange& range = workspace[i];
+        if (range.buffer == VK_NULL_HANDLE) {
+            return Error{Status::invalid_argument, "workspace buffer " + std::to_string(i) + " is null"};
+        }
+        if (range.size < needs.bytes[i]) {
+            return Error{Status::workspace_too_small,
+                         "workspace buffer " + std::to_string(i) + " has " +
+                             std::to_string(range.size) + " bytes and needs " +
+                             std::to_string(needs.bytes[i])};
+        }
+        if (range.offset % limits.min_storage_buffer_offset_alignment != 0) {
+            return Error{Status::invalid_argument,
+                         "workspace buffer " + std::to_string(i) + " starts off the alignment of " +
+                             std::to_string(limits.min_storage_buffer_offset_alignment)};
+        }
+    }
+    return Done{};
+}
+
+} // namespace
+
+Job::Job(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Job::Job(Job&&) noexcept = default;
+Job& Job::operator=(Job&&) noexcept = default;
+Job::~Job() = default;
+
+const RunPlan& Job::plan() const noexcept { return impl_->plan; }
+std::uint32_t Job::candidates() const noexcept { return impl_->push.candidates; }
+
+Job::Impl::~Impl() {
+    if (sampler != nullptr) {
+        sampler->vk.vkDestroyDescriptorPool(sampler->device.device, descriptor_pool,
+                                            sampler->device.host_allocator);
+    }
+}
+
+void Job::Impl::apply_plan(const RunPlan& new_plan) {
+    plan = new_plan;
+    push.slots = plan.slots;
+    push.window_capacity = plan.window_capacity;
+    push.table_capacity = plan.table_capacity;
+    push.list_capacity = plan.list_capacity;
+    push.slice_rows = plan.slice_rows();
+    push.trip_budget = plan.trip_budget;
+}
+
+Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
+    return guarded([&]() -> Result<Done> {
+        const Workspace& ws = impl_->workspace;
+        if (plan.pool_bytes() > ws[static_cast<std::size_t>(BufferRole::pool)].size ||
+            plan.slots > impl_->plan.slots) {
+            return Error{Status::workspace_too_small,
+                         "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
+                             " bytes and slots for " + std::to_string(plan.slots)};
+        }
+        impl_->apply_plan(plan);
+        return Done{};
+    });
+}
+
+Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& params,
+                              const RunPlan& plan, const Workspace& workspace) const noexcept {
+    return guarded([&]() -> Result<Job> {
+        auto needs = workspace_needs(mesh, params, plan);
+        if (!needs) {
+            return needs.error();
+        }
+        if (auto checked = check_workspace(workspace, *needs, impl_->report.limits); !checked) {
+            return checked.error();
+        }
+        auto job = std::make_unique<Job::Impl>();
+        job->sampler = impl_.get();
+        job->workspace = workspace;
+        const Tolerances tolerances = tolerances_for(mesh, params.min_distance, plan.chain);
+        gpu::Push& push = job->push;
+        push.candidates = *pool_size(mesh, params);
+        push.faces = mesh.face_count();
+        push.vertices = mesh.vertex_count();
+        push.cells = *count_cells(mesh, params.min_distance);
+        push.seed_low = static_cast<std::uint32_t>(params.seed);
+        push.seed_high = static_cast<std::uint32_t>(params.seed >> 32);
+        push.limit = tolerances.limit;
+        push.margin = tolerances.margin;
+        push.slack = tolerances.slack;
+        job->apply_plan(plan);
+        if (auto written = job->write_sets(); !written) {
+            return written.error();
+        }
+        return Job(std::move(job));
+    });
+}
+
+Result<Done> Job::Impl::write_sets() {
+    const DeviceTable& vk = sampler->vk;
+    const VkDevice device = sampler->device.device;
+    constexpr std::uint32_t kSets = kSetRoles * kKernels;
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSets};
+    VkDescriptorPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool_info.maxSets = kSets;
+    pool_info.poolSizeCount = 1;
+    pool_info.pPoolSizes = &size;
+    VkResult result = vk.vkCreateDescriptorPool(device, &pool_info, sampler->device.host_allocator,
+                                                &descriptor_pool);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreateDescriptorPool", result);
+    }
+    for (std::uint32_t role = 0; role < kSetRoles; ++role) {
+        VkDescriptorSetAllocateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+        info.descriptorPool = descriptor_pool;
+        info.descriptorSetCount = kKernels;
+        info.pSetLayouts = sampler->set_layouts.data();
+        result = vk.vkAllocateDescriptorSets(device, &info, sets[role].data());
+        if (result != VK_SUCCESS) {
+            return vk_error("vkAllocateDescriptorSets", result);
+        }
+        for (std::size_t k = 0; k < kKernels; ++k) {
+            for (const std::uint32_t binding : kernel_info(static_cast<Kernel>(k)).bindings) {
+                // The scan kernels work on whatever is bound as marks.
+                const bool cells = role == static_cast<std::uint32_t>(SetRole::cell_scan) &&
+                                   binding == gpu::kBindMarks;
+                const BufferRange& range = workspace[cells ? gpu::kBindCells : binding];
+                const VkDescriptorBufferInfo buffer{range.buffer, range.offset, range.size};
+                VkWriteDescriptorSet write{};
+                write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+                write.dstSet = sets[role][k];
+                write.dstBinding = binding;
+                write.descriptorCount = 1;
+                write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+                write.pBufferInfo = &buffer;
+                vk.vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
+            }
+        }
+    }
+    return Done{};
+}
+
+} // namespace geodisk

@@ -1,0 +1,58 @@
+#include "engine/kernel_table.hpp"
+
+#include <array>
+
+namespace geodisk {
+namespace {
+
+#include "bin_fill.spv.inc"
+#include "candidates.spv.inc"
+#include "compact_gather.spv.inc"
+#include "compact_mark.spv.inc"
+#include "detect.spv.inc"
+#include "resolve.spv.inc"
+#include "rewind.spv.inc"
+#include "scan_add.spv.inc"
+#include "scan_blocks.spv.inc"
+#include "scan_sums.spv.inc"
+#include "select.spv.inc"
+#include "self_test.spv.inc"
+
+using namespace gpu;
+
+constexpr std::uint32_t kCandidates[] = {kBindHalfEdges, kBindAlias, kBindCells, kBindPlaces};
+constexpr std::uint32_t kScanData[] = {kBindMarks, kBindSums};
+constexpr std::uint32_t kScanSums[] = {kBindSums};
+constexpr std::uint32_t kBinFill[] = {kBindAlias, kBindCells, kBindPoints, kBindPlaces};
+constexpr std::uint32_t kSelect[] = {kBindStates, kBindPlaces, kBindSlots, kBindControl};
+constexpr std::uint32_t kDetect[] = {kBindHalfEdges, kBindFans,  kBindCells, kBindPoints,
+                                     kBindStates,    kBindSlots, kBindPool,  kBindControl};
+constexpr std::uint32_t kResolve[] = {kBindStates, kBindSlots, kBindPool, kBindControl};
+constexpr std::uint32_t kRewind[] = {kBindStates, kBindSlots, kBindControl};
+constexpr std::uint32_t kCompactMark[] = {kBindStates, kBindPlaces, kBindMarks};
+constexpr std::uint32_t kCompactGather[] = {kBindPoints, kBindStates, kBindPlaces, kBindMarks,
+                                            kBindSamples};
+constexpr std::uint32_t kSelfTest[] = {kBindSums};
+
+const std::array<KernelInfo, kKernels> kTable{{
+    {"candidates", k_candidates_spirv, kCandidates},
+    {"scan_blocks", k_scan_blocks_spirv, kScanData},
+    {"scan_sums", k_scan_sums_spirv, kScanSums},
+    {"scan_add", k_scan_add_spirv, kScanData},
+    {"bin_fill", k_bin_fill_spirv, kBinFill},
+    {"select", k_select_spirv, kSelect},
+    {"detect", k_detect_spirv, kDetect},
+    {"resolve", k_resolve_spirv, kResolve},
+    {"rewind", k_rewind_spirv, kRewind},
+    {"compact_mark", k_compact_mark_spirv, kCompactMark},
+    {"compact_gather", k_compact_gather_spirv, kCompactGather},
+    {"self_test", k_self_test_spirv, kSelfTest},
+}};
+
+} // namespace
+
+const KernelInfo& kernel_info(Kernel kernel) noexcept {
+    return kTable[static_cast<std::size_t>(kernel)];
+}
+
+} // namespace geodisk

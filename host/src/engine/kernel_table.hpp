@@ -1,0 +1,25 @@
+// The compiled kernels: SPIR-V words and the buffers each binds.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bindings.h"
+
+namespace geodisk {
+
+enum class Kernel : std::uint32_t {
+    candidates, scan_blocks, scan_sums, scan_add, bin_fill, select, detect, resolve, rewind,
+    compact_mark, compact_gather, self_test,
+};
+inline constexpr std::size_t kKernels = 12;
+
+struct KernelInfo {
+    const char* name;
+    std::span<const std::uint32_t> spirv;
+    std::span<const std::uint32_t> bindings; ///< Binding numbers, ascending; at most eight.
+};
+
+const KernelInfo& kernel_info(Kernel kernel) noexcept;
+
+} // namespace geodisk

@@ -1,0 +1,163 @@
+// How a job is cut into work, and how large its buffers get.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include <geodisk/sampler.hpp>
+
+#include "constants.h"
+#include "engine/device_mesh.hpp"
+#include "engine/sampler_impl.hpp"
+#include "records.h"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr const char* kBufferNames[kBufferRoles] = {
+    "half-edge", "fan",  "alias", "cell", "point", "state", "place", "slot",
+    "pool",      "control", "mark",  "sum",  "sample"};
+
+// llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently. The group
+// has at most 16 lanes, whose iterations add up in the worst case, and one trip of detect's main
+// loop takes less than 500. See design notes in shaders/README.md.
+constexpr std::uint32_t kLlvmpipeTrips = 65535 / 16 - 500;
+// Elsewhere the budget keeps a dispatch well under the watchdogs.
+constexpr std::uint32_t kDefaultTrips = 8192;
+constexpr std::uint32_t kMostSlots = 1u << 16;
+constexpr std::uint32_t kLargestCapacity = 1u << 26;
+
+std::uint32_t pow2_at_least(double x) {
+    return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
+}
+
+std::uint64_t blocks_of(std::uint64_t words) {
+    return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
+}
+
+/// As many slots as fit the pool; none if not even one does.
+std::uint32_t fitting_slots(const RunPlan& plan, std::uint64_t pool_bytes) {
+    const std::uint64_t slice = std::uint64_t{plan.slice_rows()} * 16;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.slots, pool_bytes / slice));
+}
+
+Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
+    return Error{Status::workspace_too_small,
+                 "the disk of one candidate takes " +
+                     std::to_string(std::uint64_t{plan.slice_rows()} * 16) +
+                     " bytes of the pool, which may take " + std::to_string(pool_bytes)};
+}
+
+} // namespace
+
+std::uint32_t RunPlan::slice_rows() const noexcept {
+    return window_capacity / 2 + 2 + gpu::kWindowRows * window_capacity + table_capacity +
+           list_capacity / 4;
+}
+
+std::uint64_t RunPlan::pool_bytes() const noexcept {
+    return std::uint64_t{slots} * slice_rows() * 16;
+}
+
+VkDeviceSize WorkspaceNeeds::total() const noexcept {
+    VkDeviceSize sum = 0;
+    for (const VkDeviceSize size : bytes) {
+        sum += size;
+    }
+    return sum;
+}
+
+Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& params,
+                                  std::uint64_t pool_bytes) const noexcept {
+    return guarded([&]() -> Result<RunPlan> {
+        const auto candidates = pool_size(mesh, params);
+        if (!candidates) {
+            return candidates.error();
+        }
+        const DeviceReport& report = impl_->report;
+        const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+        const double disks = *candidates / params.pool_ratio;
+        const double faces_per_disk = 2.0 * mesh.face_count() / disks;
+        RunPlan plan;
+        plan.slots = static_cast<std::uint32_t>(
+            std::clamp(disks / (cpu ? 24 : 8), 64.0, double{kMostSlots}));
+        plan.window_capacity = pow2_at_least(32 + 4 * faces_per_disk);
+        plan.table_capacity = pow2_at_least(32 + 2 * faces_per_disk);
+        plan.list_capacity = pow2_at_least(4 * params.pool_ratio);
+        plan.trip_budget = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips
+                                                                          : kDefaultTrips;
+        plan.chain = provided_chain(mesh, params.min_distance);
+        pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
+        plan.slots = fitting_slots(plan, pool_bytes);
+        if (plan.slots == 0) {
+            return slice_error(plan, pool_bytes);
+        }
+        return plan;
+    });
+}
+
+Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
+                                   std::uint64_t pool_bytes) const noexcept {
+    return guarded([&]() -> Result<RunPlan> {
+        RunPlan grown = plan;
+        const auto grow = [overflow](std::uint32_t bit, std::uint32_t& capacity) {
+            capacity = (overflow & bit) != 0 ? std::min(2 * capacity, kLargestCapacity) : capacity;
+        };
+        grow(gpu::kOverflowWindows, grown.window_capacity);
+        grow(gpu::kOverflowVertices, grown.table_capacity);
+        grow(gpu::kOverflowConflicts, grown.list_capacity);
+        pool_bytes = std::min(pool_bytes, impl_->report.limits.max_storage_buffer_range);
+        grown.slots = fitting_slots(grown, pool_bytes);
+        if (grown.slots == 0 || grown.slice_rows() == plan.slice_rows()) {
+            return slice_error(grown, pool_bytes);
+        }
+        return grown;
+    });
+}
+
+Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
+                                                const SampleParams& params,
+                                                const RunPlan& plan) const noexcept {
+    return guarded([&]() -> Result<WorkspaceNeeds> {
+        const auto candidates = pool_size(mesh, params);
+        if (!candidates) {
+            return candidates.error();
+        }
+        const auto cells = count_cells(mesh, params.min_distance);
+        if (!cells) {
+            return cells.error();
+        }
+        const std::uint64_t count = *candidates;
+        const std::uint64_t scanned = std::max<std::uint64_t>(count, std::uint64_t{*cells} + 1);
+        WorkspaceNeeds needs;
+        needs.bytes = {half_edge_bytes(mesh),
+                       fan_bytes(mesh),
+                       alias_bytes(mesh),
+                       face_word_bytes(mesh) + (std::uint64_t{*cells} + 1) * 4,
+                       count * sizeof(gpu::PointRec),
+                       count * 4,
+                       count * 4,
+                       plan.slots * sizeof(gpu::SlotRec),
+                       plan.pool_bytes(),
+                       sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * 4,
+                       count * 4,
+                       blocks_of(scanned) * 4,
+                       count * sizeof(gpu::SampleRec)};
+        const std::uint64_t limit = impl_->report.limits.max_storage_buffer_range;
+        for (std::size_t i = 0; i < kBufferRoles; ++i) {
+            if (needs.bytes[i] > limit) {
+                return Error{Status::device_lacks,
+                             std::string("the ") + kBufferNames[i] + " buffer for " +
+                                 std::to_string(count) + " candidates and " +
+                                 std::to_string(mesh.face_count()) + " faces takes " +
+                                 std::to_string(needs.bytes[i]) + " bytes, but " +
+                                 impl_->report.name + " binds at most " + std::to_string(limit) +
+                                 "; raise the minimum distance or lower the pool ratio"};
+            }
+        }
+        return needs;
+    });
+}
+
+} // namespace geodisk

@@ -1,0 +1,121 @@
+// What a job records. Every step depends on the one before it, so one barrier serves them all.
+#include <geodisk/sampler.hpp>
+
+#include "constants.h"
+#include "engine/sampler_impl.hpp"
+#include "records.h"
+#include "vk/barriers.hpp"
+
+namespace geodisk {
+namespace {
+
+// Chains of conflicts are short: two passes decide nearly every batch, and what they leave goes on
+// in the next round.
+constexpr std::uint32_t kResolvePasses = 2;
+
+class Recorder {
+  public:
+    Recorder(VkCommandBuffer commands, const Sampler::Impl& sampler, const Job::Impl& job)
+        : commands_(commands), sampler_(sampler), job_(job) {}
+
+    void dispatch(Kernel kernel, Groups groups, const gpu::Push& push,
+                  SetRole role = SetRole::workspace) const {
+        bind(kernel, push, role);
+        sampler_.vk.vkCmdDispatch(commands_, groups.x, groups.y, 1);
+        barrier_compute_to_compute(sampler_.vk, commands_);
+    }
+
+    void dispatch_per_candidate(Kernel kernel) const {
+        dispatch(kernel, groups_for(job_.push.candidates, sampler_.local_size), job_.push);
+    }
+
+    /// The size is what `select` left at the head of the control buffer.
+    void dispatch_per_slot(Kernel kernel) const {
+        bind(kernel, job_.push, SetRole::workspace);
+        const BufferRange& control = range(BufferRole::control);
+        sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset);
+        barrier_compute_to_compute(sampler_.vk, commands_);
+    }
+
+    /// Exclusive scan of `count` words from `base` on.
+    void scan(std::uint32_t base, std::uint32_t count, SetRole role) const {
+        gpu::Push push = job_.push;
+        push.scan_base = base;
+        push.scan_count = count;
+        const Groups blocks = groups_for(count, gpu::kScanBlock);
+        dispatch(Kernel::scan_blocks, blocks, push, role);
+        dispatch(Kernel::scan_sums, {1, 1}, push, role);
+        dispatch(Kernel::scan_add, blocks, push, role);
+    }
+
+    void fill(BufferRole role, VkDeviceSize skip, VkDeviceSize size) const {
+        const BufferRange& target = range(role);
+        sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset + skip, size, 0);
+    }
+
+  private:
+    const BufferRange& range(BufferRole role) const {
+        return job_.workspace[static_cast<std::size_t>(role)];
+    }
+
+    void bind(Kernel kernel, const gpu::Push& push, SetRole role) const {
+        const auto k = static_cast<std::size_t>(kernel);
+        const DeviceTable& vk = sampler_.vk;
+        vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_.pipelines[k]);
+        vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_.layouts[k],
+                                   0, 1, &job_.sets[static_cast<std::size_t>(role)][k], 0, nullptr);
+        vk.vkCmdPushConstants(commands_, sampler_.layouts[k], VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                              sizeof push, &push);
+    }
+
+    VkCommandBuffer commands_;
+    const Sampler::Impl& sampler_;
+    const Job::Impl& job_;
+};
+
+} // namespace
+
+void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexcept {
+    const Recorder recorder(commands, *impl_, *job.impl_);
+    const gpu::Push& push = job.impl_->push;
+    const VkDeviceSize face_words = VkDeviceSize{push.faces} * 4;
+    const std::uint32_t starts = push.cells + 1;
+    recorder.fill(BufferRole::cells, face_words, VkDeviceSize{starts} * 4);
+    recorder.fill(BufferRole::states, 0, VkDeviceSize{push.candidates} * 4);
+    recorder.fill(BufferRole::control, 0,
+                  sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
+    barrier_transfer_to_compute(impl_->vk, commands);
+    recorder.dispatch_per_candidate(Kernel::candidates);
+    recorder.scan(push.faces, starts, SetRole::cell_scan);
+    recorder.dispatch_per_candidate(Kernel::bin_fill);
+}
+
+void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
+                            std::uint32_t rounds) const noexcept {
+    const Recorder recorder(commands, *impl_, *job.impl_);
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+        recorder.dispatch(Kernel::select, {1, 1}, job.impl_->push);
+        recorder.dispatch_per_slot(Kernel::detect);
+        for (std::uint32_t pass = 0; pass < kResolvePasses; ++pass) {
+            recorder.dispatch_per_slot(Kernel::resolve);
+        }
+    }
+}
+
+void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noexcept {
+    // The batch was selected with the slots of an earlier plan, never fewer than now.
+    const Recorder recorder(commands, *impl_, *job.impl_);
+    const BufferRange& slots = job.impl_->workspace[static_cast<std::size_t>(BufferRole::slots)];
+    recorder.dispatch(Kernel::rewind,
+                      groups_for(slots.size / sizeof(gpu::SlotRec), impl_->local_size),
+                      job.impl_->push);
+}
+
+void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noexcept {
+    const Recorder recorder(commands, *impl_, *job.impl_);
+    recorder.dispatch_per_candidate(Kernel::compact_mark);
+    recorder.scan(0, job.impl_->push.candidates, SetRole::workspace);
+    recorder.dispatch_per_candidate(Kernel::compact_gather);
+}
+
+} // namespace geodisk

@@ -1,0 +1,349 @@
+#include <geodisk/runner.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include "engine/runner_impl.hpp"
+#include "support/guard.hpp"
+#include "vk/barriers.hpp"
+
+namespace geodisk {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Recorded dispatches per round: select, detect and two passes of resolve.
+constexpr std::uint32_t kDispatchesPerRound = 4;
+constexpr std::uint32_t kDispatchesToBegin = 5;
+constexpr std::uint32_t kDispatchesToFinish = 5;
+// Submissions start small and grow towards this time, so that no watchdog bites and progress and
+// cancellation stay prompt.
+constexpr double kTargetSeconds = 0.1;
+constexpr std::uint32_t kMostRounds = 256;
+constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
+
+constexpr std::size_t index_of(BufferRole role) { return static_cast<std::size_t>(role); }
+
+void apply_overrides(RunPlan& plan, const RunPlan& wanted) {
+    const auto replace = [](std::uint32_t& field, std::uint32_t value) {
+        field = value != 0 ? value : field;
+    };
+    replace(plan.slots, wanted.slots);
+    replace(plan.window_capacity, wanted.window_capacity);
+    replace(plan.table_capacity, wanted.table_capacity);
+    replace(plan.list_capacity, wanted.list_capacity);
+    replace(plan.trip_budget, wanted.trip_budget);
+    replace(plan.chain, wanted.chain);
+}
+
+} // namespace
+
+Workspace RunMemory::workspace() const {
+    Workspace ranges;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        ranges[i] = {buffers[i].handle(), 0, buffers[i].size()};
+    }
+    return ranges;
+}
+
+std::uint64_t RunMemory::bytes() const {
+    std::uint64_t sum = staging.size();
+    for (const DeviceBuffer& buffer : buffers) {
+        sum += buffer.size();
+    }
+    return sum;
+}
+
+namespace {
+
+/// One run: its memory, its job and what the device reported last.
+class Run {
+  public:
+    Run(Runner::Impl& runner, const PreparedMesh& mesh, const SampleParams& params)
+        : runner_(runner), mesh_(mesh), params_(params) {}
+
+    Result<SampleSet> go(const ProgressCallback& progress, std::uint32_t chain);
+    std::uint32_t longest_chain() const { return control_.longest_chain; }
+
+  private:
+    Result<Done> prepare(std::uint32_t chain);
+    Result<Done> upload();
+    Result<Done> upload_buffer(BufferRole role);
+    Result<Done> sample(const ProgressCallback& progress);
+    Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
+    Result<Done> grow();
+    Result<std::vector<Sample>> read_samples();
+
+    Runner::Impl& runner_;
+    const PreparedMesh& mesh_;
+    const SampleParams& params_;
+    RunMemory memory_;
+    std::optional<Job> job_;
+    gpu::ControlRec control_{};
+    RunReport report_;
+};
+
+Result<Done> Run::prepare(std::uint32_t chain) {
+    const Sampler& sampler = runner_.sampler;
+    auto plan = sampler.plan_run(mesh_, params_, runner_.options.pool_bytes);
+    if (!plan) {
+        return plan.error();
+    }
+    apply_overrides(*plan, runner_.options.plan);
+    plan->chain = std::max(plan->chain, chain);
+    const auto needs = sampler.workspace_needs(mesh_, params_, *plan);
+    if (!needs) {
+        return needs.error();
+    }
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        auto buffer = runner_.allocate(needs->bytes[i], kWorkspaceUsage, MemoryKind::device);
+        if (!buffer) {
+            return buffer.error();
+        }
+        memory_.buffers[i] = std::move(*buffer);
+    }
+    auto staging = runner_.allocate(
+        kStagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        MemoryKind::host);
+    if (!staging) {
+        return staging.error();
+    }
+    memory_.staging = std::move(*staging);
+    auto job = sampler.make_job(mesh_, params_, *plan, memory_.workspace());
+    if (!job) {
+        return job.error();
+    }
+    job_.emplace(std::move(*job));
+    report_.candidates = job_->candidates();
+    report_.guard = tolerances_for(mesh_, params_.min_distance, plan->chain).guard;
+    return Done{};
+}
+
+Result<Done> Run::upload_buffer(BufferRole role) {
+    std::vector<std::byte> bytes(runner_.sampler.mesh_bytes_size(mesh_, role));
+    if (auto written = runner_.sampler.mesh_bytes(mesh_, params_, role, bytes); !written) {
+        return written.error();
+    }
+    const DeviceTable& vk = runner_.engine().vk;
+    for (std::size_t done = 0; done < bytes.size();) {
+        const std::size_t part =
+            std::min<std::size_t>(bytes.size() - done, memory_.staging.bytes().size());
+        std::memcpy(memory_.staging.bytes().data(), bytes.data() + done, part);
+        auto copied = runner_.submitter->run([&](VkCommandBuffer commands) {
+            const VkBufferCopy copy{0, done, part};
+            vk.vkCmdCopyBuffer(commands, memory_.staging.handle(),
+                               memory_.buffers[index_of(role)].handle(), 1, &copy);
+            barrier_transfer_to_compute(vk, commands);
+        });
+        if (!copied) {
+            return copied.error();
+        }
+        done += part;
+    }
+    return Done{};
+}
+
+Result<Done> Run::upload() {
+    for (const BufferRole role :
+         {BufferRole::half_edges, BufferRole::fans, BufferRole::alias, BufferRole::cells}) {
+        if (auto done = upload_buffer(role); !done) {
+            return done.error();
+        }
+    }
+    return Done{};
+}
+
+Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
+    const DeviceTable& vk = runner_.engine().vk;
+    auto done = runner_.submitter->run([&](VkCommandBuffer commands) {
+        if (report_.dispatches == 0) {
+            runner_.sampler.record_begin(commands, *job_);
+            report_.dispatches += kDispatchesToBegin;
+        }
+        if (rewind) {
+            runner_.sampler.record_rewind(commands, *job_);
+            ++report_.dispatches;
+        }
+        runner_.sampler.record_rounds(commands, *job_, rounds);
+        report_.dispatches += rounds * kDispatchesPerRound;
+        barrier_compute_to_transfer(vk, commands);
+        const VkBufferCopy copy{0, 0, sizeof control_};
+        vk.vkCmdCopyBuffer(commands, memory_.buffers[index_of(BufferRole::control)].handle(),
+                           memory_.staging.handle(), 1, &copy);
+        barrier_transfer_to_host(vk, commands);
+    });
+    if (!done) {
+        return done.error();
+    }
+    std::memcpy(&control_, memory_.staging.bytes().data(), sizeof control_);
+    if (control_.abi != gpu::kAbi) {
+        return Error{Status::internal, "the device did not write its control record"};
+    }
+    return Done{};
+}
+
+Result<Done> Run::grow() {
+    const auto grown = runner_.sampler.grow_plan(
+        job_->plan(), control_.overflow, memory_.buffers[index_of(BufferRole::pool)].size());
+    // When not even one slice fits the pool of this run, a larger pool may still be allowed.
+    if (grown) {
+        ++report_.regrown;
+        return job_->set_plan(*grown);
+    }
+    return grown.error();
+}
+
+Result<Done> Run::sample(const ProgressCallback& progress) {
+    std::uint32_t rounds = 1;
+    bool rewind = false;
+    while (control_.done == 0) {
+        const auto start = Clock::now();
+        if (auto done = run_rounds(rounds, rewind); !done) {
+            return done.error();
+        }
+        const double took = seconds_since(start);
+        rounds = took < kTargetSeconds / 2   ? std::min(2 * rounds, kMostRounds)
+                 : took > 2 * kTargetSeconds ? std::max(rounds / 2, 1u)
+                                             : rounds;
+        rewind = control_.overflow != 0;
+        if (rewind) {
+            if (auto grown = grow(); !grown) {
+                return grown.error();
+            }
+        }
+        if (progress &&
+            !progress({control_.next_rank, report_.candidates, control_.accepted})) {
+            return Error{Status::cancelled, "cancelled"};
+        }
+    }
+    const DeviceTable& vk = runner_.engine().vk;
+    report_.dispatches += kDispatchesToFinish;
+    return runner_.submitter->run([&](VkCommandBuffer commands) {
+        runner_.sampler.record_finish(commands, *job_);
+        barrier_compute_to_transfer(vk, commands);
+    });
+}
+
+Result<std::vector<Sample>> Run::read_samples() {
+    std::vector<Sample> samples;
+    samples.reserve(control_.accepted);
+    const DeviceTable& vk = runner_.engine().vk;
+    const std::size_t per_part = memory_.staging.bytes().size() / sizeof(gpu::SampleRec);
+    for (std::size_t first = 0; first < control_.accepted; first += per_part) {
+        const std::size_t count = std::min<std::size_t>(per_part, control_.accepted - first);
+        auto done = runner_.submitter->run([&](VkCommandBuffer commands) {
+            const VkBufferCopy copy{first * sizeof(gpu::SampleRec), 0,
+                                    count * sizeof(gpu::SampleRec)};
+            vk.vkCmdCopyBuffer(commands, memory_.buffers[index_of(BufferRole::samples)].handle(),
+                               memory_.staging.handle(), 1, &copy);
+            barrier_transfer_to_host(vk, commands);
+        });
+        if (!done) {
+            return done.error();
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            gpu::SampleRec record;
+            std::memcpy(&record, memory_.staging.bytes().data() + i * sizeof record, sizeof record);
+            samples.push_back({record.rank, record.face,
+                               {1.0f - record.weight1 - record.weight2, record.weight1,
+                                record.weight2}});
+        }
+    }
+    return samples;
+}
+
+Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain) {
+    auto start = Clock::now();
+    if (auto done = prepare(chain); !done) {
+        return done.error();
+    }
+    if (auto done = upload(); !done) {
+        return done.error();
+    }
+    report_.seconds.upload = seconds_since(start);
+    start = Clock::now();
+    if (auto done = sample(progress); !done) {
+        return done.error();
+    }
+    report_.seconds.sample = seconds_since(start);
+    start = Clock::now();
+    auto samples = read_samples();
+    if (!samples) {
+        return samples.error();
+    }
+    report_.seconds.readback = seconds_since(start);
+    report_.iterations = control_.iterations;
+    report_.disks = control_.disks;
+    report_.windows = std::uint64_t{control_.windows_high} << 32 | control_.windows_low;
+    report_.tested = std::uint64_t{control_.tested_high} << 32 | control_.tested_low;
+    report_.largest_heap = control_.largest_heap;
+    report_.longest_chain = control_.longest_chain;
+    report_.device_bytes = memory_.bytes();
+    report_.plan = job_->plan();
+    return SampleSet{std::move(*samples), report_};
+}
+
+} // namespace
+
+Runner::Runner(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Runner::Runner(Runner&&) noexcept = default;
+Runner& Runner::operator=(Runner&&) noexcept = default;
+Runner::~Runner() = default;
+
+const Sampler& Runner::sampler() const noexcept { return impl_->sampler; }
+
+Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
+                                            MemoryKind kind) const {
+    return DeviceBuffer::create(engine().device, engine().vk, memory, bytes, usage, kind);
+}
+
+Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
+                              const RunnerOptions& options) noexcept {
+    return guarded([&]() -> Result<Runner> {
+        auto sampler = Sampler::create(device, options.sampler);
+        if (!sampler) {
+            return sampler.error();
+        }
+        const auto instance = load_instance_table(device.get_instance_proc_addr, device.instance);
+        if (!instance) {
+            return instance.error();
+        }
+        auto impl = std::make_unique<Impl>(std::move(*sampler));
+        impl->options = options;
+        instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
+        auto submitter = Submitter::create(impl->engine().device, impl->engine().vk, queue,
+                                           std::chrono::seconds(options.stall_seconds));
+        if (!submitter) {
+            return submitter.error();
+        }
+        impl->submitter.emplace(std::move(*submitter));
+        if (auto checked = impl->check_rounding(); !checked) {
+            return checked.error();
+        }
+        return Runner(std::move(impl));
+    });
+}
+
+Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
+                                          const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<SampleSet> {
+        std::uint32_t chain = 0;
+        for (;;) {
+            Run run(*impl_, mesh, params);
+            auto result = run.go(progress, chain);
+            if (!result || result->report.longest_chain <= result->report.plan.chain) {
+                return result;
+            }
+            // The guard was made for shorter chains than were met: widen it and start over.
+            chain = 2 * result->report.longest_chain;
+        }
+    });
+}
+
+} // namespace geodisk

@@ -1,0 +1,40 @@
+// What Runner holds; shared by the files that implement it.
+#pragma once
+
+#include <optional>
+
+#include <geodisk/runner.hpp>
+
+#include "engine/sampler_impl.hpp"
+#include "engine/submitter.hpp"
+#include "records.h"
+#include "vk/buffer.hpp"
+
+namespace geodisk {
+
+struct Runner::Impl {
+    Sampler sampler;
+    RunnerOptions options;
+    VkPhysicalDeviceMemoryProperties memory{};
+    std::optional<Submitter> submitter;
+
+    explicit Impl(Sampler s) : sampler(std::move(s)) {}
+
+    const Sampler::Impl& engine() const { return *sampler.impl_; }
+    Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
+                                  MemoryKind kind) const;
+
+    /// Compares what the self_test kernel computes with the host's arithmetic, bit by bit.
+    Result<Done> check_rounding();
+};
+
+/// The buffers of one run and its staging.
+struct RunMemory {
+    std::array<DeviceBuffer, kBufferRoles> buffers;
+    DeviceBuffer staging;
+
+    Workspace workspace() const;
+    std::uint64_t bytes() const;
+};
+
+} // namespace geodisk

@@ -1,0 +1,189 @@
+#include <geodisk/sampler.hpp>
+
+#include <bit>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "constants.h"
+#include "engine/device_mesh.hpp"
+#include "engine/sampler_impl.hpp"
+#include "support/guard.hpp"
+#include "vk/result.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr std::uint32_t kDefaultLocalSize = 64;
+
+Result<Done> check_options(const SamplerOptions& options, const DeviceReport& report) {
+    const std::uint32_t most =
+        std::min(report.limits.max_workgroup_invocations, report.limits.max_workgroup_size_x);
+    if (options.local_size > most || (options.local_size & (options.local_size - 1)) != 0) {
+        return Error{Status::invalid_argument,
+                     "the local size must be 0 or a power of two up to the device's limit of " +
+                         std::to_string(most)};
+    }
+    return Done{};
+}
+
+std::string join(const std::vector<std::string>& reasons) {
+    std::string text;
+    for (const std::string& reason : reasons) {
+        text += (text.empty() ? "" : "; ") + reason;
+    }
+    return text;
+}
+
+} // namespace
+
+Sampler::Sampler(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Sampler::Sampler(Sampler&&) noexcept = default;
+Sampler& Sampler::operator=(Sampler&&) noexcept = default;
+Sampler::~Sampler() = default;
+
+const DeviceReport& Sampler::report() const noexcept { return impl_->report; }
+
+Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& options) noexcept {
+    return guarded([&]() -> Result<Sampler> {
+        auto report =
+            query_device(device.get_instance_proc_addr, device.instance, device.physical_device);
+        if (!report) {
+            return report.error();
+        }
+        if (!report->usable()) {
+            return Error{Status::device_lacks,
+                         report->name + " cannot run geodisk: " + join(report->reasons_against)};
+        }
+        if (auto checked = check_options(options, *report); !checked) {
+            return checked.error();
+        }
+        auto table = load_device_table(device);
+        if (!table) {
+            return table.error();
+        }
+        auto impl = std::make_unique<Impl>();
+        impl->device = device;
+        impl->vk = *table;
+        impl->native_rounding = options.rounding == Rounding::native ||
+                                (options.rounding == Rounding::automatic && report->rounds_natively);
+        impl->local_size = options.local_size != 0 ? options.local_size : kDefaultLocalSize;
+        impl->report = std::move(*report);
+        if (auto created = impl->create_pipelines(); !created) {
+            return created.error();
+        }
+        return Sampler(std::move(impl));
+    });
+}
+
+Sampler::Impl::~Impl() {
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        if (vk.vkDestroyPipeline == nullptr) {
+            return;
+        }
+        vk.vkDestroyPipeline(device.device, pipelines[k], device.host_allocator);
+        vk.vkDestroyPipelineLayout(device.device, layouts[k], device.host_allocator);
+        vk.vkDestroyDescriptorSetLayout(device.device, set_layouts[k], device.host_allocator);
+    }
+}
+
+Result<Done> Sampler::Impl::create_pipelines() {
+    for (std::uint32_t k = 0; k < kKernels; ++k) {
+        if (auto created = create_pipeline(static_cast<Kernel>(k)); !created) {
+            return created.error();
+        }
+    }
+    return Done{};
+}
+
+Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
+    const auto k = static_cast<std::size_t>(kernel);
+    const KernelInfo& info = kernel_info(kernel);
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const std::uint32_t number : info.bindings) {
+        bindings.push_back({number, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+                            VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
+    VkDescriptorSetLayoutCreateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set_info.pBindings = bindings.data();
+    VkResult result = vk.vkCreateDescriptorSetLayout(device.device, &set_info,
+                                                     device.host_allocator, &set_layouts[k]);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreateDescriptorSetLayout", result);
+    }
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::Push)};
+    VkPipelineLayoutCreateInfo layout_info{};
+    layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layout_info.setLayoutCount = 1;
+    layout_info.pSetLayouts = &set_layouts[k];
+    layout_info.pushConstantRangeCount = 1;
+    layout_info.pPushConstantRanges = &range;
+    result = vk.vkCreatePipelineLayout(device.device, &layout_info, device.host_allocator,
+                                       &layouts[k]);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreatePipelineLayout", result);
+    }
+    VkShaderModuleCreateInfo module_info{};
+    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    module_info.codeSize = info.spirv.size_bytes();
+    module_info.pCode = info.spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    result = vk.vkCreateShaderModule(device.device, &module_info, device.host_allocator, &module);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreateShaderModule", result);
+    }
+    const std::array<std::uint32_t, 2> constants{local_size, native_rounding ? VK_TRUE : VK_FALSE};
+    const std::array<VkSpecializationMapEntry, 2> entries{{
+        {gpu::kSpecLocalSize, 0, sizeof(std::uint32_t)},
+        {gpu::kSpecNativeRounding, sizeof(std::uint32_t), sizeof(std::uint32_t)},
+    }};
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
+                                              entries.data(), sizeof constants, constants.data()};
+    VkComputePipelineCreateInfo pipeline_info{};
+    pipeline_info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    pipeline_info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    pipeline_info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    pipeline_info.stage.module = module;
+    pipeline_info.stage.pName = "main";
+    pipeline_info.stage.pSpecializationInfo = &specialization;
+    pipeline_info.layout = layouts[k];
+    result = vk.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &pipeline_info,
+                                         device.host_allocator, &pipelines[k]);
+    vk.vkDestroyShaderModule(device.device, module, device.host_allocator);
+    if (result != VK_SUCCESS) {
+        Error error = vk_error("vkCreateComputePipelines", result);
+        error.message += std::string(" (kernel ") + info.name + ")";
+        return error;
+    }
+    return Done{};
+}
+
+std::size_t Sampler::mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept {
+    switch (role) {
+    case BufferRole::half_edges: return half_edge_bytes(mesh);
+    case BufferRole::fans: return fan_bytes(mesh);
+    case BufferRole::alias: return alias_bytes(mesh);
+    case BufferRole::cells: return face_word_bytes(mesh);
+    default: return 0;
+    }
+}
+
+Result<Done> Sampler::mesh_bytes(const PreparedMesh& mesh, const SampleParams& params,
+                                 BufferRole role, std::span<std::byte> out) const noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (out.size() != mesh_bytes_size(mesh, role) || out.empty()) {
+            return Error{Status::invalid_argument, "not a mesh buffer, or not of its size"};
+        }
+        switch (role) {
+        case BufferRole::half_edges: write_half_edges(mesh, params.min_distance, out); break;
+        case BufferRole::fans: write_fans(mesh, out); break;
+        case BufferRole::alias: write_alias(mesh, out); break;
+        default: write_face_words(mesh, params.min_distance, out); break;
+        }
+        return Done{};
+    });
+}
+
+} // namespace geodisk

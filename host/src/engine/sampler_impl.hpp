@@ -1,0 +1,58 @@
+// What Sampler and Job hold; shared by the files that implement them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <geodisk/sampler.hpp>
+
+#include "engine/kernel_table.hpp"
+#include "push.h"
+#include "vk/dispatch.hpp"
+
+namespace geodisk {
+
+struct Sampler::Impl {
+    DeviceRefs device;
+    DeviceReport report;
+    DeviceTable vk;
+    std::uint32_t local_size = 0;
+    bool native_rounding = false;
+    std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
+    std::array<VkPipelineLayout, kKernels> layouts{};
+    std::array<VkPipeline, kKernels> pipelines{};
+
+    ~Impl();
+    Result<Done> create_pipelines();
+    Result<Done> create_pipeline(Kernel kernel);
+};
+
+/// A descriptor set of a job: a kernel over the workspace, or a scan kernel over another buffer.
+enum class SetRole : std::uint32_t { workspace, cell_scan };
+inline constexpr std::size_t kSetRoles = 2;
+
+struct Job::Impl {
+    const Sampler::Impl* sampler = nullptr;
+    VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
+    std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
+    Workspace workspace{};
+    RunPlan plan;
+    gpu::Push push{};
+
+    ~Impl();
+    Result<Done> write_sets();
+    void apply_plan(const RunPlan& new_plan);
+};
+
+/// Work groups for `count` invocations, folded over two dimensions where one is not enough.
+struct Groups {
+    std::uint32_t x, y;
+};
+constexpr Groups groups_for(std::uint64_t count, std::uint32_t local_size) {
+    const std::uint64_t groups = (count + local_size - 1) / local_size;
+    const std::uint64_t rows = (groups + 65534) / 65535;
+    return {static_cast<std::uint32_t>(rows == 0 ? 0 : (groups + rows - 1) / rows),
+            static_cast<std::uint32_t>(rows)};
+}
+
+} // namespace geodisk

@@ -1,0 +1,114 @@
+#include "engine/submitter.hpp"
+
+#include <utility>
+
+#include "vk/result.hpp"
+
+namespace geodisk {
+
+Result<Submitter> Submitter::create(const DeviceRefs& device, const DeviceTable& vk,
+                                    const QueueRef& queue, std::chrono::seconds stall_limit) {
+    Submitter result;
+    result.device_ = &device;
+    result.vk_ = &vk;
+    result.queue_ = queue;
+    result.stall_limit_ = stall_limit;
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool.queueFamilyIndex = queue.family;
+    VkResult status =
+        vk.vkCreateCommandPool(device.device, &pool, device.host_allocator, &result.pool_);
+    if (status != VK_SUCCESS) {
+        return vk_error("vkCreateCommandPool", status);
+    }
+    VkCommandBufferAllocateInfo allocate{};
+    allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocate.commandPool = result.pool_;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    status = vk.vkAllocateCommandBuffers(device.device, &allocate, &result.commands_);
+    if (status != VK_SUCCESS) {
+        return vk_error("vkAllocateCommandBuffers", status);
+    }
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    status = vk.vkCreateFence(device.device, &fence, device.host_allocator, &result.fence_);
+    if (status != VK_SUCCESS) {
+        return vk_error("vkCreateFence", status);
+    }
+    return result;
+}
+
+Submitter::Submitter(Submitter&& other) noexcept
+    : device_(other.device_), vk_(std::exchange(other.vk_, nullptr)), queue_(other.queue_),
+      stall_limit_(other.stall_limit_), pool_(other.pool_), commands_(other.commands_),
+      fence_(other.fence_), abandoned_(other.abandoned_) {}
+
+Submitter::~Submitter() {
+    if (vk_ != nullptr && !abandoned_) {
+        vk_->vkDestroyFence(device_->device, fence_, device_->host_allocator);
+        vk_->vkDestroyCommandPool(device_->device, pool_, device_->host_allocator);
+    }
+}
+
+Result<Done> Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
+    VkResult status = vk_->vkResetCommandPool(device_->device, pool_, 0);
+    if (status != VK_SUCCESS) {
+        return vk_error("vkResetCommandPool", status);
+    }
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    status = vk_->vkBeginCommandBuffer(commands_, &begin);
+    if (status != VK_SUCCESS) {
+        return vk_error("vkBeginCommandBuffer", status);
+    }
+    record(commands_);
+    status = vk_->vkEndCommandBuffer(commands_);
+    if (status != VK_SUCCESS) {
+        return vk_error("vkEndCommandBuffer", status);
+    }
+    VkSubmitInfo submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands_;
+    if (queue_.lock != nullptr) {
+        queue_.lock(queue_.lock_user);
+    }
+    status = vk_->vkQueueSubmit(queue_.queue, 1, &submit, fence_);
+    if (queue_.unlock != nullptr) {
+        queue_.unlock(queue_.lock_user);
+    }
+    if (status != VK_SUCCESS) {
+        return vk_error("vkQueueSubmit", status);
+    }
+    return wait();
+}
+
+Result<Done> Submitter::wait() {
+    const auto deadline = std::chrono::steady_clock::now() + stall_limit_;
+    constexpr std::uint64_t kSlice = 50'000'000;
+    for (;;) {
+        const VkResult status =
+            vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE, kSlice);
+        if (status == VK_SUCCESS) {
+            break;
+        }
+        if (status != VK_TIMEOUT) {
+            return vk_error("vkWaitForFences", status);
+        }
+        if (std::chrono::steady_clock::now() > deadline) {
+            abandoned_ = true;
+            return Error{Status::device_lost, "the device has not answered for " +
+                                                  std::to_string(stall_limit_.count()) + " seconds"};
+        }
+    }
+    const VkResult reset = vk_->vkResetFences(device_->device, 1, &fence_);
+    if (reset != VK_SUCCESS) {
+        return vk_error("vkResetFences", reset);
+    }
+    return Done{};
+}
+
+} // namespace geodisk

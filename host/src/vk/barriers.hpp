@@ -1,0 +1,46 @@
+// The few barriers geodisk records, by name.
+#pragma once
+
+#include "vk/dispatch.hpp"
+
+namespace geodisk {
+
+inline void record_barrier(const DeviceTable& vk, VkCommandBuffer commands,
+                           VkPipelineStageFlags from, VkAccessFlags written,
+                           VkPipelineStageFlags to, VkAccessFlags used) {
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = written;
+    barrier.dstAccessMask = used;
+    vk.vkCmdPipelineBarrier(commands, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+/// One dispatch's writes become visible to the next one, and to its indirect size.
+inline void barrier_compute_to_compute(const DeviceTable& vk, VkCommandBuffer commands) {
+    record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                   VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                       VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+/// Fills and copies become visible to dispatches.
+inline void barrier_transfer_to_compute(const DeviceTable& vk, VkCommandBuffer commands) {
+    record_barrier(vk, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                   VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                       VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+/// Dispatches become visible to copies.
+inline void barrier_compute_to_transfer(const DeviceTable& vk, VkCommandBuffer commands) {
+    record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+/// Copies become visible to the host.
+inline void barrier_transfer_to_host(const DeviceTable& vk, VkCommandBuffer commands) {
+    record_barrier(vk, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+}
+
+} // namespace geodisk

@@ -1,0 +1,45 @@
+// A buffer with memory of its own.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <geodisk/device.hpp>
+
+#include "vk/dispatch.hpp"
+
+namespace geodisk {
+
+enum class MemoryKind {
+    device, ///< Fast for the device; the host may not see it.
+    host,   ///< Mapped and coherent.
+};
+
+/// Owns a VkBuffer and its memory; movable. `device` and `vk` must outlive it.
+class DeviceBuffer {
+  public:
+    /// Errors: `out_of_device_memory` naming the bytes, or as Vulkan fails.
+    static Result<DeviceBuffer> create(const DeviceRefs& device, const DeviceTable& vk,
+                                       const VkPhysicalDeviceMemoryProperties& memory,
+                                       VkDeviceSize bytes, VkBufferUsageFlags usage,
+                                       MemoryKind kind);
+    DeviceBuffer() = default;
+    DeviceBuffer(DeviceBuffer&& other) noexcept;
+    DeviceBuffer& operator=(DeviceBuffer&& other) noexcept;
+    ~DeviceBuffer();
+
+    VkBuffer handle() const noexcept { return buffer_; }
+    VkDeviceSize size() const noexcept { return size_; }
+    /// The mapped bytes of a host buffer.
+    std::span<std::byte> bytes() const noexcept { return mapped_; }
+
+  private:
+    const DeviceRefs* device_ = nullptr;
+    const DeviceTable* vk_ = nullptr;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkDeviceSize size_ = 0;
+    std::span<std::byte> mapped_;
+};
+
+} // namespace geodisk
