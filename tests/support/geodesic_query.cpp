@@ -1,0 +1,53 @@
+#include "support/geodesic_query.hpp"
+
+#include <algorithm>
+
+namespace geodisk::test {
+namespace {
+
+template <class Real>
+ref::FacePoint<Real> converted(const Point& p) {
+    return {p.face, static_cast<Real>(p.weight1), static_cast<Real>(p.weight2)};
+}
+
+template <class Real>
+std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
+    std::vector<ref::FacePoint<Real>> result;
+    for (const Point& p : points) {
+        result.push_back(converted<Real>(p));
+    }
+    return result;
+}
+
+} // namespace
+
+Tolerances tight_tolerances() {
+    Tolerances t{};
+    t.limit = 1;
+    t.margin = 0x1p-40f;
+    t.slack = 0x1p-40f;
+    return t;
+}
+
+template <class Real>
+GeodesicQuery<Real>::GeodesicQuery(const PreparedMesh& mesh, double reach,
+                                   const std::vector<Point>& targets, const Tolerances& tolerances)
+    : reach_(reach), surface_(mesh, reach), bins_(surface_, converted<Real>(targets)),
+      detector_(surface_, bins_, tolerances, tolerances.limit) {}
+
+template <class Real>
+std::vector<double> GeodesicQuery<Real>::from(const Point& source) {
+    std::vector<double> result(bins_.order.size(), kUnreachable);
+    count_ = detector_.run(
+        converted<Real>(source), [](std::uint32_t) { return true; },
+        [&](std::uint32_t place, Real distance) {
+            double& best = result[bins_.order[place]];
+            best = std::min(best, static_cast<double>(distance) * reach_);
+        });
+    return result;
+}
+
+template class GeodesicQuery<float>;
+template class GeodesicQuery<double>;
+
+} // namespace geodisk::test

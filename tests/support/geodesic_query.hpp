@@ -1,0 +1,44 @@
+// Distances through the reference's Detector: from one face point to many.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "geodisk/params.hpp"
+#include "kernels/bins.hpp"
+#include "kernels/detect.hpp"
+#include "support/meshes.hpp"
+
+namespace geodisk::test {
+
+inline constexpr double kUnreachable = std::numeric_limits<double>::infinity();
+
+/// Tolerances that let rounding in double alone show: margin and slack of 2^-40.
+Tolerances tight_tolerances();
+
+/// "All distances from this point to those within reach." Lengths are in mesh units; inside, the
+/// reach is the unit, as the minimum distance is in a run.
+template <class Real>
+class GeodesicQuery {
+  public:
+    /// `mesh` must outlive the query.
+    GeodesicQuery(const PreparedMesh& mesh, double reach, const std::vector<Point>& targets,
+                  const Tolerances& tolerances);
+    GeodesicQuery(const GeodesicQuery&) = delete;
+    GeodesicQuery& operator=(const GeodesicQuery&) = delete;
+
+    /// Per target the length of the shortest path found, or kUnreachable.
+    std::vector<double> from(const Point& source);
+
+    /// What the last call took.
+    const ref::DiskCount& count() const { return count_; }
+
+  private:
+    double reach_;
+    ref::Surface<Real> surface_;
+    ref::Bins<Real> bins_;
+    ref::Detector<Real> detector_;
+    ref::DiskCount count_;
+};
+
+} // namespace geodisk::test

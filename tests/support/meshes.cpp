@@ -1,0 +1,280 @@
+#include "support/meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "common/builtin_shapes.hpp"
+#include "common/mesh_file.hpp"
+#include "kernels/candidates.hpp"
+
+namespace geodisk::test {
+namespace {
+
+void add_quad(TestMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.add_triangle(a, b, c);
+    mesh.add_triangle(a, c, d);
+}
+
+/// Whether d lies outside the circle through a, b, c (counter-clockwise, z = 0).
+bool outside_circle(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+    const Vec3 p = a - d;
+    const Vec3 q = b - d;
+    const Vec3 r = c - d;
+    const double p2 = dot(p, p);
+    const double q2 = dot(q, q);
+    const double r2 = dot(r, r);
+    return p.x * (q.y * r2 - q2 * r.y) - p.y * (q.x * r2 - q2 * r.x) + p2 * (q.x * r.y - q.y * r.x) <=
+           0;
+}
+
+double uniform(std::mt19937_64& random) {
+    return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+} // namespace
+
+Vec3 TestMesh::vertex(std::uint32_t v) const {
+    const std::size_t i = std::size_t{3} * v;
+    return {positions[i], positions[i + 1], positions[i + 2]};
+}
+
+Vec3 TestMesh::position(const Point& point) const {
+    return (1 - point.weight1 - point.weight2) * corner(point.face, 0) +
+           point.weight1 * corner(point.face, 1) + point.weight2 * corner(point.face, 2);
+}
+
+std::uint32_t TestMesh::add_vertex(Vec3 p) {
+    positions.insert(positions.end(), {p.x, p.y, p.z});
+    return vertex_count() - 1;
+}
+
+void TestMesh::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    triangles.insert(triangles.end(), {a, b, c});
+}
+
+PreparedMesh prepared(const TestMesh& mesh) {
+    auto result = PreparedMesh::prepare(mesh.view());
+    if (!result) {
+        throw std::runtime_error(result.error().message);
+    }
+    return std::move(*result);
+}
+
+std::optional<TestMesh> shared_mesh(const std::string& name) {
+    const std::filesystem::path folder{GEODISK_SHARED_DATA};
+    if (!std::filesystem::is_directory(folder)) {
+        MESSAGE("skipped: no shared data folder for " << name);
+        return std::nullopt;
+    }
+    tools::MeshFile file = tools::read_mesh((folder / name).string());
+    return TestMesh{std::move(file.positions), std::move(file.triangles)};
+}
+
+TestMesh builtin(std::string_view name, int resolution) {
+    tools::MeshFile file = tools::make_builtin(name, resolution);
+    return {std::move(file.positions), std::move(file.triangles)};
+}
+
+Point face_point(std::uint32_t face, double weight1, double weight2) {
+    const double first = std::round(weight1 * 0x1p24) * 0x1p-24;
+    const double both = std::round((weight1 + weight2) * 0x1p24) * 0x1p-24;
+    return {face, first, both - first};
+}
+
+Point point_at(const TestMesh& mesh, double x, double y) {
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 a = mesh.corner(f, 0);
+        const Vec3 u = mesh.corner(f, 1) - a;
+        const Vec3 v = mesh.corner(f, 2) - a;
+        const double area = u.x * v.y - u.y * v.x;
+        const double w1 = ((x - a.x) * v.y - (y - a.y) * v.x) / area;
+        const double w2 = (u.x * (y - a.y) - u.y * (x - a.x)) / area;
+        if (w1 >= -1e-12 && w2 >= -1e-12 && w1 + w2 <= 1 + 1e-12) {
+            return face_point(f, w1, w2);
+        }
+    }
+    throw std::runtime_error("no face holds the point");
+}
+
+std::vector<Point> points_at_vertex(const TestMesh& mesh, std::uint32_t v) {
+    std::vector<Point> points;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (mesh.triangles[i] == v) {
+            points.push_back({i / 3, i % 3 == 1 ? 1.0 : 0.0, i % 3 == 2 ? 1.0 : 0.0});
+        }
+    }
+    return points;
+}
+
+std::vector<Point> random_points(const PreparedMesh& mesh, std::uint64_t seed,
+                                 std::uint32_t count) {
+    return ref::draw_candidates<double>(mesh.alias_columns(), seed, count);
+}
+
+TestMesh subdivided(const TestMesh& mesh, int times) {
+    if (times == 0) {
+        return mesh;
+    }
+    TestMesh result;
+    result.positions = mesh.positions;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), 0u);
+        if (is_new) {
+            at->second = result.add_vertex(0.5 * (mesh.vertex(a) + mesh.vertex(b)));
+        }
+        return at->second;
+    };
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const std::uint32_t a = mesh.triangles[i];
+        const std::uint32_t b = mesh.triangles[i + 1];
+        const std::uint32_t c = mesh.triangles[i + 2];
+        const std::uint32_t ab = middle(a, b);
+        const std::uint32_t bc = middle(b, c);
+        const std::uint32_t ca = middle(c, a);
+        result.add_triangle(a, ab, ca);
+        result.add_triangle(ab, b, bc);
+        result.add_triangle(ca, bc, c);
+        result.add_triangle(ab, bc, ca);
+    }
+    return subdivided(result, times - 1);
+}
+
+TestMesh flat_grid(std::uint32_t columns, std::uint32_t rows, double width, double height) {
+    TestMesh mesh;
+    for (std::uint32_t j = 0; j <= rows; ++j) {
+        for (std::uint32_t i = 0; i <= columns; ++i) {
+            mesh.add_vertex({width * i / columns, height * j / rows, 0});
+        }
+    }
+    for (std::uint32_t j = 0; j < rows; ++j) {
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            const std::uint32_t a = j * (columns + 1) + i;
+            add_quad(mesh, a, a + 1, a + columns + 2, a + columns + 1);
+        }
+    }
+    return mesh;
+}
+
+TestMesh flat_lines(const std::vector<double>& xs, const std::vector<double>& ys) {
+    TestMesh mesh;
+    for (const double y : ys) {
+        for (const double x : xs) {
+            mesh.add_vertex({x, y, 0});
+        }
+    }
+    const auto columns = static_cast<std::uint32_t>(xs.size());
+    for (std::uint32_t j = 0; j + 1 < ys.size(); ++j) {
+        for (std::uint32_t i = 0; i + 1 < columns; ++i) {
+            const std::uint32_t a = j * columns + i;
+            const std::uint32_t d = a + columns;
+            (i + j) % 2 == 0 ? add_quad(mesh, a, a + 1, d + 1, d)
+                             : add_quad(mesh, a + 1, d + 1, d, a);
+        }
+    }
+    return mesh;
+}
+
+TestMesh flat_irregular(std::uint32_t parts, std::uint64_t seed) {
+    TestMesh mesh;
+    std::mt19937_64 random(seed);
+    const double cell = 1.0 / parts;
+    const auto moved = [&](std::uint32_t i) {
+        const double shift = 0.7 * (uniform(random) - 0.5);
+        return cell * (i + (i == 0 || i == parts ? 0 : shift));
+    };
+    for (std::uint32_t j = 0; j <= parts; ++j) {
+        for (std::uint32_t i = 0; i <= parts; ++i) {
+            const double x = moved(i);
+            mesh.add_vertex({x, moved(j), 0});
+        }
+    }
+    for (std::uint32_t j = 0; j < parts; ++j) {
+        for (std::uint32_t i = 0; i < parts; ++i) {
+            const std::uint32_t a = j * (parts + 1) + i;
+            const std::uint32_t b = a + 1;
+            const std::uint32_t d = a + parts + 1;
+            const std::uint32_t c = d + 1;
+            if (outside_circle(mesh.vertex(a), mesh.vertex(b), mesh.vertex(c), mesh.vertex(d))) {
+                add_quad(mesh, a, b, c, d);
+            } else {
+                add_quad(mesh, b, c, d, a);
+            }
+        }
+    }
+    return mesh;
+}
+
+TestMesh flat_obtuse_fan(std::uint32_t parts_per_side) {
+    TestMesh mesh;
+    mesh.add_vertex({0.5, 0.001, 0});
+    const Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (std::uint32_t side = 0; side < 4; ++side) {
+        for (std::uint32_t i = 0; i < parts_per_side; ++i) {
+            const double t = static_cast<double>(i) / parts_per_side;
+            mesh.add_vertex((1 - t) * corners[side] + t * corners[(side + 1) % 4]);
+        }
+    }
+    const std::uint32_t count = 4 * parts_per_side;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        mesh.add_triangle(0, 1 + i, 1 + (i + 1) % count);
+    }
+    return mesh;
+}
+
+TestMesh two_sided_square() {
+    return {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}};
+}
+
+TestMesh prism_tube(std::uint32_t sides, double side, double height, std::uint32_t rows) {
+    TestMesh mesh;
+    const double step = 2 * std::numbers::pi / sides;
+    const double radius = side / (2 * std::sin(step / 2));
+    for (std::uint32_t j = 0; j <= rows; ++j) {
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            mesh.add_vertex({radius * std::cos(step * i), radius * std::sin(step * i),
+                             height * j / rows});
+        }
+    }
+    for (std::uint32_t j = 0; j < rows; ++j) {
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const std::uint32_t a = j * sides + i;
+            const std::uint32_t b = j * sides + (i + 1) % sides;
+            add_quad(mesh, a, b, b + sides, a + sides);
+        }
+    }
+    return mesh;
+}
+
+TestMesh moebius_double_cover(int resolution) {
+    const TestMesh strip = builtin("moebius", resolution);
+    const auto across = static_cast<std::uint32_t>(resolution);
+    const std::uint32_t vertices = strip.vertex_count();
+    const std::uint32_t along = vertices / (across + 1);
+    TestMesh cover;
+    cover.positions = strip.positions;
+    cover.positions.insert(cover.positions.end(), strip.positions.begin(), strip.positions.end());
+    for (std::uint32_t sheet = 0; sheet < 2; ++sheet) {
+        for (std::uint32_t f = 0; f < strip.face_count(); ++f) {
+            const std::uint32_t column = f / (2 * across);
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                // The second sheet runs the other way, so that the two agree where they meet: at
+                // the far side of the last column, the only vertices of the other sheet.
+                const std::uint32_t v = strip.triangles[3 * f + (sheet == 0 ? k : (3 - k) % 3)];
+                const bool far = column + 1 == along && v / (across + 1) == 0;
+                cover.triangles.push_back(v + (sheet == (far ? 1u : 0u) ? 0 : vertices));
+            }
+        }
+    }
+    return cover;
+}
+
+} // namespace geodisk::test
