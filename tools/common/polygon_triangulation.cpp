@@ -89,68 +89,123 @@ bool is_fan(const std::vector<Point2>& points) {
 }
 
 /// Cuts ears until three corners are left.
+///
+/// What is an ear is remembered: cutting one changes the corners beside it only, so n corners, r of
+/// them not convex, take O(n r) steps.
 class EarClipper {
   public:
-    explicit EarClipper(const std::vector<Point2>& points) : points_(points) {
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            rest_.push_back(i);
+    explicit EarClipper(const std::vector<Point2>& points)
+        : points_(points), count_(points.size()), previous_(count_), next_(count_),
+          is_convex_(count_), is_ear_(count_) {
+        for (std::size_t i = 0; i < count_; ++i) {
+            previous_[i] = i == 0 ? count_ - 1 : i - 1;
+            next_[i] = i + 1 == count_ ? 0 : i + 1;
         }
+        find_ears(0);
     }
 
     /// Calls emit(a, b, c) with the polygon's corner numbers of each triangle.
     template <typename Emit>
     void run(const Emit& emit) {
-        std::size_t ear = 1;
-        while (rest_.size() > 3) {
-            ear = find_ear(ear % rest_.size());
-            emit(previous(ear), rest_[ear], next(ear));
-            // The ear's successor moves into its place, so the cuts walk around the polygon.
-            rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(ear));
+        std::size_t corner = 1;
+        while (count_ > 3) {
+            corner = find_corner_to_cut(corner);
+            emit(previous_[corner], corner, next_[corner]);
+            corner = cut(corner); // Going on behind the ear walks around the polygon.
         }
-        emit(rest_[0], rest_[1], rest_[2]);
+        emit(previous_[corner], corner, next_[corner]);
     }
 
   private:
-    std::size_t previous(std::size_t i) const { return rest_[i == 0 ? rest_.size() - 1 : i - 1]; }
-    std::size_t next(std::size_t i) const { return rest_[i + 1 == rest_.size() ? 0 : i + 1]; }
-
-    double corner_turn(std::size_t i) const {
-        return turn(points_[previous(i)], points_[rest_[i]], points_[next(i)]);
+    double bend(std::size_t i) const {
+        return turn(points_[previous_[i]], points_[i], points_[next_[i]]);
     }
 
-    /// The first proper ear from `start` on; else, for straight runs and polygons that cross
-    /// themselves, the corner that bends least.
-    std::size_t find_ear(std::size_t start) const {
-        std::size_t straightest = start;
-        for (std::size_t step = 0; step < rest_.size(); ++step) {
-            const std::size_t i = (start + step) % rest_.size();
-            const double bend = corner_turn(i);
-            if (bend > kStraight && is_empty(i)) {
-                return i;
+    /// The first ear from `start` on; else, for straight runs and polygons that cross themselves,
+    /// the corner that bends least.
+    std::size_t find_corner_to_cut(std::size_t start) {
+        if (const std::size_t ear = walk_to_ear(start); is_ear_[ear]) {
+            return ear;
+        }
+        // Cutting a straight corner may free an ear anywhere.
+        if (cut_straight_) {
+            find_ears(start);
+            cut_straight_ = false;
+            if (const std::size_t ear = walk_to_ear(start); is_ear_[ear]) {
+                return ear;
             }
-            if (std::abs(bend) < std::abs(corner_turn(straightest))) {
+        }
+        std::size_t straightest = start;
+        for (std::size_t i = next_[start]; i != start; i = next_[i]) {
+            if (std::abs(bend(i)) < std::abs(bend(straightest))) {
                 straightest = i;
             }
         }
+        cut_straight_ = std::abs(bend(straightest)) <= kStraight;
         return straightest;
     }
 
-    /// No other corner lies in or on the triangle that cutting corner `i` makes. A corner at the
-    /// same place as one of the triangle's is no obstacle: polygons with a bridge to a hole have
-    /// such pairs.
-    bool is_empty(std::size_t i) const {
-        const Point2 a = points_[previous(i)];
-        const Point2 b = points_[rest_[i]];
-        const Point2 c = points_[next(i)];
-        return std::none_of(rest_.begin(), rest_.end(), [&](std::size_t other) {
+    std::size_t walk_to_ear(std::size_t start) const {
+        std::size_t i = start;
+        while (!is_ear_[i] && next_[i] != start) {
+            i = next_[i];
+        }
+        return i;
+    }
+
+    /// Takes corner `i` out and returns the one after it.
+    std::size_t cut(std::size_t i) {
+        const std::size_t before = previous_[i];
+        const std::size_t after = next_[i];
+        next_[before] = after;
+        previous_[after] = before;
+        --count_;
+        is_convex_[before] = bend(before) > kStraight;
+        is_convex_[after] = bend(after) > kStraight;
+        is_ear_[before] = is_ear(before);
+        is_ear_[after] = is_ear(after);
+        return after;
+    }
+
+    void find_ears(std::size_t start) {
+        std::size_t i = start;
+        do {
+            is_convex_[i] = bend(i) > kStraight;
+            i = next_[i];
+        } while (i != start);
+        do {
+            is_ear_[i] = is_ear(i);
+            i = next_[i];
+        } while (i != start);
+    }
+
+    /// A convex corner whose triangle holds no other corner in it or on it; if it held any, it
+    /// would hold one that is not convex. A corner at the same place as one of the triangle's is
+    /// no obstacle: polygons with a bridge to a hole have such pairs.
+    bool is_ear(std::size_t i) const {
+        if (!is_convex_[i]) {
+            return false;
+        }
+        const Point2 a = points_[previous_[i]];
+        const Point2 b = points_[i];
+        const Point2 c = points_[next_[i]];
+        for (std::size_t other = next_[i]; other != i; other = next_[other]) {
             const Point2 p = points_[other];
-            return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
-                   turn(c, a, p) >= 0;
-        });
+            if (!is_convex_[other] && p != a && p != b && p != c && turn(a, b, p) >= 0 &&
+                turn(b, c, p) >= 0 && turn(c, a, p) >= 0) {
+                return false;
+            }
+        }
+        return true;
     }
 
     const std::vector<Point2>& points_;
-    std::vector<std::size_t> rest_; ///< Corner numbers not yet cut off, in order.
+    std::size_t count_; ///< Corners left, linked by previous_ and next_.
+    std::vector<std::size_t> previous_;
+    std::vector<std::size_t> next_;
+    std::vector<bool> is_convex_;
+    std::vector<bool> is_ear_;
+    bool cut_straight_ = false; ///< Since the last find_ears().
 };
 
 } // namespace
