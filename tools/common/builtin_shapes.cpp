@@ -17,7 +17,7 @@ struct Entry {
 };
 
 constexpr Entry kEntries[] = {
-    {{"showpiece", "twisted ring with a ruffled fin and a deep fold; points around", 120, 48, 1200},
+    {{"showpiece", "twisted ring with a ruffled fin and a deep fold; points around", 120, 60, 1200},
      make_showpiece},
     {{"cube", "unit cube; parts per edge", 1, 1, 1000}, make_cube},
     {{"icosphere", "unit sphere; subdivision steps", 4, 0, 9}, make_icosphere},

@@ -216,8 +216,12 @@ PolygonMesh read_obj(const std::filesystem::path& path) {
     callbacks.index_cb = MeshBuilder::on_face;
     std::istringstream stream(std::move(records.text));
     std::string error;
-    if (!tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error)) {
-        fail_input(path, "cannot parse: " + in_quotes(error));
+    const bool parsed =
+        tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error);
+    const std::size_t vertices_read = static_cast<std::size_t>(builder.vertices_so_far);
+    if (!parsed || 3 * vertices_read != builder.mesh.positions.size() ||
+        builder.mesh.face_ends.size() != builder.mesh.face_lines.size()) {
+        fail_input(path, "tinyobjloader cannot parse it: " + in_quotes(error));
     }
     return std::move(builder.mesh);
 }

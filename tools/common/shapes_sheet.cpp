@@ -85,13 +85,13 @@ double smooth_noise(double x, double y) {
 /// grid does not show.
 double terrain_height(double x, double y) {
     double height = 0;
-    double amplitude = 0.12;
+    double amplitude = 0.07;
     x *= 3;
     y *= 3;
     for (int octave = 0; octave < 6; ++octave) {
         const double noise = smooth_noise(x, y);
         height += amplitude * (octave < 3 ? 1 - 2 * std::abs(noise) : noise);
-        amplitude *= 0.45;
+        amplitude *= 0.42;
         const double turned = 2 * (0.8 * x - 0.6 * y) + 17;
         y = 2 * (0.6 * x + 0.8 * y) + 31;
         x = turned;
