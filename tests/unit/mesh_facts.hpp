@@ -40,7 +40,7 @@ struct MeshFacts {
     std::size_t border_edges = 0;
     std::size_t crowded_edges = 0;    ///< Edges of more than two triangles.
     std::size_t clashing_edges = 0;   ///< Edges that two triangles run through the same way.
-    std::size_t pinched_vertices = 0; ///< Vertices whose triangles form more than one fan.
+    std::size_t pinched_vertices = 0; ///< Fans of triangles beyond one per vertex.
     std::ptrdiff_t euler_characteristic = 0;
     double flattest = 0; ///< Least ratio of area to the square of the longest edge.
 
@@ -79,61 +79,88 @@ inline double flatness(const MeshFile& mesh, std::size_t triangle) {
     return triangle_area(mesh, triangle) / (longest * longest);
 }
 
-inline MeshFacts measure(const MeshFile& mesh) {
+/// The edges of a mesh, and which triangle corners at one vertex hang together through them.
+class EdgeTable {
+  public:
+    explicit EdgeTable(const MeshFile& mesh) : fans_(mesh.triangles.size()) {
+        for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+            add(mesh, corner);
+        }
+        for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+            fan_count_ += fans_.find(corner) == corner ? 1u : 0u;
+        }
+    }
+
+    std::size_t fan_count() const { return fan_count_; }
+    std::size_t size() const { return edges_.size(); }
+
+    void count_edges(MeshFacts& facts) const {
+        for (const auto& [ends, edge] : edges_) {
+            const int count = edge.forward + edge.backward;
+            facts.border_edges += count == 1 ? 1u : 0u;
+            facts.crowded_edges += count > 2 ? 1u : 0u;
+            facts.clashing_edges += edge.forward > 1 || edge.backward > 1 ? 1u : 0u;
+        }
+    }
+
+  private:
     struct Edge {
         int forward = 0;
         int backward = 0;
         std::size_t corner = 0; // Of the first triangle at the edge.
     };
-    MeshFacts facts;
-    facts.vertices = mesh.positions.size() / 3;
-    facts.triangles = mesh.triangles.size() / 3;
-    facts.flattest = 1;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges;
-    std::vector<bool> used(facts.vertices, false);
-    Groups components(facts.vertices);
-    Groups fans(mesh.triangles.size()); // Corners of one vertex, joined across shared edges.
-    for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
-        const std::size_t triangle = corner / 3;
-        const std::size_t next_corner = 3 * triangle + (corner + 1) % 3;
+
+    static std::size_t next_corner(std::size_t corner) {
+        return 3 * (corner / 3) + (corner + 1) % 3;
+    }
+
+    /// The edge from `corner` to the next one of its triangle.
+    void add(const MeshFile& mesh, std::size_t corner) {
         const std::uint32_t from = mesh.triangles[corner];
-        const std::uint32_t to = mesh.triangles[next_corner];
-        used[from] = true;
-        components.join(from, to);
-        const auto [entry, is_new] = edges.try_emplace(std::minmax(from, to));
+        const std::uint32_t to = mesh.triangles[next_corner(corner)];
+        const auto [entry, is_new] = edges_.try_emplace(std::minmax(from, to));
         Edge& edge = entry->second;
         if (is_new) {
             edge.corner = corner;
         } else {
             const std::size_t other = edge.corner;
-            const std::size_t other_next = 3 * (other / 3) + (other + 1) % 3;
             const bool same_way = mesh.triangles[other] == from;
-            fans.join(corner, same_way ? other : other_next);
-            fans.join(next_corner, same_way ? other_next : other);
+            fans_.join(corner, same_way ? other : next_corner(other));
+            fans_.join(next_corner(corner), same_way ? next_corner(other) : other);
         }
         ++(from < to ? edge.forward : edge.backward);
     }
+
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges_;
+    Groups fans_;
+    std::size_t fan_count_ = 0;
+};
+
+inline MeshFacts measure(const MeshFile& mesh) {
+    MeshFacts facts;
+    facts.vertices = mesh.positions.size() / 3;
+    facts.triangles = mesh.triangles.size() / 3;
+
+    Groups components(facts.vertices);
+    std::vector<bool> used(facts.vertices, false);
+    facts.flattest = 1;
     for (std::size_t t = 0; t < facts.triangles; ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            used[mesh.triangles[3 * t + i]] = true;
+            components.join(mesh.triangles[3 * t], mesh.triangles[3 * t + i]);
+        }
         facts.flattest = std::min(facts.flattest, flatness(mesh, t));
     }
-    for (const auto& [ends, edge] : edges) {
-        const int count = edge.forward + edge.backward;
-        facts.border_edges += count == 1 ? 1u : 0u;
-        facts.crowded_edges += count > 2 ? 1u : 0u;
-        facts.clashing_edges += edge.forward > 1 || edge.backward > 1 ? 1u : 0u;
-    }
-    std::size_t fan_count = 0;
-    for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
-        fan_count += fans.find(corner) == corner ? 1u : 0u;
-    }
-    const std::size_t used_count =
-        static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
-    facts.unused_vertices = facts.vertices - used_count;
-    facts.pinched_vertices = fan_count - used_count;
     for (std::size_t vertex = 0; vertex < facts.vertices; ++vertex) {
+        facts.unused_vertices += used[vertex] ? 0u : 1u;
         facts.components += used[vertex] && components.find(vertex) == vertex ? 1u : 0u;
     }
-    facts.euler_characteristic = static_cast<std::ptrdiff_t>(used_count + facts.triangles) -
+
+    const EdgeTable edges(mesh);
+    edges.count_edges(facts);
+    const std::size_t used_vertices = facts.vertices - facts.unused_vertices;
+    facts.pinched_vertices = edges.fan_count() - used_vertices;
+    facts.euler_characteristic = static_cast<std::ptrdiff_t>(used_vertices + facts.triangles) -
                                  static_cast<std::ptrdiff_t>(edges.size());
     return facts;
 }
