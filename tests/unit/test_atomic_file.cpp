@@ -57,7 +57,7 @@ TEST_CASE("targets that cannot be files are refused") {
 #ifndef _WIN32
 
 TEST_CASE("devices and links are not replaced") {
-    check_fails(ExitCode::bad_output, "not a regular file", [] { AtomicFile file("/dev/full"); });
+    check_fails(ExitCode::bad_output, "not a regular file", [] { AtomicFile file("/dev/null"); });
     const TemporaryFolder folder;
     folder.write("real", "old");
     std::filesystem::create_symlink("real", folder / "link");
