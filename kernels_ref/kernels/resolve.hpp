@@ -1,0 +1,18 @@
+// Twin of shaders/kernels/resolve.comp: decides a batch of active candidates (paper section 3.5,
+// CheckStatus).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace geodisk::ref {
+
+/// Walks the active ranks upwards: one that no accepted one rejected is accepted and rejects all it
+/// lists. `ranks` ascend, `conflicts[i]` are the idle and active ranks above ranks[i] in its disk,
+/// `states` holds a gpu::k* state per rank and is updated.
+void resolve_batch(std::span<const std::uint32_t> ranks,
+                   std::span<const std::vector<std::uint32_t>> conflicts,
+                   std::span<std::uint8_t> states);
+
+} // namespace geodisk::ref

@@ -1,0 +1,92 @@
+#include "device_run.hpp"
+
+#include <stdexcept>
+
+#include "vk/barriers.hpp"
+
+namespace geodisk::test {
+namespace {
+
+void apply(RunPlan& plan, const RunPlan& wanted) {
+    const auto replace = [](std::uint32_t& field, std::uint32_t value) {
+        field = value != 0 ? value : field;
+    };
+    replace(plan.slots, wanted.slots);
+    replace(plan.window_capacity, wanted.window_capacity);
+    replace(plan.table_capacity, wanted.table_capacity);
+    replace(plan.list_capacity, wanted.list_capacity);
+    replace(plan.trip_budget, wanted.trip_budget);
+    replace(plan.chain, wanted.chain);
+}
+
+void barrier_to_host(const DeviceTable& vk, VkCommandBuffer commands) {
+    record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+}
+
+} // namespace
+
+Context& shared_context() {
+    static Context context = expect(Context::create());
+    return context;
+}
+
+DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
+                     const SamplerOptions& options, const Context& context)
+    : device_(context.device()), vk_(expect(load_device_table(device_))),
+      sampler_(expect(Sampler::create(device_, options))) {
+    submitter_.emplace(
+        expect(Submitter::create(device_, vk_, context.queue(), std::chrono::seconds(300))));
+    const auto instance =
+        expect(load_instance_table(device_.get_instance_proc_addr, device_.instance));
+    VkPhysicalDeviceMemoryProperties memory{};
+    instance.vkGetPhysicalDeviceMemoryProperties(device_.physical_device, &memory);
+    RunPlan used = expect(sampler_->plan_run(mesh, params, std::uint64_t{64} << 20));
+    apply(used, plan);
+    const WorkspaceNeeds needs = expect(sampler_->workspace_needs(mesh, params, used));
+    Workspace workspace;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        buffers_[i] = expect(DeviceBuffer::create(device_, vk_, memory, needs.bytes[i],
+                                                  kWorkspaceUsage, MemoryKind::host));
+        workspace[i] = {buffers_[i].handle(), 0, buffers_[i].size()};
+    }
+    for (const BufferRole role :
+         {BufferRole::half_edges, BufferRole::fans, BufferRole::alias, BufferRole::cells}) {
+        const auto bytes = buffers_[static_cast<std::size_t>(role)].bytes();
+        expect(sampler_->mesh_bytes(mesh, params, role,
+                                    bytes.first(sampler_->mesh_bytes_size(mesh, role))));
+    }
+    job_.emplace(expect(sampler_->make_job(mesh, params, used, workspace)));
+}
+
+void DeviceRun::begin() {
+    expect(submitter_->run([&](VkCommandBuffer commands) {
+        sampler_->record_begin(commands, *job_);
+        barrier_to_host(vk_, commands);
+    }));
+}
+
+void DeviceRun::rounds(std::uint32_t count) {
+    expect(submitter_->run([&](VkCommandBuffer commands) {
+        sampler_->record_rounds(commands, *job_, count);
+        barrier_to_host(vk_, commands);
+    }));
+}
+
+void DeviceRun::grow(std::uint32_t overflow) {
+    const std::uint64_t pool = buffers_[static_cast<std::size_t>(BufferRole::pool)].size();
+    expect(job_->set_plan(expect(sampler_->grow_plan(job_->plan(), overflow, pool))));
+    expect(submitter_->run([&](VkCommandBuffer commands) {
+        sampler_->record_rewind(commands, *job_);
+        barrier_to_host(vk_, commands);
+    }));
+}
+
+void DeviceRun::finish() {
+    expect(submitter_->run([&](VkCommandBuffer commands) {
+        sampler_->record_finish(commands, *job_);
+        barrier_to_host(vk_, commands);
+    }));
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,67 @@
+// A sampling job whose buffers the test can read after every step. Built on the same Sampler calls
+// that an embedding engine makes.
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include <geodisk/context.hpp>
+#include <geodisk/sampler.hpp>
+
+#include "engine/submitter.hpp"
+#include "records.h"
+#include "vk/buffer.hpp"
+
+namespace geodisk::test {
+
+/// The device of all tests in this process; throws when there is none.
+Context& shared_context();
+
+/// The value, or an exception with the error's message.
+template <class T>
+T expect(Result<T> result) {
+    if (!result) {
+        throw std::runtime_error(result.error().message);
+    }
+    return std::move(*result);
+}
+
+class DeviceRun {
+  public:
+    /// Fields of `plan` that are not zero replace those of Sampler::plan_run. `mesh` must outlive
+    /// the run.
+    DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan = {},
+              const SamplerOptions& options = {}, const Context& context = shared_context());
+
+    void begin();
+    void rounds(std::uint32_t count);
+    void grow(std::uint32_t overflow);
+    void finish();
+
+    gpu::ControlRec control() const { return read<gpu::ControlRec>(BufferRole::control, 1)[0]; }
+    const RunPlan& plan() const { return job_->plan(); }
+    std::uint32_t candidates() const { return job_->candidates(); }
+    const Sampler& sampler() const { return *sampler_; }
+
+    /// The first `count` records of a buffer, after `skip` bytes.
+    template <class Record>
+    std::vector<Record> read(BufferRole role, std::size_t count, std::size_t skip = 0) const {
+        std::vector<Record> records(count);
+        std::memcpy(records.data(),
+                    buffers_[static_cast<std::size_t>(role)].bytes().data() + skip,
+                    count * sizeof(Record));
+        return records;
+    }
+
+  private:
+    DeviceRefs device_;
+    DeviceTable vk_;
+    std::optional<Sampler> sampler_;
+    std::optional<Submitter> submitter_;
+    std::array<DeviceBuffer, kBufferRoles> buffers_;
+    std::optional<Job> job_;
+};
+
+} // namespace geodisk::test

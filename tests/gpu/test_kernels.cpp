@@ -1,0 +1,235 @@
+// Every kernel against its float twin, bit for bit, step by step through whole runs.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "constants.h"
+#include "device_run.hpp"
+#include "kernels/bins.hpp"
+#include "kernels/candidates.hpp"
+#include "kernels/detect.hpp"
+#include "kernels/resolve.hpp"
+#include "kernels/select.hpp"
+#include "sets.hpp"
+#include "support/meshes.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// The twin's side of a run: the same pool, and states by rank.
+struct Twin {
+    ref::Surface<float> surface;
+    std::vector<ref::FacePoint<float>> points;
+    ref::Bins<float> bins;
+    ref::Detector<float> detector;
+    std::vector<std::uint8_t> states;
+    std::vector<std::uint32_t> places; ///< In `bins`, by rank.
+
+    Twin(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain)
+        : surface(mesh, params.min_distance),
+          points(ref::draw_candidates<float>(mesh.alias_columns(), params.seed,
+                                             expect(pool_size(mesh, params)))),
+          bins(surface, points),
+          detector(surface, bins, tolerances_for(mesh, params.min_distance, chain),
+                   tolerances_for(mesh, params.min_distance, chain).limit),
+          states(points.size(), gpu::kIdle), places(points.size()) {
+        for (std::uint32_t place = 0; place < bins.order.size(); ++place) {
+            places[bins.order[place]] = place;
+        }
+    }
+
+    ref::DiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts) {
+        const auto count = detector.run(
+            points[rank],
+            [&](std::uint32_t q) {
+                const std::uint32_t other = bins.order[q];
+                return other > rank && states[other] <= gpu::kActive;
+            },
+            [&](std::uint32_t q, float) { conflicts.push_back(bins.order[q]); });
+        std::sort(conflicts.begin(), conflicts.end());
+        return count;
+    }
+};
+
+void compare_candidates(const DeviceRun& run, const Twin& twin) {
+    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
+    const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
+    REQUIRE(points.size() == twin.points.size());
+    std::uint32_t wrong = 0;
+    for (std::uint32_t rank = 0; rank < points.size(); ++rank) {
+        const gpu::PointRec& p = points[places[rank]];
+        const ref::FacePoint<float>& want = twin.points[rank];
+        wrong += p.rank != rank || p.face != want.face ||
+                 std::bit_cast<std::uint32_t>(p.weight1) !=
+                     std::bit_cast<std::uint32_t>(want.weight1) ||
+                 std::bit_cast<std::uint32_t>(p.weight2) !=
+                     std::bit_cast<std::uint32_t>(want.weight2);
+    }
+    CHECK(wrong == 0);
+}
+
+void compare_bins(const DeviceRun& run, const Twin& twin) {
+    const std::size_t faces = twin.surface.face_count();
+    const auto starts =
+        run.read<std::uint32_t>(BufferRole::cells, twin.bins.starts.size(), faces * 4);
+    CHECK(starts == twin.bins.starts);
+    // Within a cell the order is that of atomics, so cells are compared as sets.
+    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
+    std::uint32_t wrong = 0;
+    for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
+        std::vector<std::uint32_t> ranks;
+        for (std::uint32_t place = starts[c]; place < starts[c + 1]; ++place) {
+            ranks.push_back(points[place].rank);
+        }
+        std::sort(ranks.begin(), ranks.end());
+        wrong += !std::equal(ranks.begin(), ranks.end(),
+                             twin.bins.order.begin() + twin.bins.starts[c]);
+    }
+    CHECK(wrong == 0);
+}
+
+/// The conflicts a slot lists, by rank, once each.
+std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
+                                  const std::vector<gpu::PointRec>& points) {
+    const RunPlan& plan = run.plan();
+    const std::size_t row = index * plan.slice_rows() + plan.window_capacity / 2 + 2 +
+                            gpu::kWindowRows * plan.window_capacity + plan.table_capacity;
+    std::vector<std::uint32_t> ranks;
+    for (const std::uint32_t place :
+         run.read<std::uint32_t>(BufferRole::pool, slot.conflicts, row * 16)) {
+        ranks.push_back(points[place].rank);
+    }
+    std::sort(ranks.begin(), ranks.end());
+    return ranks;
+}
+
+/// What the disks of one batch took and found, slot by slot.
+void compare_batch(const DeviceRun& run, Twin& twin,
+                   const std::vector<gpu::PointRec>& points) {
+    const gpu::ControlRec control = run.control();
+    const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
+    const auto batch = ref::select_idle(twin.states, control.batch_rank, run.plan().slots);
+    std::vector<std::uint32_t> selected;
+    for (const gpu::SlotRec& slot : slots) {
+        selected.push_back(slot.rank);
+    }
+    std::sort(selected.begin(), selected.end());
+    REQUIRE(selected == batch);
+    for (const std::uint32_t rank : batch) {
+        twin.states[rank] = gpu::kActive;
+    }
+    std::vector<std::vector<std::uint32_t>> conflicts(batch.size());
+    std::uint32_t wrong = 0;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        const auto at = static_cast<std::size_t>(
+            std::lower_bound(batch.begin(), batch.end(), slots[i].rank) - batch.begin());
+        const ref::DiskCount want = twin.disk(batch[at], conflicts[at]);
+        wrong += slots[i].windows != want.windows || slots[i].peak != want.peak ||
+                 slots[i].longest_chain != want.chain || slots[i].vertices != want.vertices ||
+                 slots[i].tested != want.tested;
+        wrong += listed(run, slots[i], i, points) != conflicts[at];
+    }
+    CHECK(wrong == 0);
+    ref::resolve_batch(batch, conflicts, twin.states);
+}
+
+void compare_states(const DeviceRun& run, const Twin& twin,
+                    const std::vector<gpu::PointRec>& points) {
+    const auto states = run.read<std::uint32_t>(BufferRole::states, run.candidates());
+    std::uint32_t wrong = 0;
+    for (std::uint32_t place = 0; place < states.size(); ++place) {
+        wrong += (states[place] & gpu::kStateMask) != twin.states[points[place].rank];
+    }
+    CHECK(wrong == 0);
+}
+
+void compare_samples(const DeviceRun& run, const Twin& twin) {
+    const gpu::ControlRec control = run.control();
+    const auto samples = run.read<gpu::SampleRec>(BufferRole::samples, control.accepted);
+    std::vector<std::uint32_t> want;
+    for (std::uint32_t rank = 0; rank < twin.states.size(); ++rank) {
+        if (twin.states[rank] == gpu::kAccepted) {
+            want.push_back(rank);
+        }
+    }
+    REQUIRE(samples.size() == want.size());
+    std::uint32_t wrong = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const ref::FacePoint<float>& p = twin.points[want[i]];
+        wrong += samples[i].rank != want[i] || samples[i].face != p.face ||
+                 samples[i].weight1 != p.weight1 || samples[i].weight2 != p.weight2;
+    }
+    CHECK(wrong == 0);
+}
+
+void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
+                  std::uint32_t slots) {
+    const SampleParams params = params_for(mesh, count);
+    // Budgets and capacities so large that each round completes a batch.
+    RunPlan plan;
+    plan.slots = slots;
+    plan.window_capacity = 8192;
+    plan.table_capacity = 8192;
+    plan.list_capacity = 1024;
+    SamplerOptions options;
+    options.rounding = rounding;
+    DeviceRun run(mesh, params, plan, options);
+    Twin twin(mesh, params, run.plan().chain);
+    run.begin();
+    compare_candidates(run, twin);
+    compare_bins(run, twin);
+    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
+    while (true) {
+        run.rounds(1);
+        gpu::ControlRec control = run.control();
+        REQUIRE(control.overflow == 0);
+        if (control.done != 0) {
+            break;
+        }
+        while (control.undecided > 0) {
+            run.rounds(1);
+            control = run.control();
+        }
+        compare_batch(run, twin, points);
+        compare_states(run, twin, points);
+    }
+    run.finish();
+    compare_samples(run, twin);
+}
+
+} // namespace
+
+TEST_SUITE("kernels") {
+    TEST_CASE("step by step on a torus knot") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 64));
+        for (const Rounding rounding : {Rounding::native, Rounding::emulated}) {
+            CAPTURE(static_cast<int>(rounding));
+            step_through(mesh, 400, rounding, 64);
+        }
+    }
+
+    TEST_CASE("step by step on a cube of 12 triangles, many cells each") {
+        const PreparedMesh mesh = prepared(builtin("cube", 1));
+        for (const Rounding rounding : {Rounding::native, Rounding::emulated}) {
+            step_through(mesh, 3000, rounding, 256);
+        }
+    }
+
+    TEST_CASE("step by step where the surface is no manifold, one-sided or folded") {
+        step_through(prepared(builtin("moebius", 24)), 300, Rounding::native, 32);
+        step_through(prepared(builtin("folded-sheet", 8)), 300, Rounding::emulated, 32);
+        if (const auto mesh = shared_mesh("meshes/cycloidal_43k.ply")) {
+            step_through(prepared(*mesh), 1000, Rounding::native, 128);
+        }
+        if (const auto mesh = shared_mesh("meshes/tray_4k5.ply")) {
+            step_through(prepared(*mesh), 1000, Rounding::emulated, 128);
+        }
+    }
+
+    TEST_CASE("step by step with one candidate at a time") {
+        step_through(prepared(builtin("icosphere", 2)), 60, Rounding::native, 1);
+    }
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,104 @@
+// Offsets in the compiled SPIR-V against offsetof in C++.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "engine/kernel_table.hpp"
+#include "push.h"
+#include "records.h"
+
+namespace geodisk::test {
+namespace {
+
+constexpr std::uint32_t kOpName = 5;
+constexpr std::uint32_t kOpMemberName = 6;
+constexpr std::uint32_t kOpMemberDecorate = 72;
+constexpr std::uint32_t kDecorationOffset = 35;
+
+using Offsets = std::map<std::string, std::uint32_t>;
+
+std::string text_at(std::span<const std::uint32_t> words) {
+    return reinterpret_cast<const char*>(words.data());
+}
+
+/// Member offsets of every struct that carries them, by the struct's name.
+std::map<std::string, Offsets> struct_offsets(std::span<const std::uint32_t> spirv) {
+    std::map<std::uint32_t, std::string> names;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> members;
+    std::map<std::string, Offsets> result;
+    for (std::size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
+        const std::uint32_t op = spirv[at] & 0xffffu;
+        const auto words = spirv.subspan(at, spirv[at] >> 16);
+        if (op == kOpName) {
+            names[words[1]] = text_at(words.subspan(2));
+        } else if (op == kOpMemberName) {
+            members[{words[1], words[2]}] = text_at(words.subspan(3));
+        } else if (op == kOpMemberDecorate && words[3] == kDecorationOffset) {
+            result[names[words[1]]][members[{words[1], words[2]}]] = words[4];
+        }
+    }
+    return result;
+}
+
+#define GEODISK_OFFSET(type, member)                                                               \
+    { #member, static_cast<std::uint32_t>(offsetof(gpu::type, member)) }
+
+const Offsets kPush{
+    GEODISK_OFFSET(Push, candidates),      GEODISK_OFFSET(Push, faces),
+    GEODISK_OFFSET(Push, vertices),        GEODISK_OFFSET(Push, cells),
+    GEODISK_OFFSET(Push, seed_low),        GEODISK_OFFSET(Push, seed_high),
+    GEODISK_OFFSET(Push, limit),           GEODISK_OFFSET(Push, margin),
+    GEODISK_OFFSET(Push, slack),           GEODISK_OFFSET(Push, slots),
+    GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
+    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, slice_rows),
+    GEODISK_OFFSET(Push, trip_budget),     GEODISK_OFFSET(Push, restart),
+    GEODISK_OFFSET(Push, scan_count),      GEODISK_OFFSET(Push, scan_base)};
+
+const Offsets kControl{
+    GEODISK_OFFSET(ControlRec, groups_x),      GEODISK_OFFSET(ControlRec, groups_y),
+    GEODISK_OFFSET(ControlRec, groups_z),      GEODISK_OFFSET(ControlRec, abi),
+    GEODISK_OFFSET(ControlRec, next_rank),     GEODISK_OFFSET(ControlRec, batch_rank),
+    GEODISK_OFFSET(ControlRec, slots_used),    GEODISK_OFFSET(ControlRec, unfinished),
+    GEODISK_OFFSET(ControlRec, undecided),     GEODISK_OFFSET(ControlRec, overflow),
+    GEODISK_OFFSET(ControlRec, done),          GEODISK_OFFSET(ControlRec, accepted),
+    GEODISK_OFFSET(ControlRec, iterations),    GEODISK_OFFSET(ControlRec, disks),
+    GEODISK_OFFSET(ControlRec, windows_low),   GEODISK_OFFSET(ControlRec, windows_high),
+    GEODISK_OFFSET(ControlRec, tested_low),    GEODISK_OFFSET(ControlRec, tested_high),
+    GEODISK_OFFSET(ControlRec, largest_heap),  GEODISK_OFFSET(ControlRec, longest_chain),
+    GEODISK_OFFSET(ControlRec, most_vertices), GEODISK_OFFSET(ControlRec, most_conflicts)};
+
+} // namespace
+
+TEST_SUITE("layout") {
+    TEST_CASE("push block and control record lie alike in every kernel") {
+        std::size_t controls = 0;
+        for (std::size_t k = 0; k < kKernels; ++k) {
+            const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
+            CAPTURE(info.name);
+            const auto offsets = struct_offsets(info.spirv);
+            REQUIRE(offsets.count("Push") == 1);
+            CHECK(offsets.at("Push") == kPush);
+            if (offsets.count("ControlRec") != 0) {
+                ++controls;
+                CHECK(offsets.at("ControlRec") == kControl);
+                // The blocker words follow the record without a gap.
+                CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
+            }
+        }
+        CHECK(controls == 4);
+    }
+
+    TEST_CASE("no kernel binds more than eight buffers") {
+        for (std::size_t k = 0; k < kKernels; ++k) {
+            const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
+            CAPTURE(info.name);
+            CHECK(info.bindings.size() <= 8);
+            CHECK(info.bindings.size() >= 1);
+        }
+    }
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,93 @@
+// Loop limits, overflow, impossible requests: what must end in a correct result or a clear error.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "constants.h"
+#include "device_run.hpp"
+#include "sets.hpp"
+#include "support/meshes.hpp"
+
+namespace geodisk::test {
+
+TEST_SUITE("limits") {
+    // Disks of some 10,000 trips each, eight to a SIMD group: more than the 65,535 loop iterations
+    // after which lavapipe silently ends all loops of a group.
+    TEST_CASE("disks far beyond 65,535 loop iterations per SIMD group") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 6));
+        const SampleParams params = params_for(mesh, 60);
+        const SampleSet set = sample(mesh, params);
+        CHECK(set.report.windows / set.report.disks > 65535 / 8);
+        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+    }
+
+    TEST_CASE("a guard too narrow for the chains met is widened and the run repeated") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 5));
+        const SampleParams params = params_for(mesh, 40);
+        RunnerOptions options;
+        options.plan.chain = 1;
+        const SampleSet set = sample(mesh, params, options);
+        CHECK(set.report.plan.chain > 1);
+        CHECK(set.report.longest_chain <= set.report.plan.chain);
+        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+    }
+
+    TEST_CASE("an overflow decides nothing until slices are larger") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 4));
+        const SampleParams params = params_for(mesh, 100);
+        RunPlan small;
+        small.window_capacity = 4;
+        small.slots = 16;
+        DeviceRun run(mesh, params, small);
+        run.begin();
+        run.rounds(3);
+        CHECK(run.control().overflow == gpu::kOverflowWindows);
+        CHECK(run.control().accepted == 0);
+        CHECK(run.control().undecided == run.control().slots_used);
+    }
+
+    TEST_CASE("a pool too small for one disk is an error naming the bytes") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 5));
+        SampleParams params = params_for(mesh, 4);
+        RunnerOptions options;
+        options.pool_bytes = 16384;
+        Context& context = shared_context();
+        Runner runner = expect(Runner::create(context.device(), context.queue(), options));
+        const auto result = runner.sample_and_wait(mesh, params);
+        REQUIRE_FALSE(result);
+        CHECK(result.error().status == Status::workspace_too_small);
+        CHECK(result.error().message.find("bytes") != std::string::npos);
+    }
+
+    TEST_CASE("distances that no pool can serve are refused before any work") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 2));
+        Context& context = shared_context();
+        Runner runner = expect(Runner::create(context.device(), context.queue()));
+        const double zero = 0;
+        for (const double distance : {0.0, -1.0, 0.0 / zero, 1.0 / zero, 1e-9, 1e-300}) {
+            CAPTURE(distance);
+            SampleParams params;
+            params.min_distance = distance;
+            const auto result = runner.sample_and_wait(mesh, params);
+            REQUIRE_FALSE(result);
+            CHECK(result.error().status == Status::invalid_argument);
+        }
+        SampleParams params = params_for(mesh, 20'000'000);
+        const auto result = runner.sample_and_wait(mesh, params);
+        REQUIRE_FALSE(result);
+        CHECK(result.error().message.find("candidates") != std::string::npos);
+        CHECK(result.error().message.find("bytes") != std::string::npos);
+    }
+
+    TEST_CASE("a run can be cancelled") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 4));
+        Context& context = shared_context();
+        Runner runner = expect(Runner::create(context.device(), context.queue()));
+        const auto result =
+            runner.sample_and_wait(mesh, params_for(mesh, 5000), [](const Progress&) { return false; });
+        REQUIRE_FALSE(result);
+        CHECK(result.error().status == Status::cancelled);
+    }
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,156 @@
+// Whole runs against sequential dart throwing, set against set, and what must not change a set.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "device_run.hpp"
+#include "sets.hpp"
+#include "support/meshes.hpp"
+#include "support/replay.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// The run returns what the float twin returns, and the truth differs by replayed ties at most.
+void check_against_reference(const PreparedMesh& mesh, double count, std::uint64_t seed = 1) {
+    const SampleParams params = params_for(mesh, count, seed);
+    const SampleSet set = sample(mesh, params);
+    const std::uint32_t chain = set.report.plan.chain;
+    CHECK(set.report.longest_chain <= chain);
+    CHECK(ranks_of(set) == float_set(mesh, params, chain));
+    if (ranks_of(set) != double_set(mesh, params, chain)) {
+        const ReplayReport report = replay(mesh, params, chain);
+        CHECK(report.wrong == 0);
+        CHECK(report.ties > 0);
+        CHECK(report.accepted == set.samples.size());
+    }
+}
+
+} // namespace
+
+TEST_SUITE("pipeline") {
+    TEST_CASE("generated surfaces equal sequential dart throwing") {
+        const std::pair<const char*, int> shapes[] = {
+            {"cube", 1},          {"icosphere", 4},      {"torus-knot", 48}, {"plate", 8},
+            {"folded-sheet", 16}, {"unfolded-sheet", 16}, {"terrain", 64},    {"lattice", 12},
+            {"moebius", 32}};
+        for (const auto& [name, resolution] : shapes) {
+            CAPTURE(name);
+            const PreparedMesh mesh = prepared(builtin(name, resolution));
+            for (const double count : {30.0, 1000.0}) {
+                CAPTURE(count);
+                check_against_reference(mesh, count);
+            }
+        }
+    }
+
+    TEST_CASE("a cube of 12 triangles with 20,000 samples") {
+        check_against_reference(prepared(builtin("cube", 1)), 20000);
+    }
+
+    TEST_CASE("fewer samples than slots, down to one") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        check_against_reference(mesh, 3);
+        SampleParams params;
+        params.min_distance = 100 * mesh.statistics().diagonal;
+        CHECK(sample(mesh, params).samples.size() == 1);
+    }
+
+    TEST_CASE("folded and unfolded sheet give the same set") {
+        const PreparedMesh folded = prepared(builtin("folded-sheet", 16));
+        const PreparedMesh flat = prepared(builtin("unfolded-sheet", 16));
+        const SampleParams params = params_for(flat, 2000);
+        const auto a = sample(folded, params);
+        const auto b = sample(flat, params);
+        CHECK(ranks_of(a) == ranks_of(b));
+    }
+
+    TEST_CASE("weights sum to one and ranks ascend") {
+        const PreparedMesh mesh = prepared(builtin("terrain", 32));
+        const SampleSet set = sample(mesh, params_for(mesh, 2000));
+        std::uint32_t wrong = 0;
+        for (std::size_t i = 0; i < set.samples.size(); ++i) {
+            const Sample& s = set.samples[i];
+            wrong += s.weights[0] + s.weights[1] + s.weights[2] != 1.0f || s.weights[0] < 0 ||
+                     s.face >= mesh.face_count() ||
+                     (i > 0 && s.candidate <= set.samples[i - 1].candidate);
+        }
+        CHECK(wrong == 0);
+        CHECK(set.samples.front().candidate == 0);
+    }
+
+    TEST_CASE("seeds differ and repeat") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        const auto first = ranks_of(sample(mesh, params_for(mesh, 500, 1)));
+        CHECK(first == ranks_of(sample(mesh, params_for(mesh, 500, 1))));
+        CHECK(first != ranks_of(sample(mesh, params_for(mesh, 500, std::uint64_t{1} << 32 | 1))));
+    }
+}
+
+TEST_SUITE("invariance") {
+    TEST_CASE("no tuning changes the set") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 96));
+        const SampleParams params = params_for(mesh, 500);
+        const RunnerOptions plain;
+        const SampleSet base = sample(mesh, params, plain);
+        const auto want = ranks_of(base);
+        CHECK(want == float_set(mesh, params, base.report.plan.chain));
+
+        const auto same = [&](const RunnerOptions& options) {
+            return ranks_of(sample(mesh, params, options)) == want;
+        };
+        for (const std::uint32_t slots : {1u, 7u, 64u, 1000u}) {
+            RunnerOptions options;
+            options.plan.slots = slots;
+            CAPTURE(slots);
+            CHECK(same(options));
+        }
+        for (const std::uint32_t local_size : {1u, 8u, 32u, 128u}) {
+            RunnerOptions options;
+            options.sampler.local_size = local_size;
+            CAPTURE(local_size);
+            CHECK(same(options));
+        }
+        for (const std::uint32_t trips : {1u, 50u, 3000u}) {
+            RunnerOptions options;
+            options.plan.trip_budget = trips;
+            CAPTURE(trips);
+            CHECK(same(options));
+        }
+        RunnerOptions emulated;
+        emulated.sampler.rounding = Rounding::emulated;
+        CHECK(same(emulated));
+        RunnerOptions tight;
+        tight.plan.window_capacity = 2;
+        tight.plan.table_capacity = 4;
+        tight.plan.list_capacity = 4;
+        tight.pool_bytes = 1u << 20;
+        const SampleSet regrown = sample(mesh, params, tight);
+        CHECK(ranks_of(regrown) == want);
+        CHECK(regrown.report.regrown > 0);
+    }
+}
+
+TEST_SUITE("meshes") {
+    TEST_CASE("real meshes equal sequential dart throwing") {
+        for (const char* name :
+             {"bunny_69k.ply", "gargoyle_52k.obj", "fandisk_13k.obj", "rocker_arm_20k.obj",
+              "tray_4k5.ply", "cycloidal_43k.ply", "teapot_6k.obj", "human_man_14k.obj"}) {
+            const auto file = shared_mesh(std::string("meshes/") + name);
+            if (!file) {
+                return;
+            }
+            CAPTURE(name);
+            const PreparedMesh mesh = prepared(*file);
+            for (const double count : {300.0, 1000.0, 10000.0}) {
+                CAPTURE(count);
+                std::printf("%s at %.0f\n", name, count);
+                std::fflush(stdout);
+                check_against_reference(mesh, count);
+            }
+        }
+    }
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,43 @@
+// A whole run under the validation layer with synchronization validation: no message.
+#include <doctest/doctest.h>
+
+#include "device_run.hpp"
+#include "sets.hpp"
+#include "support/meshes.hpp"
+
+namespace geodisk::test {
+
+TEST_SUITE("validation") {
+    TEST_CASE("the validation layer has nothing to say about a run") {
+        ContextOptions options;
+        options.validation = true;
+        Context context = expect(Context::create(options));
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 32));
+        const SampleParams params = params_for(mesh, 300);
+        {
+            // Slices that overflow bring in the rewind as well.
+            RunnerOptions tight;
+            tight.plan.window_capacity = 2;
+            Runner runner = expect(Runner::create(context.device(), context.queue(), tight));
+            const SampleSet set = expect(runner.sample_and_wait(mesh, params));
+            CHECK(set.report.regrown > 0);
+            CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+        }
+        for (const std::string& message : expect(context.validation_messages())) {
+            MESSAGE(message);
+        }
+        CHECK(context.validation_message_count() == 0);
+
+        // The layer is really there: it objects to a buffer of no bytes.
+        const DeviceTable vk = expect(load_device_table(context.device()));
+        VkBufferCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+        info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+        VkBuffer buffer = VK_NULL_HANDLE;
+        vk.vkCreateBuffer(context.device().device, &info, nullptr, &buffer);
+        vk.vkDestroyBuffer(context.device().device, buffer, nullptr);
+        CHECK(context.validation_message_count() > 0);
+    }
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,21 @@
+// The float run judged by double precision: every decision must be right but for ties within the
+// guard, and a tie decided the float way is followed, so that what comes after is judged as well.
+#pragma once
+
+#include <cstdint>
+
+#include <geodisk/params.hpp>
+
+namespace geodisk::test {
+
+struct ReplayReport {
+    std::uint32_t accepted = 0;
+    std::uint32_t ties = 0;    ///< Decisions where double would differ, within the guard of the limit.
+    std::uint32_t wrong = 0;   ///< Decisions where double differs by more.
+    double largest_gap = 0;    ///< Of the ties, in units of the minimum distance.
+};
+
+/// Sequential dart throwing as the float twin decides, with every disk checked in double precision.
+ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain);
+
+} // namespace geodisk::test
