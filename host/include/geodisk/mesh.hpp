@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geodisk/export.hpp"
 #include "geodisk/status.hpp"
 
 namespace geodisk {
@@ -83,7 +84,7 @@ class PreparedMesh {
     /// Fails with `mesh_rejected` and the face or vertex in `Error::element` when an index is out of
     /// range, a used coordinate is not finite, there is no face with area, or the mesh is too large
     /// to index with 32 bits; with `out_of_host_memory` when memory runs out.
-    static Result<PreparedMesh> prepare(const MeshView& mesh) noexcept;
+    GEODISK_API static Result<PreparedMesh> prepare(const MeshView& mesh) noexcept;
 
     std::span<const HalfEdge> half_edges() const noexcept { return half_edges_; }
     std::span<const VertexFan> fans() const noexcept { return fans_; }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "geodisk/export.hpp"
 #include "geodisk/mesh.hpp"
 #include "geodisk/status.hpp"
 
@@ -34,25 +35,26 @@ struct Tolerances {
 };
 
 /// Expected number of samples for a distance: rho^2 A / (2 sqrt(3) r^2) with r = D / 2.
-double expected_count(double area, double min_distance) noexcept;
+GEODISK_API double expected_count(double area, double min_distance) noexcept;
 
 /// The distance that should give about `count` samples.
-double distance_for_count(double area, double count) noexcept;
+GEODISK_API double distance_for_count(double area, double count) noexcept;
 
 /// Packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
-double packing_density(double area, double min_distance, double count) noexcept;
+GEODISK_API double packing_density(double area, double min_distance, double count) noexcept;
 
 /// Candidates in the pool: pool_ratio times the expected count, at least 64.
 ///
 /// Fails with `invalid_argument` when a parameter is out of range, and when the pool cannot be
 /// indexed with 32 bits; the message tells how many candidates and bytes it would take.
-Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
+                                            const SampleParams& params) noexcept;
 
 /// Crossings to provide for: a bound guessed from the faces a disk covers, at least 64.
-std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept;
+GEODISK_API std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept;
 
 /// Tolerances for window chains of at most `chain` crossings.
-Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
-                          std::uint32_t chain) noexcept;
+GEODISK_API Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
+                                      std::uint32_t chain) noexcept;
 
 } // namespace geodisk

@@ -69,7 +69,7 @@ inline constexpr VkBufferUsageFlags kWorkspaceUsage =
 /// Bytes each buffer needs at least.
 struct WorkspaceNeeds {
     std::array<VkDeviceSize, kBufferRoles> bytes{};
-    VkDeviceSize total() const noexcept;
+    GEODISK_API VkDeviceSize total() const noexcept;
 };
 
 /// How a job is cut into work. None of this changes which samples come out.
@@ -81,8 +81,8 @@ struct RunPlan {
     std::uint32_t trip_budget = 0;     ///< Loop iterations per invocation and dispatch.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
 
-    std::uint32_t slice_rows() const noexcept;   ///< Of 16 bytes, per slot.
-    std::uint64_t pool_bytes() const noexcept;
+    GEODISK_API std::uint32_t slice_rows() const noexcept; ///< Of 16 bytes, per slot.
+    GEODISK_API std::uint64_t pool_bytes() const noexcept;
 };
 
 /// Stages and accesses of the first commands that touch the workspace (the caller's earlier writes

@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include <geodisk/export.hpp>
+
 namespace geodisk {
 
 /// Outcome of a call. Zero is success, positive is valid but incomplete, negative is failure.
@@ -26,7 +28,7 @@ enum class Status : std::int32_t {
 };
 
 /// Name of a status as spelled above, for messages.
-const char* to_string(Status status) noexcept;
+GEODISK_API const char* to_string(Status status) noexcept;
 
 /// Marks an Error that does not concern one element.
 inline constexpr std::uint64_t kNoElement = ~std::uint64_t{0};
