@@ -74,7 +74,7 @@ void AtomicFile::write(std::string_view bytes) {
     }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::sync() {
     errno = 0;
     if (std::fflush(file_) != 0) {
         fail(errno);
@@ -82,6 +82,10 @@ void AtomicFile::commit() {
     if (const int error = sync_to_disk(file_); error != 0) {
         fail(error);
     }
+}
+
+void AtomicFile::commit() {
+    sync();
     std::FILE* const file = file_;
     file_ = nullptr;
     std::error_code error;

@@ -19,7 +19,11 @@ class AtomicFile {
 
     void write(std::string_view bytes);
 
-    /// Flushes to the disk, closes and renames. The last call.
+    /// Brings all bytes to the disk, so that of several files none is committed when one cannot be
+    /// written.
+    void sync();
+
+    /// Syncs, closes and renames. The last call.
     void commit();
 
   private:

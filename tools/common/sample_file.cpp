@@ -174,9 +174,15 @@ void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
 
 void write_samples(const std::filesystem::path& path, const SampleHeader& header,
                    std::span<const SampleRow> rows, bool ascii_ply) {
-    const Format format = format_of(path);
+    format_of(path); // Before a file appears.
     AtomicFile file(path);
-    switch (format) {
+    write_samples(file, path, header, rows, ascii_ply);
+    file.commit();
+}
+
+void write_samples(AtomicFile& file, const std::filesystem::path& path, const SampleHeader& header,
+                   std::span<const SampleRow> rows, bool ascii_ply) {
+    switch (format_of(path)) {
     case Format::ply:
         write_ply(file, header, rows, ascii_ply);
         break;
@@ -187,7 +193,6 @@ void write_samples(const std::filesystem::path& path, const SampleHeader& header
         write_xyz(file, rows);
         break;
     }
-    file.commit();
 }
 
 void check_output_path(const std::filesystem::path& path) {

@@ -26,6 +26,8 @@ struct SampleHeader {
     std::vector<std::pair<std::string, std::string>> entries;
 };
 
+class AtomicFile;
+
 struct SampleFile {
     std::vector<SampleRow> rows;
     SampleHeader header;
@@ -40,6 +42,10 @@ struct SampleFile {
 /// Numbers in text are the shortest that read back exactly. The file appears complete or not at
 /// all. Throws UserError as check_output_path() does.
 void write_samples(const std::filesystem::path& path, const SampleHeader& header,
+                   std::span<const SampleRow> rows, bool ascii_ply);
+
+/// The same into `file`, which the caller opened for `path` and commits.
+void write_samples(AtomicFile& file, const std::filesystem::path& path, const SampleHeader& header,
                    std::span<const SampleRow> rows, bool ascii_ply);
 
 /// Fails before long work where write_samples() would fail after it: UserError(usage) for an

@@ -17,7 +17,8 @@ enum class ExitCode : int {
     no_device = 5,      ///< No Vulkan device that can run geodisk.
     out_of_memory = 6,  ///< The work does not fit the host's or the device's memory.
     internal = 7,       ///< The device was lost or an invariant of geodisk broke.
-    interrupted = 130,
+    interrupted = 130,  ///< SIGINT.
+    terminated = 143,   ///< SIGTERM.
 };
 
 /// Thrown anywhere below main(); main prints `message` as one line and exits with `code`.
