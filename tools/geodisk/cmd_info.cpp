@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -19,26 +18,13 @@
 #include <geodisk/version.hpp>
 
 #include "common/user_error.hpp"
+#include "geodisk/failure.hpp"
+#include "geodisk/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* type_name(VkPhysicalDeviceType type) {
-    switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return "discrete GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return "integrated GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return "virtual GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return "CPU";
-    default:
-        return "other";
-    }
-}
 
 std::string version_text(std::uint32_t version) {
     return std::to_string(VK_API_VERSION_MAJOR(version)) + '.' +
@@ -57,28 +43,6 @@ std::string uuid_text(const std::array<std::uint8_t, VK_UUID_SIZE>& uuid) {
         text += kDigits[uuid[i] & 15];
     }
     return text;
-}
-
-/// Bytes with a binary unit, rounded to one decimal.
-std::string size_text(std::uint64_t bytes) {
-    static constexpr const char* kUnits[] = {"bytes", "KiB", "MiB", "GiB", "TiB"};
-    double value = static_cast<double>(bytes);
-    std::size_t unit = 0;
-    while (value >= 1024.0 && unit + 1 < std::size(kUnits)) {
-        value /= 1024.0;
-        ++unit;
-    }
-    char text[40];
-    const int decimals = value == static_cast<double>(static_cast<std::uint64_t>(value)) ? 0 : 1;
-    std::snprintf(text, sizeof text, "%.*f %s", decimals, value, kUnits[unit]);
-    return text;
-}
-
-std::string driver_text(const DeviceReport& report) {
-    if (report.driver_name.empty())
-        return "version " + std::to_string(report.driver_version);
-    return report.driver_info.empty() ? report.driver_name
-                                      : report.driver_name + ", " + report.driver_info;
 }
 
 std::string timestamp_text(const DeviceReport& report) {
@@ -172,19 +136,6 @@ void print_json(std::ostream& out, const std::vector<DeviceReport>& reports,
                         {"devices", std::move(devices)}};
     // Drivers name themselves as they like; text that is not UTF-8 must not end the program.
     out << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-}
-
-ExitCode exit_code_of(Status status) {
-    switch (status) {
-    case Status::no_device:
-    case Status::device_lacks:
-        return ExitCode::no_device;
-    case Status::out_of_host_memory:
-    case Status::out_of_device_memory:
-        return ExitCode::out_of_memory;
-    default:
-        return ExitCode::internal;
-    }
 }
 
 void run_info(bool as_json) {

@@ -1,0 +1,320 @@
+#include "geodisk/cmd_sample.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <geodisk/context.hpp>
+#include <geodisk/runner.hpp>
+
+#include "common/atomic_file.hpp"
+#include "common/sample_file.hpp"
+#include "geodisk/arguments.hpp"
+#include "geodisk/failure.hpp"
+#include "geodisk/human_text.hpp"
+#include "geodisk/interrupt.hpp"
+#include "geodisk/mesh_input.hpp"
+#include "geodisk/progress.hpp"
+#include "geodisk/sample_report.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// As given on the command line.
+struct SampleOptions {
+    std::string mesh, output, json, device;
+    std::string min_distance, radius, count;
+    std::string seed = "0", pool_ratio = "20", memory = "256M";
+    bool ascii = false, quiet = false, validate = false;
+};
+
+/// The options, checked as far as that is possible without the mesh.
+struct SampleRequest {
+    std::optional<Length> min_distance;
+    double count = 0; ///< When there is no min_distance.
+    SampleParams params;
+    RunnerOptions runner;
+
+    double distance_on(const MeshStatistics& mesh) const {
+        return min_distance ? min_distance->in_mesh_units(mesh.diagonal)
+                            : distance_for_count(mesh.area, count);
+    }
+};
+
+void check_one_distance(const SampleOptions& options) {
+    std::string given;
+    int count = 0;
+    for (const auto& [name, value] : {std::pair{"--min-distance", &options.min_distance},
+                                      std::pair{"--radius", &options.radius},
+                                      std::pair{"--count", &options.count}}) {
+        if (!value->empty()) {
+            given += given.empty() ? name : std::string(" and ") + name;
+            ++count;
+        }
+    }
+    if (count == 0) {
+        throw UserError(ExitCode::usage,
+                        "no distance given; give one of --min-distance, --radius and --count");
+    }
+    if (count > 1) {
+        throw UserError(ExitCode::usage, given + " contradict each other; give just one of them");
+    }
+}
+
+SampleRequest parse_request(const SampleOptions& options) {
+    check_one_distance(options);
+    SampleRequest request;
+    if (!options.min_distance.empty()) {
+        request.min_distance = parse_length("--min-distance", options.min_distance);
+    } else if (!options.radius.empty()) {
+        request.min_distance = parse_length("--radius", options.radius);
+        request.min_distance->value *= 2;
+    } else {
+        request.count = parse_count("--count", options.count);
+    }
+    request.params.seed = parse_seed("--seed", options.seed);
+    request.params.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
+    request.runner.pool_bytes = parse_bytes("--memory", options.memory);
+    return request;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(a, b, ignored)) {
+        return true;
+    }
+    const auto canonical_a = std::filesystem::weakly_canonical(a, ignored);
+    return !canonical_a.empty() && canonical_a == std::filesystem::weakly_canonical(b, ignored);
+}
+
+/// Finds out before the work that it would be in vain.
+void check_outputs(const SampleOptions& options) {
+    const bool has_json_file = !options.json.empty() && options.json != "-";
+    if (is_same_file(options.output, options.mesh)) {
+        throw UserError(ExitCode::usage, options.output + ": the output would replace the mesh");
+    }
+    if (has_json_file && is_same_file(options.json, options.mesh)) {
+        throw UserError(ExitCode::usage, options.json + ": the report would replace the mesh");
+    }
+    if (has_json_file && is_same_file(options.json, options.output)) {
+        throw UserError(ExitCode::usage, options.json + ": the report would replace the samples");
+    }
+    check_output_path(options.output);
+    if (has_json_file) {
+        const AtomicFile probe(options.json); // Creates and removes the temporary file.
+    }
+}
+
+/// Runs `work` and adds its seconds to `seconds`.
+template <typename Work>
+auto timed(double& seconds, const Work& work) {
+    const auto start = Clock::now();
+    auto result = work();
+    seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    return result;
+}
+
+SampleSet run_sampler(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
+                      ProgressLine& progress) {
+    const double expected =
+        std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
+    progress.begin_stage("sampling");
+    auto result = runner.sample_and_wait(mesh, params, [&](const Progress& state) {
+        // Work is in the disks of accepted candidates, but only the ranks are sure to reach the end.
+        const double accepted = std::min(0.99, state.accepted / expected);
+        const double passed = static_cast<double>(state.ranks_passed) / state.candidates;
+        progress.update(std::max(accepted, passed), grouped(state.accepted) + " samples");
+        return !is_interrupted();
+    });
+    progress.clear();
+    check_interrupted();
+    // The device was found good enough, so what it lacks here is room for this job.
+    if (!result && result.error().status == Status::device_lacks) {
+        throw UserError(ExitCode::out_of_memory, result.error().message);
+    }
+    return take(std::move(result));
+}
+
+void check_validation(const Context& context) {
+    if (context.validation_message_count() > 0) {
+        const auto messages = take(context.validation_messages());
+        throw UserError(ExitCode::internal,
+                        std::to_string(context.validation_message_count()) +
+                            " messages of the validation layer, the first: " + messages.front());
+    }
+}
+
+std::vector<Sample> sample_on_device(const SampleOptions& options, const RunnerOptions& runner_options,
+                                     const PreparedMesh& mesh, SampleReport& report,
+                                     ProgressLine& progress) {
+    ContextOptions context_options;
+    context_options.device = options.device;
+    context_options.validation = options.validate;
+    progress.begin_stage("opening the device");
+    const Context context = timed(report.seconds.device,
+                                  [&] { return take(Context::create(context_options)); });
+    report.device = context.report();
+    check_interrupted();
+    progress.begin_stage("compiling the shaders");
+    Runner runner = timed(report.seconds.pipelines, [&] {
+        return take(Runner::create(context.device(), context.queue(), runner_options));
+    });
+    check_interrupted();
+    SampleSet set = run_sampler(runner, mesh, report.params, progress);
+    check_validation(context);
+    report.run = set.report;
+    report.samples = set.samples.size();
+    report.rho = packing_density(report.mesh.area, report.params.min_distance,
+                                 static_cast<double>(set.samples.size()));
+    return std::move(set.samples);
+}
+
+std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>& samples) {
+    std::vector<SampleRow> rows;
+    rows.reserve(samples.size());
+    for (const Sample& sample : samples) {
+        const Vec3 position = mesh.point(sample.face, sample.weights);
+        const Vec3 normal = mesh.normal(sample.face);
+        SampleRow row;
+        row.position[0] = position.x;
+        row.position[1] = position.y;
+        row.position[2] = position.z;
+        row.normal[0] = static_cast<float>(normal.x);
+        row.normal[1] = static_cast<float>(normal.y);
+        row.normal[2] = static_cast<float>(normal.z);
+        row.face = sample.face;
+        std::copy_n(sample.weights, 3, row.bary);
+        row.candidate = sample.candidate;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+void print_or_fail(const std::string& what) {
+    std::cout.flush();
+    if (!std::cout) {
+        throw UserError(ExitCode::bad_output, what + " cannot be written to standard output");
+    }
+}
+
+/// Brings everything to the disk before anything appears under its name.
+void write_outputs(const SampleOptions& options, const std::vector<SampleRow>& rows,
+                   SampleReport& report, ProgressLine& progress) {
+    progress.begin_stage("writing the samples");
+    const auto start = Clock::now();
+    AtomicFile samples(options.output);
+    write_samples(samples, options.output, sample_header(report), rows, options.ascii);
+    samples.sync();
+    report.seconds.write = std::chrono::duration<double>(Clock::now() - start).count();
+    progress.clear();
+
+    std::optional<AtomicFile> json;
+    if (options.json == "-") {
+        std::cout << json_text(report);
+        print_or_fail("the report");
+    } else if (!options.json.empty()) {
+        json.emplace(options.json).write(json_text(report));
+        json->sync();
+    }
+    check_interrupted();
+    samples.commit();
+    if (json) {
+        json->commit();
+    }
+    if (!options.quiet && options.json != "-") {
+        print_summary(std::cout, report);
+        print_or_fail("the summary");
+    }
+}
+
+void run_sample(const SampleOptions& options) {
+    const SampleRequest request = parse_request(options);
+    check_outputs(options);
+    ProgressLine progress(options.quiet);
+    const MeshInput mesh = load_mesh(options.mesh, progress);
+
+    SampleReport report;
+    report.mesh_path = options.mesh;
+    report.output_path = options.output;
+    report.mesh = mesh.prepared.statistics();
+    report.params = request.params;
+    report.params.min_distance = request.distance_on(report.mesh);
+    report.wanted_count = request.count;
+    report.seconds.load = mesh.load_seconds;
+    report.seconds.prepare = mesh.prepare_seconds;
+    take(pool_size(mesh.prepared, report.params)); // Fails before a device is needed.
+
+    const std::vector<Sample> samples =
+        sample_on_device(options, request.runner, mesh.prepared, report, progress);
+    write_outputs(options, to_rows(mesh, samples), report, progress);
+}
+
+} // namespace
+
+void add_sample_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("sample", "Put samples on a mesh and write them to a file");
+    const auto options = std::make_shared<SampleOptions>();
+    command->add_option("MESH", options->mesh, "Mesh to sample: *.obj, *.ply or builtin:NAME")
+        ->type_name("")
+        ->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "File to write: *.ply (binary), *.csv or *.xyz (positions only)")
+        ->type_name("OUT")
+        ->required();
+
+    const char* const distance = "Distance, give one";
+    command
+        ->add_option("-d,--min-distance", options->min_distance,
+                     "Least distance of two samples along the surface, in mesh units, or with % of "
+                     "the bounding-box diagonal")
+        ->type_name("D")
+        ->group(distance);
+    command->add_option("-r,--radius", options->radius, "Half of it")
+        ->type_name("R")
+        ->group(distance);
+    command
+        ->add_option("-n,--count", options->count,
+                     "Choose the distance that should give about N samples")
+        ->type_name("N")
+        ->group(distance);
+
+    command->add_option("--seed", options->seed, "64-bit seed; equal seeds give equal samples")
+        ->type_name("S")
+        ->capture_default_str();
+    command
+        ->add_option("--pool-ratio", options->pool_ratio,
+                     "Candidates per expected sample, 1 to 10000; more leave fewer gaps")
+        ->type_name("Q")
+        ->capture_default_str();
+    command->add_option("--device", options->device, "Device by name, index or UUID (geodisk info)")
+        ->type_name("NAME|INDEX");
+    command
+        ->add_option("--memory", options->memory,
+                     "Most bytes of device memory for work in progress; does not change the samples")
+        ->type_name("BYTES")
+        ->capture_default_str();
+    command->add_option("--json", options->json, "Write a report as JSON, - for standard output")
+        ->type_name("FILE");
+    command->add_flag("--ascii", options->ascii, "Write PLY as text");
+    command->add_flag("-q,--quiet", options->quiet, "No progress and no summary");
+    command
+        ->add_flag("--validate", options->validate,
+                   "Run with the Vulkan validation layer and fail on any message")
+        ->group("Development");
+    command->callback([options] { run_sample(*options); });
+}
+
+} // namespace geodisk::tools

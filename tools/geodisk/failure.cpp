@@ -1,0 +1,23 @@
+#include "geodisk/failure.hpp"
+
+namespace geodisk::tools {
+
+ExitCode exit_code_of(Status status) {
+    switch (status) {
+    case Status::invalid_argument:
+        return ExitCode::usage;
+    case Status::mesh_rejected:
+        return ExitCode::bad_input;
+    case Status::no_device:
+    case Status::device_lacks:
+        return ExitCode::no_device;
+    case Status::out_of_host_memory:
+    case Status::out_of_device_memory:
+    case Status::workspace_too_small:
+        return ExitCode::out_of_memory;
+    default:
+        return ExitCode::internal;
+    }
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,92 @@
+#include "geodisk/human_text.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+namespace geodisk::tools {
+namespace {
+
+std::string in_format(double value, std::chars_format format, int precision) {
+    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
+    const auto result = std::to_chars(digits, digits + sizeof digits, value, format, precision);
+    return {digits, result.ptr};
+}
+
+} // namespace
+
+std::string grouped(std::uint64_t value) {
+    std::string text = std::to_string(value);
+    for (std::size_t end = text.size(); end > 3; end -= 3) {
+        text.insert(end - 3, 1, ',');
+    }
+    return text;
+}
+
+std::string counted(std::uint64_t value, std::string_view one, std::string_view many) {
+    return grouped(value) + ' ' + std::string(value == 1 ? one : many);
+}
+
+std::string rounded(double value, int digits) {
+    return in_format(value, std::chars_format::general, digits);
+}
+
+std::string seconds_text(double seconds) {
+    if (seconds < 0.9995) {
+        return in_format(1000 * seconds, std::chars_format::fixed, seconds < 0.00995 ? 1 : 0) +
+               " ms";
+    }
+    if (seconds < 60) {
+        return in_format(seconds, std::chars_format::fixed, seconds < 9.995 ? 2 : 1) + " s";
+    }
+    const auto whole = static_cast<std::uint64_t>(seconds);
+    return grouped(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+}
+
+std::string size_text(std::uint64_t bytes) {
+    static constexpr const char* kUnits[] = {"bytes", "KiB", "MiB", "GiB", "TiB"};
+    double value = static_cast<double>(bytes);
+    std::size_t unit = 0;
+    while (value >= 1024.0 && unit + 1 < std::size(kUnits)) {
+        value /= 1024.0;
+        ++unit;
+    }
+    const int decimals = value == std::floor(value) ? 0 : 1;
+    return in_format(value, std::chars_format::fixed, decimals) + ' ' + kUnits[unit];
+}
+
+const char* type_name(VkPhysicalDeviceType type) {
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "CPU";
+    default:
+        return "other";
+    }
+}
+
+std::string driver_text(const DeviceReport& report) {
+    if (report.driver_name.empty()) {
+        return "version " + std::to_string(report.driver_version);
+    }
+    return report.driver_info.empty() ? report.driver_name
+                                      : report.driver_name + ", " + report.driver_info;
+}
+
+std::string one_line(std::string text) {
+    for (char& character : text) {
+        if (character == '\n' || character == '\r' || character == '\t') {
+            character = ' ';
+        } else if (static_cast<unsigned char>(character) < 0x20 || character == 0x7f) {
+            character = '?';
+        }
+    }
+    return text;
+}
+
+} // namespace geodisk::tools

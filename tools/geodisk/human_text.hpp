@@ -1,0 +1,35 @@
+// Numbers and names as people read them, whatever the locale.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <geodisk/device.hpp>
+
+namespace geodisk::tools {
+
+/// "1,234,567".
+std::string grouped(std::uint64_t value);
+
+/// "1 vertex" or "1,234 vertices".
+std::string counted(std::uint64_t value, std::string_view one, std::string_view many);
+
+/// Rounded to `digits` significant digits, without trailing zeros.
+std::string rounded(double value, int digits);
+
+/// "12 ms", "1.23 s" or "4 min 5 s".
+std::string seconds_text(double seconds);
+
+/// Bytes with a binary unit, rounded to one decimal.
+std::string size_text(std::uint64_t bytes);
+
+const char* type_name(VkPhysicalDeviceType type);
+
+/// The driver's name and version, as far as it tells.
+std::string driver_text(const DeviceReport& report);
+
+/// `text` with blanks for line breaks and '?' for other control characters, for one-line messages.
+std::string one_line(std::string text);
+
+} // namespace geodisk::tools

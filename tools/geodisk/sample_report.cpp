@@ -1,0 +1,125 @@
+#include "geodisk/sample_report.hpp"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include <geodisk/version.hpp>
+
+#include "common/text.hpp"
+#include "geodisk/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Number>
+std::string exact_text(Number value) {
+    std::string text;
+    append_number(text, value);
+    return text;
+}
+
+Json seconds_json(const SampleReport& report) {
+    return {{"load", report.seconds.load},
+            {"prepare", report.seconds.prepare},
+            {"device", report.seconds.device},
+            {"pipelines", report.seconds.pipelines},
+            {"upload", report.run.seconds.upload},
+            {"sample", report.run.seconds.sample},
+            {"readback", report.run.seconds.readback},
+            {"write", report.seconds.write}};
+}
+
+double total_seconds(const SampleReport& report) {
+    double total = 0;
+    for (const auto& stage : seconds_json(report)) {
+        total += stage.get<double>();
+    }
+    return total;
+}
+
+std::string mesh_text(const MeshStatistics& mesh) {
+    std::string text = counted(mesh.triangles, "triangle", "triangles") + ", " +
+                       counted(mesh.components, "component", "components");
+    if (mesh.boundary_edges > 0) {
+        text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
+    }
+    return text + ", area " + rounded(mesh.area, 6);
+}
+
+} // namespace
+
+SampleHeader sample_header(const SampleReport& report) {
+    return {{{"version", "geodisk " GEODISK_VERSION_STRING},
+             {"mesh", report.mesh_path},
+             {"min_distance", exact_text(report.params.min_distance)},
+             {"radius", exact_text(report.params.min_distance / 2)},
+             {"seed", exact_text(report.params.seed)},
+             {"pool_size", exact_text(report.run.candidates)},
+             {"device", report.device.name},
+             {"driver", driver_text(report.device)}}};
+}
+
+std::string json_text(const SampleReport& report) {
+    const RunReport& run = report.run;
+    const Json document{
+        {"version", GEODISK_VERSION_STRING},
+        {"mesh",
+         {{"path", report.mesh_path},
+          {"vertices", report.mesh.vertices},
+          {"triangles", report.mesh.triangles},
+          {"components", report.mesh.components},
+          {"boundary_edges", report.mesh.boundary_edges},
+          {"nonmanifold_edges", report.mesh.nonmanifold_edges},
+          {"area", report.mesh.area},
+          {"diagonal", report.mesh.diagonal}}},
+        {"output", report.output_path},
+        {"min_distance", report.params.min_distance},
+        {"radius", report.params.min_distance / 2},
+        {"seed", report.params.seed},
+        {"pool_ratio", report.params.pool_ratio},
+        {"candidates", run.candidates},
+        {"samples", report.samples},
+        {"rho", report.rho},
+        {"iterations", run.iterations},
+        {"dispatches", run.dispatches},
+        {"disks", run.disks},
+        {"windows", run.windows},
+        {"tested", run.tested},
+        {"largest_heap", run.largest_heap},
+        {"longest_chain", run.longest_chain},
+        {"regrown", run.regrown},
+        {"guard", run.guard},
+        {"device_bytes", run.device_bytes},
+        {"seconds", seconds_json(report)},
+        {"device",
+         {{"name", report.device.name},
+          {"driver", driver_text(report.device)},
+          {"type", type_name(report.device.type)}}}};
+    // Paths and driver names may be anything; text that is not UTF-8 must not end the program.
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void print_summary(std::ostream& out, const SampleReport& report) {
+    const double distance = report.params.min_distance;
+    out << "mesh          " << one_line(report.mesh_path) << '\n'
+        << "              " << mesh_text(report.mesh) << '\n'
+        << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
+        << ") in mesh units\n"
+        << "samples       " << grouped(report.samples);
+    if (report.wanted_count > 0) {
+        out << " of about " << grouped(static_cast<std::uint64_t>(report.wanted_count))
+            << " asked for";
+    }
+    out << ", rho " << rounded(report.rho, 3) << '\n'
+        << "candidates    " << grouped(report.run.candidates) << ", seed " << report.params.seed
+        << '\n'
+        << "time          " << seconds_text(report.run.seconds.sample) << " sampling, "
+        << seconds_text(total_seconds(report)) << " in all\n"
+        << "device        " << one_line(report.device.name) << '\n'
+        << "file          " << one_line(report.output_path) << '\n';
+}
+
+} // namespace geodisk::tools

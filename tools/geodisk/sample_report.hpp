@@ -1,0 +1,40 @@
+// What `geodisk sample` tells about a run: to people, to programs, and in the sample file.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+#include <geodisk/device.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/runner.hpp>
+
+#include "common/sample_file.hpp"
+
+namespace geodisk::tools {
+
+struct SampleReport {
+    std::string mesh_path;
+    std::string output_path;
+    MeshStatistics mesh;
+    SampleParams params;
+    double wanted_count = 0; ///< Of --count; 0 without.
+    std::uint64_t samples = 0;
+    double rho = 0;
+    RunReport run;
+    DeviceReport device;
+    struct {
+        double load = 0, prepare = 0, device = 0, pipelines = 0, write = 0;
+    } seconds; ///< Those of upload, sample and readback are in `run`.
+};
+
+/// Nothing in it depends on when or how fast the run was, so equal runs give equal files.
+SampleHeader sample_header(const SampleReport& report);
+
+/// One JSON object and a line break.
+std::string json_text(const SampleReport& report);
+
+void print_summary(std::ostream& out, const SampleReport& report);
+
+} // namespace geodisk::tools
