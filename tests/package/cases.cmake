@@ -1,0 +1,117 @@
+# Runs one package test, CASE, with what SETTINGS says of the build.
+cmake_minimum_required(VERSION 3.22)
+include("${SETTINGS}")
+set(package_tests "${CMAKE_CURRENT_LIST_DIR}")
+set(installed "${work}/installed package") # The blank is part of the test.
+
+# Runs a command; fails the test unless it succeeds without a warning.
+function(run)
+    execute_process(COMMAND ${ARGN}
+        OUTPUT_VARIABLE printed ERROR_VARIABLE printed RESULT_VARIABLE status)
+    list(JOIN ARGN " " command)
+    if(NOT status EQUAL 0)
+        message("${printed}")
+        message(FATAL_ERROR "failed with ${status}: ${command}")
+    endif()
+    if(printed MATCHES "[Ww]arning:|CMake Warning|CMake Deprecation Warning")
+        message("${printed}")
+        message(FATAL_ERROR "warns: ${command}")
+    endif()
+endfunction()
+
+# Configures a project from nothing. Vulkan's own package is kept out of reach: the headers do.
+function(configure source build)
+    file(REMOVE_RECURSE "${build}")
+    run("${CMAKE_COMMAND}" -S "${source}" -B "${build}" --no-warn-unused-cli
+        ${common_options} -DCMAKE_DISABLE_FIND_PACKAGE_Vulkan=ON ${ARGN})
+endfunction()
+
+function(build folder)
+    run("${CMAKE_COMMAND}" --build "${folder}" --parallel 2 ${ARGN})
+endfunction()
+
+# Runs both programs of find_package/. What drivers write to stderr and leak is not ours.
+function(run_programs folder)
+    set(ENV{ASAN_OPTIONS} "detect_leaks=0")
+    foreach(program check example)
+        execute_process(COMMAND "${folder}/${program}" OUTPUT_VARIABLE output RESULT_VARIABLE status)
+        if(NOT status EQUAL 0)
+            message(FATAL_ERROR "${program} fails with ${status}")
+        endif()
+    endforeach()
+    if(NOT output MATCHES "^[0-9]+ samples\n([-0-9.e]+ [-0-9.e]+ [-0-9.e]+\n)+$")
+        message("${output}")
+        message(FATAL_ERROR "the example prints something else than points")
+    endif()
+endfunction()
+
+if(CASE STREQUAL "install")
+    file(REMOVE_RECURSE "${installed}")
+    run("${CMAKE_COMMAND}" --install "${build_root}" --prefix "${installed}")
+
+elseif(CASE STREQUAL "find_package")
+    configure("${package_tests}/find_package" "${work}/find package"
+        "-DCMAKE_PREFIX_PATH=${installed}")
+    build("${work}/find package")
+    run_programs("${work}/find package")
+
+elseif(CASE STREQUAL "shared")
+    configure("${source_root}" "${work}/shared library"
+        -DBUILD_SHARED_LIBS=ON
+        -DGEODISK_BUILD_TOOLS=OFF
+        -DGEODISK_BUILD_TESTS=OFF
+        -DGEODISK_BUILD_BENCH=OFF
+        "-DCMAKE_INSTALL_PREFIX=${work}/shared package")
+    build("${work}/shared library")
+    file(REMOVE_RECURSE "${work}/shared package")
+    run("${CMAKE_COMMAND}" --install "${work}/shared library")
+    configure("${package_tests}/find_package" "${work}/shared user"
+        "-DCMAKE_PREFIX_PATH=${work}/shared package")
+    build("${work}/shared user")
+    run_programs("${work}/shared user")
+
+elseif(CASE STREQUAL "add_subdirectory")
+    configure("${package_tests}/add_subdirectory" "${work}/add subdirectory"
+        "-DGEODISK_SOURCE=${source_root}")
+    build("${work}/add subdirectory")
+    run_programs("${work}/add subdirectory")
+
+elseif(CASE STREQUAL "headers")
+    configure("${package_tests}/headers" "${work}/headers" "-DCMAKE_PREFIX_PATH=${installed}")
+    build("${work}/headers")
+
+elseif(CASE STREQUAL "compile_fail")
+    configure("${package_tests}/compile_fail" "${work}/compile fail"
+        "-DCMAKE_PREFIX_PATH=${installed}")
+    build("${work}/compile fail" --target right)
+    execute_process(COMMAND "${CMAKE_COMMAND}" --build "${work}/compile fail" --target wrong
+        OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE status)
+    if(status EQUAL 0)
+        message(FATAL_ERROR "a Result that nobody looks at compiles")
+    endif()
+    if(NOT output MATCHES "unused-result|nodiscard")
+        message("${output}")
+        message(FATAL_ERROR "it fails for another reason")
+    endif()
+
+elseif(CASE STREQUAL "readme")
+    # The README shows these files word for word.
+    file(READ "${source_root}/README.md" readme)
+    foreach(shown
+            "cpp:tests/package/find_package/main.cpp"
+            "cmake:tests/package/find_package/CMakeLists.txt")
+        string(REGEX MATCH "^([a-z]+):(.*)$" matched "${shown}")
+        set(language "${CMAKE_MATCH_1}")
+        set(file "${CMAKE_MATCH_2}")
+        file(READ "${source_root}/${file}" text)
+        string(REGEX REPLACE "^(.*\n)?[#/]* Shown in the README from here on\\.\n+" "" text "${text}")
+        string(REGEX REPLACE "\n+[#/]* Not shown from here on\\..*$" "\n" text "${text}")
+        string(FIND "${readme}" "```${language}\n${text}```" place)
+        if(place EQUAL -1)
+            message(FATAL_ERROR "the README does not show ${file} as it is; expected:\n${text}")
+        endif()
+    endforeach()
+
+else()
+    message(FATAL_ERROR "there is no case \"${CASE}\"")
+endif()
