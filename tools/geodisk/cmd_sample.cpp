@@ -55,9 +55,9 @@ struct SampleRequest {
 void check_one_distance(const SampleOptions& options) {
     std::string given;
     int count = 0;
-    for (const auto& [name, value] : {std::pair{"--min-distance", &options.min_distance},
-                                      std::pair{"--radius", &options.radius},
-                                      std::pair{"--count", &options.count}}) {
+    for (const auto& [name, value] :
+         {std::pair{"--min-distance", &options.min_distance},
+          std::pair{"--radius", &options.radius}, std::pair{"--count", &options.count}}) {
         if (!value->empty()) {
             given += given.empty() ? name : std::string(" and ") + name;
             ++count;
@@ -131,7 +131,8 @@ SampleSet run_sampler(Runner& runner, const PreparedMesh& mesh, const SamplePara
         std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
     progress.begin_stage("sampling");
     auto result = runner.sample_and_wait(mesh, params, [&](const Progress& state) {
-        // Work is in the disks of accepted candidates, but only the ranks are sure to reach the end.
+        // Work is in the disks of accepted candidates, but only the ranks are sure to reach the
+        // end.
         const double accepted = std::min(0.99, state.accepted / expected);
         const double passed = static_cast<double>(state.ranks_passed) / state.candidates;
         progress.update(std::max(accepted, passed), grouped(state.accepted) + " samples");
@@ -155,15 +156,15 @@ void check_validation(const Context& context) {
     }
 }
 
-std::vector<Sample> sample_on_device(const SampleOptions& options, const RunnerOptions& runner_options,
-                                     const PreparedMesh& mesh, SampleReport& report,
-                                     ProgressLine& progress) {
+std::vector<Sample> sample_on_device(const SampleOptions& options,
+                                     const RunnerOptions& runner_options, const PreparedMesh& mesh,
+                                     SampleReport& report, ProgressLine& progress) {
     ContextOptions context_options;
     context_options.device = options.device;
     context_options.validation = options.validate;
     progress.begin_stage("opening the device");
-    const Context context = timed(report.seconds.device,
-                                  [&] { return take(Context::create(context_options)); });
+    const Context context =
+        timed(report.seconds.device, [&] { return take(Context::create(context_options)); });
     report.device = context.report();
     check_interrupted();
     progress.begin_stage("compiling the shaders");
@@ -302,8 +303,9 @@ void add_sample_command(CLI::App& app) {
     command->add_option("--device", options->device, "Device by name, index or UUID (geodisk info)")
         ->type_name("NAME|INDEX");
     command
-        ->add_option("--memory", options->memory,
-                     "Most bytes of device memory for work in progress; does not change the samples")
+        ->add_option(
+            "--memory", options->memory,
+            "Most bytes of device memory for work in progress; does not change the samples")
         ->type_name("BYTES")
         ->capture_default_str();
     command->add_option("--json", options->json, "Write a report as JSON, - for standard output")

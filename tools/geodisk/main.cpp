@@ -13,6 +13,7 @@
 #include "geodisk/cmd_info.hpp"
 #include "geodisk/cmd_sample.hpp"
 #include "geodisk/cmd_shapes.hpp"
+#include "geodisk/cmd_verify.hpp"
 #include "geodisk/human_text.hpp"
 #include "geodisk/interrupt.hpp"
 
@@ -77,13 +78,15 @@ int run(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
     geodisk::tools::install_signal_handlers();
-    CLI::App app("Random points on a triangle mesh, no two closer than a minimum distance along the "
-                 "surface",
-                 "geodisk");
+    CLI::App app(
+        "Random points on a triangle mesh, no two closer than a minimum distance along the "
+        "surface",
+        "geodisk");
     app.set_version_flag("--version", "geodisk " GEODISK_VERSION_STRING);
     app.require_subcommand(1);
     app.footer(kFooter);
     geodisk::tools::add_sample_command(app);
+    geodisk::tools::add_verify_command(app);
     geodisk::tools::add_shapes_command(app);
     geodisk::tools::add_info_command(app);
     return run(app, argc, argv);

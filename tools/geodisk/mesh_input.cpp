@@ -24,10 +24,10 @@ void print_warnings(const std::string& path, const MeshInput& mesh) {
         print_warning(path + ": " + warning);
     }
     if (const std::uint64_t edges = mesh.prepared.statistics().nonmanifold_edges; edges > 0) {
-        print_warning(path + ": " +
-                      counted(edges, "edge joins three or more faces",
-                              "edges join three or more faces") +
-                      "; distances count paths across all of them");
+        print_warning(
+            path + ": " +
+            counted(edges, "edge joins three or more faces", "edges join three or more faces") +
+            "; distances count paths across all of them");
     }
 }
 

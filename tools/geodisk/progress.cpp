@@ -49,8 +49,8 @@ void ProgressLine::update(double fraction, std::string_view detail) {
     fraction = std::clamp(fraction, 0.0, 1.0);
     const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(kBarColumns));
     const std::string percent = std::to_string(static_cast<int>(100 * fraction));
-    std::string text = stage_ + "  [" + std::string(filled, '#') +
-                       std::string(kBarColumns - filled, '.') + "] ";
+    std::string text =
+        stage_ + "  [" + std::string(filled, '#') + std::string(kBarColumns - filled, '.') + "] ";
     text.append(3 - std::min<std::size_t>(percent.size(), 3), ' ');
     text += percent + " %  ";
     text += detail;

@@ -1,0 +1,219 @@
+#include "geodisk/cmd_verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <geodisk/params.hpp>
+
+#include "common/file_input.hpp"
+#include "common/sample_file.hpp"
+#include "common/text.hpp"
+#include "common/user_error.hpp"
+#include "geodisk/arguments.hpp"
+#include "geodisk/human_text.hpp"
+#include "geodisk/mesh_input.hpp"
+#include "geodisk/progress.hpp"
+#include "geodisk/spacing_check.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr std::size_t kNamedViolations = 10;
+
+struct VerifyOptions {
+    std::string mesh, samples, min_distance;
+    bool quiet = false;
+};
+
+/// A sample whose position is not where its face and weights put it.
+struct StrayRow {
+    std::uint32_t row;
+    double offset;
+};
+
+std::string row_text(const SampleFile& samples, std::uint32_t row) {
+    return "sample " + std::to_string(row) + " (candidate " +
+           std::to_string(samples.rows[row].candidate) + ")";
+}
+
+/// The rows must at least name points of the mesh.
+void check_rows(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
+    constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
+    for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
+        const SampleRow& row = samples.rows[i];
+        if (row.face >= mesh.prepared.face_count()) {
+            fail_input(options.samples,
+                       row_text(samples, i) + ": face " + std::to_string(row.face) +
+                           " is out of range, " + options.mesh + " has " +
+                           counted(mesh.prepared.face_count(), "triangle", "triangles"));
+        }
+        double sum = 0;
+        double least = 1;
+        for (const double weight : row.bary) {
+            sum += weight;
+            least = std::min(least, weight);
+        }
+        if (!(least >= -kTolerance && std::abs(sum - 1) <= kTolerance)) {
+            fail_input(options.samples, row_text(samples, i) +
+                                            ": the weights are not those of a point in a triangle");
+        }
+    }
+}
+
+double distance_of(const VerifyOptions& options, const SampleFile& samples,
+                   const MeshStatistics& mesh) {
+    if (!options.min_distance.empty()) {
+        return parse_length("--min-distance", options.min_distance).in_mesh_units(mesh.diagonal);
+    }
+    for (const auto& [key, value] : samples.header.entries) {
+        if (key != "min_distance") {
+            continue;
+        }
+        const std::optional<double> distance = parse_real(trimmed(value));
+        if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
+            fail_input(options.samples,
+                       "its header has the minimum distance " + in_quotes(value) +
+                           ", which is not a positive number; give --min-distance");
+        }
+        return *distance;
+    }
+    throw UserError(ExitCode::usage, options.samples + ": its header has no minimum distance; give "
+                                                       "--min-distance");
+}
+
+std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh) {
+    double largest = 0;
+    for (const std::uint32_t vertex : mesh.file.triangles) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            largest =
+                std::max(largest, std::abs(mesh.file.positions[3 * std::size_t{vertex} + axis]));
+        }
+    }
+    // Files hold floats, or doubles where the mesh is farther from the origin than this.
+    const double allowed = 0x1p-22 * std::min(largest, 16 * mesh.prepared.statistics().diagonal);
+    std::vector<StrayRow> strays;
+    for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
+        const SampleRow& row = samples.rows[i];
+        const Vec3 stored{row.position[0], row.position[1], row.position[2]};
+        const double offset = length(stored - mesh.point(row.face, row.bary));
+        if (!(offset <= allowed)) {
+            strays.push_back({i, offset});
+        }
+    }
+    return strays;
+}
+
+std::string smallest_text(const SpacingResult& spacing, double min_distance) {
+    if (spacing.smallest > spacing.cut) {
+        return "> " + rounded(spacing.cut, 6);
+    }
+    return rounded(spacing.smallest, 9) + ", " + rounded(spacing.smallest / min_distance, 9) +
+           " of the minimum distance";
+}
+
+std::string count_text(std::size_t count, bool is_complete) {
+    return (is_complete ? "" : "at least ") + grouped(count);
+}
+
+void print_result(std::ostream& out, const VerifyOptions& options, const SampleFile& samples,
+                  const MeshStatistics& mesh, double min_distance, const SpacingResult& spacing,
+                  const std::vector<StrayRow>& strays) {
+    out << "mesh          " << one_line(options.mesh) << '\n'
+        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
+        << '\n'
+        << "min distance  " << rounded(min_distance, 9) << " in mesh units\n"
+        << "rho           "
+        << rounded(
+               packing_density(mesh.area, min_distance, static_cast<double>(samples.rows.size())),
+               3)
+        << '\n'
+        << "smallest      " << smallest_text(spacing, min_distance) << '\n'
+        << "violations    " << count_text(spacing.violations.size(), spacing.is_complete) << '\n';
+    for (std::size_t i = 0; i < std::min(spacing.violations.size(), kNamedViolations); ++i) {
+        const ClosePair& pair = spacing.violations[i];
+        out << "              " << row_text(samples, pair.row_a) << " and "
+            << row_text(samples, pair.row_b) << ": " << rounded(pair.distance, 9) << '\n';
+    }
+    if (!strays.empty()) {
+        out << "off the mesh  " << grouped(strays.size()) << '\n';
+    }
+    for (std::size_t i = 0; i < std::min(strays.size(), kNamedViolations); ++i) {
+        out << "              " << row_text(samples, strays[i].row) << ": "
+            << rounded(strays[i].offset, 3) << " away from where its face and weights put it\n";
+    }
+    out.flush();
+    if (!out) {
+        throw UserError(ExitCode::bad_output, "the result cannot be written to standard output");
+    }
+}
+
+void fail_on_violations(const VerifyOptions& options, double min_distance,
+                        const SpacingResult& spacing, const std::vector<StrayRow>& strays) {
+    std::string message;
+    if (const std::size_t count = spacing.violations.size(); count > 0) {
+        message = count_text(count, spacing.is_complete) +
+                  (count == 1 ? " pair of samples is" : " pairs of samples are") + " closer than " +
+                  rounded(min_distance, 9);
+    }
+    if (const std::size_t count = strays.size(); count > 0) {
+        message += (message.empty() ? "" : ", and ") + grouped(count) +
+                   (count == 1 ? " position does" : " positions do") +
+                   " not agree with face and weights";
+    }
+    if (!message.empty()) {
+        throw UserError(ExitCode::violation, options.samples + ": " + message);
+    }
+}
+
+void run_verify(const VerifyOptions& options) {
+    if (!options.min_distance.empty()) {
+        parse_length("--min-distance", options.min_distance); // Before the files are read.
+    }
+    ProgressLine progress(options.quiet);
+    const MeshInput mesh = load_mesh(options.mesh, progress);
+    progress.begin_stage("reading the samples");
+    const SampleFile samples = read_samples(options.samples);
+    progress.clear();
+    const MeshStatistics& statistics = mesh.prepared.statistics();
+    const double min_distance = distance_of(options, samples, statistics);
+    check_rows(options, samples, mesh);
+
+    const std::vector<StrayRow> strays = find_strays(samples, mesh);
+    const SpacingResult spacing = check_spacing(mesh, samples.rows, min_distance, progress);
+    if (!options.quiet) {
+        print_result(std::cout, options, samples, statistics, min_distance, spacing, strays);
+    }
+    fail_on_violations(options, min_distance, spacing, strays);
+}
+
+} // namespace
+
+void add_verify_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "verify", "Check the samples of a file: exact distances, on the CPU in double precision");
+    const auto options = std::make_shared<VerifyOptions>();
+    command
+        ->add_option("MESH", options->mesh, "Mesh they were made on: *.obj, *.ply or builtin:NAME")
+        ->type_name("")
+        ->required();
+    command->add_option("SAMPLES", options->samples, "Samples to check: *.ply or *.csv")
+        ->type_name("")
+        ->required();
+    command
+        ->add_option("-d,--min-distance", options->min_distance,
+                     "Least distance that two samples must have, in mesh units, or with % of the "
+                     "bounding-box diagonal; without it, that of the file's header")
+        ->type_name("D");
+    command->add_flag("-q,--quiet", options->quiet,
+                      "No progress and no result but the exit status");
+    command->callback([options] { run_verify(*options); });
+}
+
+} // namespace geodisk::tools

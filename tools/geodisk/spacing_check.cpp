@@ -1,0 +1,131 @@
+#include "geodisk/spacing_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "constants.h"
+#include "geodisk/human_text.hpp"
+#include "geodisk/interrupt.hpp"
+#include "kernels/bins.hpp"
+#include "kernels/detect.hpp"
+#include "lib/surface.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr double kCutFactor = 1.25;
+/// Doubles round at 2^-53; chains of crossings may add up some thousand such errors.
+constexpr double kSmallestViolation = 1e-9;
+/// Enough to say that a file is hopeless, and little enough to hold.
+constexpr std::size_t kMostViolations = 1'000'000;
+constexpr double kMostCells = 0x1p26;
+
+/// Cells of the reference's grids when lengths are in units of `unit`.
+double cell_count(const PreparedMesh& mesh, double unit) {
+    const double cells_per_length = gpu::kCellsPerDistance / unit;
+    double total = 0;
+    for (std::size_t h = 0; h < mesh.half_edges().size(); h += 3) {
+        double longest = 0;
+        double height = 0;
+        for (std::size_t side = h; side < h + 3; ++side) {
+            const HalfEdge& edge = mesh.half_edges()[side];
+            if (edge.length > longest) {
+                longest = edge.length;
+                height = edge.apex_y;
+            }
+        }
+        total +=
+            std::floor(longest * cells_per_length + 1) * std::floor(height * cells_per_length + 1);
+    }
+    return total;
+}
+
+/// The reference wants lengths in units of about the distance looked for. A distance out of all
+/// proportion to the mesh gets a unit that keeps the numbers and the grids in bounds.
+double choose_unit(const PreparedMesh& mesh, double min_distance) {
+    double unit = std::min(min_distance, mesh.statistics().diagonal);
+    while (cell_count(mesh, unit) > kMostCells) {
+        unit *= 2;
+    }
+    return unit;
+}
+
+/// Only rounding in double precision has to be allowed for.
+Tolerances double_tolerances() {
+    Tolerances tolerances{};
+    tolerances.limit = 1;
+    tolerances.margin = 0x1p-40f;
+    tolerances.slack = 0x1p-40f;
+    return tolerances;
+}
+
+std::vector<ref::FacePoint<double>> points_of(std::span<const SampleRow> rows) {
+    std::vector<ref::FacePoint<double>> points;
+    points.reserve(rows.size());
+    for (const SampleRow& row : rows) {
+        points.push_back({row.face, row.bary[1], row.bary[2]});
+    }
+    return points;
+}
+
+/// Each pair may have been found from both of its rows; the shorter distance counts.
+void sort_violations(std::vector<ClosePair>& pairs) {
+    std::sort(pairs.begin(), pairs.end(), [](const ClosePair& a, const ClosePair& b) {
+        return std::tie(a.row_a, a.row_b, a.distance) < std::tie(b.row_a, b.row_b, b.distance);
+    });
+    const auto end =
+        std::unique(pairs.begin(), pairs.end(), [](const ClosePair& a, const ClosePair& b) {
+            return a.row_a == b.row_a && a.row_b == b.row_b;
+        });
+    pairs.erase(end, pairs.end());
+    std::stable_sort(pairs.begin(), pairs.end(), [](const ClosePair& a, const ClosePair& b) {
+        return a.distance < b.distance;
+    });
+}
+
+} // namespace
+
+SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                            double min_distance, ProgressLine& progress) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    SpacingResult result;
+    result.cut = kCutFactor * min_distance;
+    const double unit = choose_unit(mesh.prepared, min_distance);
+    const ref::Surface<double> surface(mesh.prepared, unit);
+    const ref::Bins<double> bins(surface, points_of(rows));
+    ref::Detector<double> detector(surface, bins, double_tolerances(), result.cut / unit);
+
+    std::vector<double> distances(rows.size(), kUnknown); // By place, of the current source.
+    std::vector<std::uint32_t> near;                      // Places with a distance.
+    progress.begin_stage("verifying");
+    for (std::uint32_t source = 0; source < rows.size() && result.is_complete; ++source) {
+        check_interrupted();
+        progress.update(static_cast<double>(source) / static_cast<double>(rows.size()),
+                        grouped(source) + " samples");
+        detector.run(
+            bins.points[source], [&](std::uint32_t place) { return place != source; },
+            [&](std::uint32_t place, double distance) {
+                if (distances[place] == kUnknown) {
+                    near.push_back(place);
+                }
+                distances[place] = std::min(distances[place], distance * unit);
+            });
+        for (const std::uint32_t place : near) {
+            const double distance = std::exchange(distances[place], kUnknown);
+            result.smallest = std::min(result.smallest, distance);
+            if (distance < min_distance * (1 - kSmallestViolation)) {
+                const auto [low, high] = std::minmax(bins.order[source], bins.order[place]);
+                result.violations.push_back({low, high, distance});
+            }
+        }
+        near.clear();
+        result.is_complete = result.violations.size() < kMostViolations;
+    }
+    progress.clear();
+    sort_violations(result.violations);
+    return result;
+}
+
+} // namespace geodisk::tools

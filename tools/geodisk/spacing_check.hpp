@@ -1,0 +1,35 @@
+// Distances between samples, recomputed in double precision with the reference implementation.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "common/sample_file.hpp"
+#include "geodisk/mesh_input.hpp"
+#include "geodisk/progress.hpp"
+
+namespace geodisk::tools {
+
+/// Two rows of the sample file, the lower one first, closer than the minimum distance.
+struct ClosePair {
+    std::uint32_t row_a, row_b;
+    double distance;
+};
+
+struct SpacingResult {
+    double cut = 0; ///< Distances were computed up to here.
+    double smallest = std::numeric_limits<double>::infinity(); ///< Infinite if beyond the cut.
+    std::vector<ClosePair> violations;                         ///< The closest pair first.
+    bool is_complete = true; ///< False if the check stopped at too many violations.
+};
+
+/// Computes the geodesic distances of all pairs that are not farther apart than a cut somewhat
+/// beyond `min_distance`. A pair violates it when it is closer by more than a billionth.
+///
+/// Every row's face must be one of the mesh. Throws UserError when interrupted.
+SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                            double min_distance, ProgressLine& progress);
+
+} // namespace geodisk::tools
