@@ -191,7 +191,6 @@ bool next_operation(out float source_square) {
         half_edge = 3u * own_face + cursor;
         ++cursor;
         mode = kModeInside;
-        entered_by = kNoVertex;
         uvec4 point = points[own_place];
         vec2 at = position_in(half_edge, load_edge(half_edge), uintBitsToFloat(point.x),
                               uintBitsToFloat(point.y));
@@ -217,7 +216,7 @@ void trip() {
             return;
         }
         bool source = phase == kPhaseSource;
-        spread(source_square, source && root(source_square) <= kNearVertex);
+        spread(phase == kPhaseFan, source_square, source && root(source_square) <= kNearVertex);
         if (!source || cursor == 1u) {
             begin_scan(entry_x(load_edge(half_edge).len), mode == kModeInside ? y : -y);
         }

@@ -132,7 +132,9 @@ void spread_child(bool left, bool whole, float sx, float near, float far, Edge p
 }
 
 // What the operation in flight does to vertices and edges: at most three records, from one place.
-void spread(float source_square, bool near_vertex) {
+// `from_vertex` tells a fan from the candidate's own face, where `source_square` is the squared
+// distance to the edge's start and `near_vertex` whether that is as good as nothing.
+void spread(bool from_vertex, float source_square, bool near_vertex) {
     uint left = previous_in_face(half_edge);
     uint right = next_in_face(half_edge);
     Edge edge = load_edge(half_edge);
@@ -148,7 +150,6 @@ void spread(float source_square, bool near_vertex) {
     }
 
     bool inside = mode == kModeInside;
-    bool from_vertex = inside && entered_by != kNoVertex;
     float sx = entry_x(edge.len);
     vec2 lit = entry_interval(edge.len);
     precise float apex_dx = edge.apex_x - sx;

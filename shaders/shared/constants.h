@@ -63,7 +63,6 @@ GEODISK_CONST uint kBorder = 0x80000000u;
 
 GEODISK_CONST uint kNoHalfEdge = 0xffffffffu;
 GEODISK_CONST uint kWholeFan = 0xffffffffu;
-GEODISK_CONST uint kNoVertex = 0xffffffffu;
 
 // Rows of a slot record and of a window.
 GEODISK_CONST uint kSlotRows = 8u;

@@ -202,7 +202,7 @@ void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
 
 TEST_SUITE("kernels") {
     TEST_CASE("step by step on a torus knot") {
-        const PreparedMesh mesh = prepared(builtin("torus-knot", 64));
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 16));
         for (const Rounding rounding : {Rounding::native, Rounding::emulated}) {
             CAPTURE(static_cast<int>(rounding));
             step_through(mesh, 400, rounding, 64);
@@ -217,7 +217,7 @@ TEST_SUITE("kernels") {
     }
 
     TEST_CASE("step by step where the surface is no manifold, one-sided or folded") {
-        step_through(prepared(builtin("moebius", 24)), 300, Rounding::native, 32);
+        step_through(prepared(builtin("moebius", 8)), 300, Rounding::native, 32);
         step_through(prepared(builtin("folded-sheet", 8)), 300, Rounding::emulated, 32);
         if (const auto mesh = shared_mesh("meshes/cycloidal_43k.ply")) {
             step_through(prepared(*mesh), 1000, Rounding::native, 128);
@@ -225,6 +225,11 @@ TEST_SUITE("kernels") {
         if (const auto mesh = shared_mesh("meshes/tray_4k5.ply")) {
             step_through(prepared(*mesh), 1000, Rounding::emulated, 128);
         }
+    }
+
+    TEST_CASE("step by step with disks so large that every vertex is near") {
+        step_through(prepared(builtin("icosphere", 3)), 1e-4, Rounding::native, 16);
+        step_through(prepared(builtin("terrain", 16)), 1e-4, Rounding::native, 64);
     }
 
     TEST_CASE("step by step with one candidate at a time") {

@@ -12,7 +12,7 @@ TEST_SUITE("validation") {
         ContextOptions options;
         options.validation = true;
         Context context = expect(Context::create(options));
-        const PreparedMesh mesh = prepared(builtin("torus-knot", 32));
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         const SampleParams params = params_for(mesh, 300);
         {
             // Slices that overflow bring in the rewind as well.

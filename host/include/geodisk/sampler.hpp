@@ -166,8 +166,11 @@ class GEODISK_API Job {
     ~Job();
 
     const RunPlan& plan() const noexcept;
-    /// Replaces the plan, for rounds recorded from now on. Its pool must fit the workspace's.
+    /// Replaces the plan, for rounds recorded from now on. Its slots must not be more than the job
+    /// was made with, and its pool must fit the workspace's.
     Result<Done> set_plan(const RunPlan& plan) noexcept;
+    /// The same with another pool. No command buffer of the job may be pending.
+    Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;
     std::uint32_t candidates() const noexcept;
 
     struct Impl; ///< Internal.

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <geodisk/sampler.hpp>
 
+#include "bindings.h"
 #include "engine/device_mesh.hpp"
 #include "engine/sampler_impl.hpp"
 #include "support/guard.hpp"
@@ -63,16 +65,30 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
     return guarded([&]() -> Result<Done> {
-        const Workspace& ws = impl_->workspace;
-        if (plan.pool_bytes() > ws[static_cast<std::size_t>(BufferRole::pool)].size ||
-            plan.slots > impl_->plan.slots) {
+        const VkDeviceSize pool = impl_->workspace[gpu::kBindPool].size;
+        if (plan.pool_bytes() > pool || plan.slots > impl_->most_slots) {
             return Error{Status::workspace_too_small,
                          "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
-                             " bytes and slots for " + std::to_string(plan.slots)};
+                             " bytes and " + std::to_string(plan.slots) + " slots; the workspace has " +
+                             std::to_string(pool) + " bytes and " +
+                             std::to_string(impl_->most_slots) + " slots"};
         }
         impl_->apply_plan(plan);
         return Done{};
     });
+}
+
+Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcept {
+    const BufferRange before = std::exchange(impl_->workspace[gpu::kBindPool], pool);
+    auto done = set_plan(plan);
+    if (!done) {
+        impl_->workspace[gpu::kBindPool] = before;
+        return done;
+    }
+    for (std::uint32_t role = 0; role < kSetRoles; ++role) {
+        impl_->write_binding(static_cast<SetRole>(role), gpu::kBindPool);
+    }
+    return done;
 }
 
 Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& params,
@@ -88,6 +104,7 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         auto job = std::make_unique<Job::Impl>();
         job->sampler = impl_.get();
         job->workspace = workspace;
+        job->most_slots = plan.slots;
         const Tolerances tolerances = tolerances_for(mesh, params.min_distance, plan.chain);
         gpu::Push& push = job->push;
         push.candidates = *pool_size(mesh, params);
@@ -132,25 +149,32 @@ Result<Done> Job::Impl::write_sets() {
         if (result != VK_SUCCESS) {
             return vk_error("vkAllocateDescriptorSets", result);
         }
-        for (std::size_t k = 0; k < kKernels; ++k) {
-            for (const std::uint32_t binding : kernel_info(static_cast<Kernel>(k)).bindings) {
-                // The scan kernels work on whatever is bound as marks.
-                const bool cells = role == static_cast<std::uint32_t>(SetRole::cell_scan) &&
-                                   binding == gpu::kBindMarks;
-                const BufferRange& range = workspace[cells ? gpu::kBindCells : binding];
-                const VkDescriptorBufferInfo buffer{range.buffer, range.offset, range.size};
-                VkWriteDescriptorSet write{};
-                write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-                write.dstSet = sets[role][k];
-                write.dstBinding = binding;
-                write.descriptorCount = 1;
-                write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-                write.pBufferInfo = &buffer;
-                vk.vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
-            }
+        for (std::uint32_t binding = 0; binding < gpu::kBindCount; ++binding) {
+            write_binding(static_cast<SetRole>(role), binding);
         }
     }
     return Done{};
+}
+
+void Job::Impl::write_binding(SetRole role, std::uint32_t binding) const {
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        const auto bindings = kernel_info(static_cast<Kernel>(k)).bindings;
+        if (std::find(bindings.begin(), bindings.end(), binding) == bindings.end()) {
+            continue;
+        }
+        // The scan kernels work on whatever is bound as marks.
+        const bool cells = role == SetRole::cell_scan && binding == gpu::kBindMarks;
+        const BufferRange& range = workspace[cells ? gpu::kBindCells : binding];
+        const VkDescriptorBufferInfo buffer{range.buffer, range.offset, range.size};
+        VkWriteDescriptorSet write{};
+        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        write.dstSet = sets[static_cast<std::size_t>(role)][k];
+        write.dstBinding = binding;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.pBufferInfo = &buffer;
+        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &write, 0, nullptr);
+    }
 }
 
 } // namespace geodisk

@@ -85,6 +85,7 @@ class Run {
     const SampleParams& params_;
     RunMemory memory_;
     std::optional<Job> job_;
+    std::uint32_t slots_ = 0; ///< Of the first plan.
     gpu::ControlRec control_{};
     RunReport report_;
 };
@@ -120,6 +121,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
         return job.error();
     }
     job_.emplace(std::move(*job));
+    slots_ = plan->slots;
     report_.candidates = job_->candidates();
     report_.guard = tolerances_for(mesh_, params_.min_distance, plan->chain).guard;
     return Done{};
@@ -189,14 +191,25 @@ Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
 }
 
 Result<Done> Run::grow() {
-    const auto grown = runner_.sampler.grow_plan(
-        job_->plan(), control_.overflow, memory_.buffers[index_of(BufferRole::pool)].size());
-    // When not even one slice fits the pool of this run, a larger pool may still be allowed.
-    if (grown) {
-        ++report_.regrown;
-        return job_->set_plan(*grown);
+    // As many slots as the job was made with, if the pool may be as large as that takes.
+    RunPlan before = job_->plan();
+    before.slots = slots_;
+    const auto grown =
+        runner_.sampler.grow_plan(before, control_.overflow, runner_.options.pool_bytes);
+    if (!grown) {
+        return grown.error();
     }
-    return grown.error();
+    ++report_.regrown;
+    DeviceBuffer& pool = memory_.buffers[index_of(BufferRole::pool)];
+    if (grown->pool_bytes() > pool.size()) {
+        auto larger =
+            runner_.allocate(grown->pool_bytes(), kWorkspaceUsage, MemoryKind::device);
+        if (!larger) {
+            return larger.error();
+        }
+        pool = std::move(*larger);
+    }
+    return job_->set_plan(*grown, {pool.handle(), 0, pool.size()});
 }
 
 Result<Done> Run::sample(const ProgressCallback& progress) {

@@ -36,11 +36,13 @@ struct Job::Impl {
     VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
     std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
     Workspace workspace{};
+    std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
     RunPlan plan;
     gpu::Push push{};
 
     ~Impl();
     Result<Done> write_sets();
+    void write_binding(SetRole role, std::uint32_t binding) const;
     void apply_plan(const RunPlan& new_plan);
 };
 

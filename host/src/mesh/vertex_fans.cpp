@@ -87,6 +87,16 @@ bool order_corners(std::span<const HalfEdge> half_edges, std::uint32_t v,
     return true;
 }
 
+/// Whether the corner has a side of next to no length beside the other. Such a side joins two
+/// vertices into one place, whose angle is that of both together: neither fan alone tells whether
+/// a path may bend there, nor in which direction the other lies.
+bool at_short_side(std::span<const HalfEdge> half_edges, std::uint32_t corner) {
+    constexpr double kShort = 0x1p-20;
+    const double out = half_edges[corner].length;
+    const double in = half_edges[previous_in_face(corner)].length;
+    return std::fmin(out, in) <= kShort * std::fmax(out, in);
+}
+
 void measure_fan(std::span<HalfEdge> half_edges, std::span<const std::uint32_t> corners,
                  bool ordered, bool open, VertexFan& fan) {
     std::uint64_t fine = 0;
@@ -99,6 +109,7 @@ void measure_fan(std::span<HalfEdge> half_edges, std::span<const std::uint32_t> 
             break;
         }
         half_edges[corner].fan_angles = static_cast<std::uint32_t>(start | (end - start) << 16);
+        ordered = ordered && !at_short_side(half_edges, corner);
     }
     if (!ordered) {
         fan.flags = gpu::kFanIrregular | gpu::kFanBends;
