@@ -43,7 +43,7 @@ T take(geodisk::Result<T> result, const char* what) {
 Point point_of(const geodisk::Sample& sample) {
     Point point(3);
     for (std::size_t corner = 0; corner < 3; ++corner) {
-        const std::size_t vertex = kTriangles[3 * sample.face + corner];
+        const std::size_t vertex = kTriangles[std::size_t{3} * sample.face + corner];
         for (std::size_t axis = 0; axis < 3; ++axis)
             point[axis] += sample.weights[corner] * kPositions[3 * vertex + axis];
     }
@@ -114,8 +114,8 @@ int main() {
     geodisk::RunnerOptions options;
     options.plan.slots = 7;
     options.sampler.rounding = geodisk::Rounding::emulated;
-    auto other = take(geodisk::Runner::create(context.device(), context.queue(), options),
-                      "another Runner");
+    auto other =
+        take(geodisk::Runner::create(context.device(), context.queue(), options), "another Runner");
     const auto planned = take(other.sample_and_wait(mesh, params), "sample by another plan");
     require(same(set.samples, planned.samples), "another plan returns the same samples");
 

@@ -37,7 +37,7 @@ int main() {
     for (const geodisk::Sample& sample : result->samples) {
         double point[3] = {};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const std::size_t vertex = triangles[3 * sample.face + corner];
+            const std::size_t vertex = triangles[std::size_t{3} * sample.face + corner];
             for (std::size_t axis = 0; axis < 3; ++axis)
                 point[axis] += sample.weights[corner] * positions[3 * vertex + axis];
         }
