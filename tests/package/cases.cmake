@@ -48,6 +48,9 @@ endfunction()
 if(CASE STREQUAL "install")
     file(REMOVE_RECURSE "${installed}")
     run("${CMAKE_COMMAND}" --install "${build_root}" --prefix "${installed}")
+    if(has_tools)
+        run("${installed}/bin/geodisk" --version)
+    endif()
 
 elseif(CASE STREQUAL "find_package")
     configure("${package_tests}/find_package" "${work}/find package"
