@@ -55,6 +55,7 @@ void load_slot(uint slot) {
     scan_place = f.x, scan_end = f.y, scan_row = f.z, scan_row_end = f.w;
     scan_column = g.x, scan_columns = g.y, tested = g.z, own_face = g.w;
     pushed = h.x, peak = h.y, longest_chain = h.z;
+    edge = load_edge(half_edge);
     heap_first = slice_row(slot);
     windows_first = windows_row(slot);
     table_first = table_row(slot);
@@ -174,34 +175,33 @@ bool next_operation(out float source_square) {
             next_face();
         }
     }
-    if (phase == kPhaseCross) {
-        return true;
-    }
+    bool due = phase != kPhasePop && phase != kPhaseDone;
     if (phase == kPhaseFan) {
         uint corner = corner_at(cursor);
         ++cursor;
         half_edge = next_in_face(corner);
         mode = kModeInside;
-        Edge edge = load_edge(half_edge);
-        x = edge.apex_x;
-        y = edge.apex_y;
-        return in_shadow(fans[window_edge & ~kVertexEvent], corner);
-    }
-    if (phase == kPhaseSource) {
+        due = in_shadow(fans[window_edge & ~kVertexEvent], corner);
+    } else if (phase == kPhaseSource) {
         half_edge = 3u * own_face + cursor;
         ++cursor;
         mode = kModeInside;
+    }
+    edge = load_edge(half_edge);
+    if (phase == kPhaseFan) {
+        x = edge.apex_x;
+        y = edge.apex_y;
+    } else if (phase == kPhaseSource) {
         uvec4 point = points[own_place];
-        vec2 at = position_in(half_edge, load_edge(half_edge), uintBitsToFloat(point.x),
-                              uintBitsToFloat(point.y));
+        vec2 at =
+            position_in(half_edge, edge, uintBitsToFloat(point.x), uintBitsToFloat(point.y));
         x = at.x;
         y = at.y;
         sigma = 0.0;
         chain = 0u;
         source_square = squared(x, y);
-        return true;
     }
-    return false;
+    return due;
 }
 
 void trip() {
@@ -218,7 +218,7 @@ void trip() {
         bool source = phase == kPhaseSource;
         spread(phase == kPhaseFan, source_square, source && root(source_square) <= kNearVertex);
         if (!source || cursor == 1u) {
-            begin_scan(entry_x(load_edge(half_edge).len), mode == kModeInside ? y : -y);
+            begin_scan(entry_x(edge.len), mode == kModeInside ? y : -y);
         }
     }
     scan_some();

@@ -9,6 +9,7 @@
 
 // The operation in flight, see SlotRec.
 uint half_edge;
+Edge edge;          // of half_edge
 uint mode;
 float x;
 float y;
@@ -58,11 +59,11 @@ float reach(uint vertex, float known, float distance, uint corner, uint through,
 
 // A window leaves through half-edge e, lit on [i0, i1] from (sx, sy) in its frame. `key` stays
 // negative unless it is to be pushed.
-void leave(uint e, Edge edge, float start, float end, float sx, float sy, float i0, float i1,
-           inout float key, out uvec4 row0, out uvec4 row1) {
+void leave(uint e, Edge exit_edge, float start, float end, float sx, float sy, float i0,
+           float i1, inout float key, out uvec4 row0, out uvec4 row1) {
     row0 = uvec4(0u);
     row1 = uvec4(0u);
-    if (edge.border || !(i0 < i1)) {
+    if (exit_edge.border || !(i0 < i1)) {
         return;
     }
     sy = sy < kSmallestOffset ? 0.0 : sy;
@@ -70,7 +71,7 @@ void leave(uint e, Edge edge, float start, float end, float sx, float sy, float 
     precise float right_of = sx - i1;
     float aside = sx < i0 ? left_of : (sx > i1 ? right_of : 0.0);
     precise float distance = sigma + root(squared(aside, sy));
-    precise float to_end = edge.len - i0;
+    precise float to_end = exit_edge.len - i0;
     if (!(distance < push.limit) || beats(start, i1, squared(right_of, sy)) ||
         beats(end, to_end, squared(-left_of, sy))) {
         return;
@@ -137,7 +138,6 @@ void spread_child(bool left, bool whole, float sx, float near, float far, Edge p
 void spread(bool from_vertex, float source_square, bool near_vertex) {
     uint left = previous_in_face(half_edge);
     uint right = next_in_face(half_edge);
-    Edge edge = load_edge(half_edge);
     Edge left_edge = load_edge(left);
     Edge right_edge = load_edge(right);
     uvec3 corner = uvec3(edge.origin, right_edge.origin, left_edge.origin);

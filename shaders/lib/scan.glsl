@@ -90,7 +90,6 @@ void list_conflict(uint place, uint state) {
 
 // Tests a few candidates against the operation in flight.
 void scan_some() {
-    Edge edge = load_edge(half_edge);
     bool inside = mode == kModeInside;
     float sx = entry_x(edge.len);
     float sy = inside ? y : -y;

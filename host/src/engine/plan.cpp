@@ -20,9 +20,9 @@ constexpr const char* kBufferNames[kBufferRoles] = {
     "pool",      "control", "mark",  "sum",  "sample"};
 
 // llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently. The group
-// has at most 16 lanes, whose iterations add up in the worst case, and one trip of detect's main
-// loop takes less than 500. See design notes in shaders/README.md.
-constexpr std::uint32_t kLlvmpipeTrips = 65535 / 16 - 500;
+// has at most 16 lanes, whose iterations add up in the worst case, and the last trip of detect's
+// main loop may overshoot the budget by less than 1,024.
+constexpr std::uint32_t kLlvmpipeTrips = 65535 / 16 - 1024;
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
 constexpr std::uint32_t kDefaultTrips = 8192;
 constexpr std::uint32_t kMostSlots = 1u << 16;
@@ -81,7 +81,7 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
         plan.slots = static_cast<std::uint32_t>(
-            std::clamp(disks / (cpu ? 24 : 8), 64.0, double{kMostSlots}));
+            std::clamp(disks / (cpu ? 24 : 8), cpu ? 16.0 : 64.0, double{kMostSlots}));
         plan.window_capacity = pow2_at_least(32 + 4 * faces_per_disk);
         plan.table_capacity = pow2_at_least(32 + 2 * faces_per_disk);
         plan.list_capacity = pow2_at_least(4 * params.pool_ratio);
