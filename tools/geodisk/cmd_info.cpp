@@ -162,8 +162,8 @@ void run_info(bool as_json) {
 } // namespace
 
 void add_info_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "info", "List the Vulkan devices of this machine and whether they can run geodisk");
+    CLI::App* command =
+        app.add_subcommand("info", "List the Vulkan devices and whether they can run geodisk");
     const auto as_json = std::make_shared<bool>(false); // Lives in the callback, like the option.
     command->add_flag("--json", *as_json, "Write the list as JSON");
     command->callback([as_json] { run_info(*as_json); });

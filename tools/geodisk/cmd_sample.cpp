@@ -94,8 +94,11 @@ bool is_same_file(const std::string& a, const std::string& b) {
     if (std::filesystem::equivalent(a, b, ignored)) {
         return true;
     }
-    const auto canonical_a = std::filesystem::weakly_canonical(a, ignored);
-    return !canonical_a.empty() && canonical_a == std::filesystem::weakly_canonical(b, ignored);
+    // Paths of files that do not exist yet stay relative unless made absolute first.
+    const auto canonical = [&](const std::string& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+    };
+    return !canonical(a).empty() && canonical(a) == canonical(b);
 }
 
 /// Finds out before the work that it would be in vain.
@@ -143,6 +146,10 @@ SampleSet run_sampler(Runner& runner, const PreparedMesh& mesh, const SamplePara
     // The device was found good enough, so what it lacks here is room for this job.
     if (!result && result.error().status == Status::device_lacks) {
         throw UserError(ExitCode::out_of_memory, result.error().message);
+    }
+    if (!result && result.error().status == Status::workspace_too_small) {
+        throw UserError(ExitCode::out_of_memory,
+                        result.error().message + "; give more with --memory");
     }
     return take(std::move(result));
 }
@@ -279,11 +286,11 @@ void add_sample_command(CLI::App& app) {
     const char* const distance = "Distance, give one";
     command
         ->add_option("-d,--min-distance", options->min_distance,
-                     "Least distance of two samples along the surface, in mesh units, or with % of "
-                     "the bounding-box diagonal")
+                     "Least distance along the surface, in mesh units,\n"
+                     "or with % of the bounding-box diagonal")
         ->type_name("D")
         ->group(distance);
-    command->add_option("-r,--radius", options->radius, "Half of it")
+    command->add_option("-r,--radius", options->radius, "Half the least distance")
         ->type_name("R")
         ->group(distance);
     command
@@ -303,9 +310,9 @@ void add_sample_command(CLI::App& app) {
     command->add_option("--device", options->device, "Device by name, index or UUID (geodisk info)")
         ->type_name("NAME|INDEX");
     command
-        ->add_option(
-            "--memory", options->memory,
-            "Most bytes of device memory for work in progress; does not change the samples")
+        ->add_option("--memory", options->memory,
+                     "Most bytes on the device for disks in progress, with\n"
+                     "K, M or G; does not change the samples")
         ->type_name("BYTES")
         ->capture_default_str();
     command->add_option("--json", options->json, "Write a report as JSON, - for standard output")
@@ -314,7 +321,7 @@ void add_sample_command(CLI::App& app) {
     command->add_flag("-q,--quiet", options->quiet, "No progress and no summary");
     command
         ->add_flag("--validate", options->validate,
-                   "Run with the Vulkan validation layer and fail on any message")
+                   "Run with the Vulkan validation layer, fail on any message")
         ->group("Development");
     command->callback([options] { run_sample(*options); });
 }

@@ -197,7 +197,7 @@ void run_verify(const VerifyOptions& options) {
 
 void add_verify_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "verify", "Check the samples of a file: exact distances, on the CPU in double precision");
+        "verify", "Check the distances in a sample file, exactly and without a device");
     const auto options = std::make_shared<VerifyOptions>();
     command
         ->add_option("MESH", options->mesh, "Mesh they were made on: *.obj, *.ply or builtin:NAME")
@@ -208,8 +208,9 @@ void add_verify_command(CLI::App& app) {
         ->required();
     command
         ->add_option("-d,--min-distance", options->min_distance,
-                     "Least distance that two samples must have, in mesh units, or with % of the "
-                     "bounding-box diagonal; without it, that of the file's header")
+                     "Least distance along the surface, in mesh units,\n"
+                     "or with % of the bounding-box diagonal;\n"
+                     "without it, that of the file's header")
         ->type_name("D");
     command->add_flag("-q,--quiet", options->quiet,
                       "No progress and no result but the exit status");

@@ -52,6 +52,19 @@ std::string hint(const CLI::App& app) {
     return " (see geodisk " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help)";
 }
 
+/// CLI11 counts values; people want to know what they did.
+std::string usage_message(const CLI::ParseError& error) {
+    const std::string message = error.what();
+    const std::string option = message.substr(0, message.find(':'));
+    if (message.find("At Most 1 required") != std::string::npos) {
+        return option + " is given more than once";
+    }
+    if (message.find("1 required") != std::string::npos) {
+        return option + " needs a value";
+    }
+    return message;
+}
+
 int run(CLI::App& app, int argc, char** argv) {
     try {
         app.parse(argc, argv);
@@ -63,7 +76,7 @@ int run(CLI::App& app, int argc, char** argv) {
         std::cout << version.what() << '\n';
         return 0;
     } catch (const CLI::ParseError& error) {
-        return fail(ExitCode::usage, error.what() + hint(app));
+        return fail(ExitCode::usage, usage_message(error) + hint(app));
     } catch (const UserError& error) {
         const bool is_usage = error.code() == ExitCode::usage;
         return fail(error.code(), error.what() + (is_usage ? hint(app) : ""));
