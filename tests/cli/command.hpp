@@ -1,0 +1,50 @@
+// Runs the program `geodisk` and catches what it says.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "unit/test_files.hpp"
+
+namespace geodisk::test {
+
+using tools::bytes_of;
+using tools::contains;
+using tools::TemporaryFolder;
+
+struct Outcome {
+    int status = -1; ///< Exit status, or minus the signal that ended the program.
+    std::string out;
+    std::string err;
+};
+
+/// Circumstances of a run beyond its arguments.
+struct Setting {
+    std::vector<std::pair<std::string, std::string>> environment; ///< Added to that of the tests.
+    std::optional<std::size_t> file_size_limit;
+    std::string stdout_path; ///< A file for standard output instead of a pipe.
+
+    /// Standard error is a terminal; once it shows `signal_at`, the program gets `signal`.
+    bool has_terminal = false;
+    std::string signal_at;
+    int signal = 0;
+};
+
+/// Runs the program in `folder` with the given arguments.
+Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+            const Setting& setting = {});
+
+std::vector<std::string> files_in(const TemporaryFolder& folder);
+
+/// Checks that the run fails with `status`, one line on standard error that contains `part`,
+/// nothing on standard output, and no new file.
+void check_fails(const TemporaryFolder& folder, int status, const std::string& part,
+                 const std::vector<std::string>& arguments, const Setting& setting = {});
+
+std::vector<std::string> lines_of(const std::string& text);
+
+} // namespace geodisk::test

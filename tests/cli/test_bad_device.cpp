@@ -1,0 +1,96 @@
+// Machines where geodisk cannot run.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+const std::vector<std::string> kSample{"sample", "builtin:cube", "-o", "a.ply", "-n", "9"};
+
+Setting with_driver(const std::string& manifest) {
+    Setting setting;
+    // The loader's names for the same setting, new and old.
+    setting.environment = {{"VK_DRIVER_FILES", manifest}, {"VK_ICD_FILENAMES", manifest}};
+    return setting;
+}
+
+/// The library of the first driver that the environment or the system names; "" if none is found.
+std::string real_driver() {
+    std::vector<std::filesystem::path> manifests;
+    for (const char* const name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+        if (const char* const value = std::getenv(name)) {
+            const std::string files = value;
+            manifests.emplace_back(files.substr(0, files.find(':')));
+        }
+    }
+    std::error_code ignored;
+    for (const auto& entry :
+         std::filesystem::directory_iterator("/usr/share/vulkan/icd.d", ignored)) {
+        if (contains(entry.path().filename().string(), "lvp")) {
+            manifests.push_back(entry.path());
+        }
+    }
+    for (const std::filesystem::path& manifest : manifests) {
+        const auto json = nlohmann::json::parse(bytes_of(manifest), nullptr, false);
+        if (!json.is_discarded() && json.contains("ICD")) {
+            const std::string library = json["ICD"].value("library_path", "");
+            return library.starts_with('.') ? (manifest.parent_path() / library).string() : library;
+        }
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("no driver") {
+    const TemporaryFolder folder;
+    check_fails(folder, 5, "driver", kSample, with_driver("/nonexistent/driver.json"));
+    check_fails(folder, 5, "driver", {"info"}, with_driver("/nonexistent/driver.json"));
+}
+
+TEST_CASE("no such device") {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments = kSample;
+    arguments.insert(arguments.end(), {"--device", "abacus"});
+    check_fails(folder, 5, "abacus", arguments);
+}
+
+TEST_CASE("a device can be chosen by index") {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments = kSample;
+    arguments.insert(arguments.end(), {"--device", "0"});
+    CHECK(run(folder, arguments).status == 0);
+}
+
+TEST_CASE("a device that is too weak") {
+    const std::string driver = real_driver();
+    if (driver.empty()) {
+        MESSAGE("skipped: no driver manifest found to build a weak driver on");
+        return;
+    }
+    const TemporaryFolder folder;
+    folder.write("weak.json", R"({"file_format_version": "1.0.0", "ICD": {"api_version": "1.1.0",
+                                  "library_path": ")" GEODISK_WEAK_DRIVER R"("}})");
+    Setting setting = with_driver((folder / "weak.json").string());
+    setting.environment.emplace_back("GEODISK_TEST_DRIVER", driver);
+    check_fails(folder, 5, "maxComputeWorkGroupInvocations is 16", kSample, setting);
+    const Outcome info = run(folder, {"info"}, setting);
+    CHECK(info.status == 5);
+    CHECK(contains(info.out, "runs geodisk     no:"));
+    CHECK(contains(info.err, "none of the Vulkan devices"));
+}
+
+TEST_CASE("verify needs no device") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, kSample).status == 0);
+    CHECK(run(folder, {"verify", "builtin:cube", "a.ply"}, with_driver("/nonexistent")).status ==
+          0);
+}
+
+} // namespace geodisk::test

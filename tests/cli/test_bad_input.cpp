@@ -1,0 +1,120 @@
+// Files that cannot be read or written.
+#include <doctest/doctest.h>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// In place of a folder without permission, which root may write to all the same.
+constexpr const char* kBelowFile = "mesh.obj/a.ply";
+
+} // namespace
+
+TEST_CASE("a mesh that cannot be read") {
+    const TemporaryFolder folder;
+    folder.write("empty.obj", "");
+    folder.write("empty.ply", "");
+    folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    folder.write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("words.ply", "this is not a mesh\n");
+    folder.write("cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
+                            "property float x\nproperty float y\nproperty float z\nend_header\n12");
+    folder.write("mesh.stl", "solid\n");
+    std::filesystem::create_directory(folder / "folder.obj");
+    const auto fails = [&](const std::string& mesh, const std::string& part) {
+        check_fails(folder, 3, part, {"sample", mesh, "-o", "a.ply", "-n", "9"});
+        check_fails(folder, 3, part, {"verify", mesh, "a.ply", "-d", "1"});
+    };
+    fails("none.obj", "none.obj: no such file");
+    fails("folder.obj", "folder.obj: is a folder");
+    fails("empty.obj", "empty.obj: ");
+    fails("empty.ply", "empty.ply: ");
+    fails("points.obj", "points.obj: has no faces");
+    fails("range.obj", "range.obj: line 4");
+    fails("flat.obj", "flat.obj: has no face with an area");
+    fails("nan.obj", "not finite");
+    fails("words.ply", "words.ply: ");
+    fails("cut.ply", "cut.ply: ");
+    fails("mesh.stl", "unknown mesh format");
+}
+
+TEST_CASE("an output that cannot be written") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", kTriangle);
+    std::filesystem::create_directory(folder / "folder.ply");
+    const auto fails = [&](int status, const std::string& output, const std::string& part) {
+        check_fails(folder, status, part, {"sample", "mesh.obj", "-o", output, "-n", "9"});
+    };
+    fails(2, "a.xls", "unknown sample format");
+    fails(2, "a", "unknown sample format");
+    fails(4, "none/a.ply", "none/a.ply: ");
+    fails(4, "folder.ply", "is a folder");
+    fails(4, kBelowFile, kBelowFile);
+    check_fails(folder, 4, kBelowFile,
+                {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "--json", kBelowFile});
+}
+
+TEST_CASE("an output never replaces an input or another output") {
+    const TemporaryFolder folder;
+    const Outcome made = run(folder, {"sample", "builtin:cube", "-o", "mesh.ply", "-n", "9"});
+    REQUIRE(made.status == 0);
+    const std::string before = bytes_of(folder / "mesh.ply");
+    check_fails(folder, 2, "replace the mesh", {"sample", "mesh.ply", "-o", "mesh.ply", "-n", "9"});
+    check_fails(folder, 2, "replace the mesh",
+                {"sample", "mesh.ply", "-o",
+                 "../" + (folder / "mesh.ply").parent_path().filename().string() + "/mesh.ply",
+                 "-n", "9"});
+    check_fails(folder, 2, "replace the mesh",
+                {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--json", "mesh.ply"});
+    check_fails(folder, 2, "replace the samples",
+                {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--json", "./a.ply"});
+    CHECK(bytes_of(folder / "mesh.ply") == before);
+}
+
+TEST_CASE("a full disk leaves nothing behind and old files whole") {
+    const TemporaryFolder folder;
+    Setting full;
+    full.file_size_limit = 4096;
+    const std::vector<std::string> arguments{"sample", "builtin:cube", "-o", "a.ply", "-n", "1000"};
+    check_fails(folder, 4, "a.ply: cannot write: ", arguments, full);
+    folder.write("a.ply", "old");
+    check_fails(folder, 4, "a.ply: cannot write: ", arguments, full);
+    CHECK(bytes_of(folder / "a.ply") == "old");
+}
+
+TEST_CASE("when the report cannot be written, the samples are not either") {
+    const TemporaryFolder folder;
+    Setting full;
+    full.file_size_limit = 300; // Enough for a sample as text, too little for the report.
+    check_fails(folder, 4, "a.json: cannot write: ",
+                {"sample", "builtin:cube", "-o", "a.xyz", "-n", "1", "--json", "a.json"}, full);
+    Setting closed;
+    closed.stdout_path = "/dev/full";
+    check_fails(folder, 4, "standard output",
+                {"sample", "builtin:cube", "-o", "a.xyz", "-n", "1", "--json", "-"}, closed);
+}
+
+TEST_CASE("oddities of a mesh are warnings, also when quiet") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 2 0 0\n"
+                             "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 1 2\nf 1 2 6\n");
+    const Outcome outcome = run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.empty());
+    const std::vector<std::string> lines = lines_of(outcome.err);
+    CHECK(lines.size() == 3);
+    for (const std::string& line : lines) {
+        CHECK(line.starts_with("geodisk: warning: mesh.obj: "));
+    }
+    CHECK(contains(outcome.err, "repeated vertex"));
+    CHECK(contains(outcome.err, "without area"));
+    CHECK(contains(outcome.err, "three or more faces"));
+    CHECK(std::filesystem::exists(folder / "a.ply"));
+}
+
+} // namespace geodisk::test

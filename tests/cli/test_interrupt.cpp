@@ -1,0 +1,56 @@
+// Progress on a terminal, and stopping while it shows.
+#include <doctest/doctest.h>
+
+#include <csignal>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// Long enough that nobody waits for its end.
+const std::vector<std::string> kLongRun{
+    "sample", "builtin:icosphere:5", "-o", "a.ply", "-n", "200000", "--json", "a.json"};
+
+void check_stops(int signal, int status, const char* message) {
+    const TemporaryFolder folder;
+    Setting setting;
+    setting.has_terminal = true;
+    setting.signal_at = "sampling  [";
+    setting.signal = signal;
+    const Outcome outcome = run(folder, kLongRun, setting);
+    CHECK(outcome.status == status);
+    CHECK(outcome.out.empty());
+    CHECK(contains(outcome.err, " %  "));
+    CHECK(outcome.err.ends_with(message));
+    CHECK(files_in(folder).empty());
+}
+
+} // namespace
+
+TEST_CASE("SIGINT stops sampling") {
+    check_stops(SIGINT, 130, "\rgeodisk: interrupted\r\n");
+}
+
+TEST_CASE("SIGTERM stops sampling") {
+    check_stops(SIGTERM, 143, "\rgeodisk: terminated\r\n");
+}
+
+TEST_CASE("progress leaves the terminal empty, and quiet shows none") {
+    const TemporaryFolder folder;
+    Setting setting;
+    setting.has_terminal = true;
+    const Outcome outcome =
+        run(folder, {"sample", "builtin:cube", "-o", "a.ply", "-n", "9"}, setting);
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.err, "sampling"));
+    CHECK(outcome.err.ends_with(" \r"));
+    CHECK_FALSE(contains(outcome.err, "\n"));
+    const Outcome quiet =
+        run(folder, {"sample", "builtin:cube", "-o", "a.ply", "-n", "9", "--quiet"}, setting);
+    CHECK(quiet.status == 0);
+    CHECK(quiet.err.empty());
+    CHECK(quiet.out.empty());
+}
+
+} // namespace geodisk::test

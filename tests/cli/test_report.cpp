@@ -1,0 +1,117 @@
+// The JSON report and the summary.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "common/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+void check_seconds(const Json& seconds) {
+    for (const char* const key :
+         {"load", "prepare", "device", "pipelines", "upload", "sample", "readback", "write"}) {
+        INFO(key);
+        REQUIRE(seconds.contains(key));
+        CHECK(seconds[key].is_number_float());
+        CHECK(seconds[key] >= 0.0);
+    }
+}
+
+void check_mesh(const Json& mesh) {
+    CHECK(mesh["vertices"] == 8);
+    CHECK(mesh["triangles"] == 12);
+    CHECK(mesh["components"] == 1);
+    CHECK(mesh["boundary_edges"] == 0);
+    CHECK(mesh["nonmanifold_edges"] == 0);
+    CHECK(mesh["area"].get<double>() == doctest::Approx(6));
+}
+
+bool is_plain(const std::string& text) {
+    return std::all_of(text.begin(), text.end(),
+                       [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
+}
+
+} // namespace
+
+TEST_CASE("the report has every documented key") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder, {"sample", "builtin:cube", "-o", "a.ply", "-n", "300",
+                                         "--seed", "18446744073709551615", "--json", "a.json"});
+    REQUIRE(outcome.status == 0);
+    const Json report = Json::parse(bytes_of(folder / "a.json"));
+    check_mesh(report["mesh"]);
+    check_seconds(report["seconds"]);
+    for (const char* const key :
+         {"seed", "candidates", "samples", "iterations", "dispatches", "disks", "windows",
+          "largest_heap", "regrown", "device_bytes", "tested", "longest_chain"}) {
+        INFO(key);
+        CHECK(report[key].is_number_unsigned());
+    }
+    for (const char* const key : {"min_distance", "radius", "rho", "guard", "pool_ratio"}) {
+        INFO(key);
+        CHECK(report[key].is_number_float());
+    }
+    for (const char* const key : {"name", "driver", "type"}) {
+        INFO(key);
+        CHECK(report["device"][key].is_string());
+    }
+    CHECK(report["version"].is_string());
+    CHECK(report["seed"] == 18446744073709551615u);
+    CHECK(report["radius"].get<double>() * 2 == report["min_distance"].get<double>());
+    const std::size_t samples = tools::read_samples(folder / "a.ply").rows.size();
+    CHECK(report["samples"] == samples);
+    CHECK(samples > 250);
+    CHECK(samples < 350);
+    CHECK(report["candidates"] >= 5900);
+    CHECK(report["candidates"] <= 6100);
+    CHECK(report["rho"] > 0.65);
+    CHECK(report["rho"] < 0.8);
+}
+
+TEST_CASE("the report takes the place of the summary on standard output") {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run(folder, {"sample", "builtin:cube", "-o", "a.ply", "-n", "9", "--json", "-"});
+    CHECK(outcome.status == 0);
+    CHECK(Json::parse(outcome.out)["mesh"]["triangles"] == 12);
+    CHECK(outcome.err.empty());
+    CHECK(files_in(folder) == std::vector<std::string>{"a.ply"});
+}
+
+TEST_CASE("the summary is short and plain when piped") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder, {"sample", "builtin:cube", "-o", "a.ply", "-d", "0.25"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK(is_plain(outcome.out));
+    CHECK(lines_of(outcome.out).size() <= 10);
+    for (const char* const part :
+         {"builtin:cube", "0.25", "0.125", "rho", "a.ply", "12 triangles"}) {
+        INFO(part);
+        CHECK(contains(outcome.out, part));
+    }
+    const Outcome quiet =
+        run(folder, {"sample", "builtin:cube", "-o", "a.ply", "-d", "0.25", "--quiet"});
+    CHECK(quiet.status == 0);
+    CHECK(quiet.out.empty());
+    CHECK(quiet.err.empty());
+}
+
+TEST_CASE("the locale changes nothing") {
+    const TemporaryFolder folder;
+    Setting german;
+    german.environment = {{"LC_ALL", "de_DE.UTF-8"}};
+    const std::vector<std::string> arguments{"sample", "builtin:cube", "-o", "a.csv", "-d", "0.5"};
+    REQUIRE(run(folder, arguments).status == 0);
+    const std::string before = bytes_of(folder / "a.csv");
+    REQUIRE(run(folder, arguments, german).status == 0);
+    CHECK(bytes_of(folder / "a.csv") == before);
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,139 @@
+// What `geodisk sample` writes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/command.hpp"
+#include "common/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// Samples builtin:cube into `output` and returns the file's bytes.
+std::string sample_cube(const TemporaryFolder& folder, const std::string& output,
+                        const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"sample", "builtin:cube", "-o", output};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run(folder, arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return bytes_of(folder / output);
+}
+
+std::string value_of(const tools::SampleHeader& header, const std::string& key) {
+    for (const auto& [name, value] : header.entries) {
+        if (name == key) {
+            return value;
+        }
+    }
+    return "missing";
+}
+
+/// All rows as CSV, the header comments left out.
+std::vector<std::string> csv_rows(const std::string& bytes) {
+    std::vector<std::string> lines = lines_of(bytes);
+    std::erase_if(lines, [](const std::string& line) { return line.starts_with("#"); });
+    return lines;
+}
+
+void check_row(const tools::SampleRow& row) {
+    CHECK(row.face < 12);
+    CHECK(row.bary[0] + row.bary[1] + row.bary[2] == 1.0f);
+    double normal_length = 0;
+    double largest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        normal_length +=
+            static_cast<double>(row.normal[axis]) * static_cast<double>(row.normal[axis]);
+        largest = std::max(largest, std::abs(static_cast<double>(row.normal[axis])));
+    }
+    CHECK(normal_length == doctest::Approx(1));
+    CHECK(largest == doctest::Approx(1)); // The faces of a cube are square to the axes.
+}
+
+} // namespace
+
+TEST_CASE("all formats hold the same samples") {
+    const TemporaryFolder folder;
+    const std::string binary = sample_cube(folder, "a.ply", {"-d", "0.2"});
+    const std::string ascii = sample_cube(folder, "b.ply", {"-d", "0.2", "--ascii"});
+    const std::string csv = sample_cube(folder, "c.csv", {"-d", "0.2"});
+    const std::string xyz = sample_cube(folder, "d.xyz", {"-d", "0.2"});
+    CHECK(binary.starts_with("ply\nformat binary_little_endian 1.0\ncomment "));
+    CHECK(ascii.starts_with("ply\nformat ascii 1.0\ncomment "));
+    CHECK(contains(csv, "\nx,y,z,nx,ny,nz,face_index,bary_u,bary_v,bary_w,candidate\n"));
+    const auto a = tools::read_samples(folder / "a.ply").rows;
+    const auto b = tools::read_samples(folder / "b.ply").rows;
+    const auto c = tools::read_samples(folder / "c.csv").rows;
+    REQUIRE(a.size() > 50);
+    REQUIRE(b.size() == a.size());
+    REQUIRE(c.size() == a.size());
+    REQUIRE(lines_of(xyz).size() == a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        check_row(a[i]);
+        CHECK((a[i].face == b[i].face && a[i].face == c[i].face));
+        CHECK((a[i].candidate == b[i].candidate && a[i].candidate == c[i].candidate));
+        CHECK((std::equal(a[i].bary, a[i].bary + 3, b[i].bary) &&
+               std::equal(a[i].bary, a[i].bary + 3, c[i].bary)));
+        CHECK(a[i].position[0] == doctest::Approx(c[i].position[0]));
+        CHECK((i == 0 || a[i - 1].candidate < a[i].candidate));
+    }
+}
+
+TEST_CASE("header comments tell where the samples come from") {
+    const TemporaryFolder folder;
+    for (const char* const output : {"a.ply", "a.csv"}) {
+        sample_cube(folder, output, {"-r", "0.125", "--seed", "0x10"});
+        const tools::SampleHeader header = tools::read_samples(folder / output).header;
+        CHECK(value_of(header, "version").starts_with("geodisk "));
+        CHECK(value_of(header, "mesh") == "builtin:cube");
+        CHECK(value_of(header, "min_distance") == "0.25");
+        CHECK(value_of(header, "radius") == "0.125");
+        CHECK(value_of(header, "seed") == "16");
+        CHECK(std::stoul(value_of(header, "pool_size")) > 1000);
+        CHECK(value_of(header, "device") != "missing");
+        CHECK(value_of(header, "driver") != "missing");
+    }
+}
+
+TEST_CASE("equal seeds give equal files, other seeds other samples") {
+    const TemporaryFolder folder;
+    const std::string first = sample_cube(folder, "a.ply", {"-n", "100", "--seed", "7"});
+    const std::string again = sample_cube(folder, "b.ply", {"-n", "100", "--seed", "0x7"});
+    CHECK(first == again);
+    const std::string less_memory =
+        sample_cube(folder, "b.ply", {"-n", "100", "--seed", "7", "--memory", "1M"});
+    CHECK(first == less_memory);
+    const auto seven = csv_rows(sample_cube(folder, "a.csv", {"-n", "100", "--seed", "7"}));
+    const auto eight = csv_rows(sample_cube(folder, "a.csv", {"-n", "100", "--seed", "8"}));
+    const auto high =
+        csv_rows(sample_cube(folder, "a.csv", {"-n", "100", "--seed", "0x100000007"}));
+    CHECK(seven != eight);
+    CHECK(seven != high);
+}
+
+TEST_CASE("ways to give the same distance give the same samples") {
+    const TemporaryFolder folder;
+    // The diagonal of the cube is the square root of 3.
+    const std::string world = sample_cube(folder, "a.csv", {"-d", "0.17320508075688773"});
+    CHECK(csv_rows(sample_cube(folder, "a.csv", {"-d", "10%"})) == csv_rows(world));
+    CHECK(csv_rows(sample_cube(folder, "a.csv", {"-r", "5%"})) == csv_rows(world));
+    CHECK(csv_rows(sample_cube(folder, "a.csv", {"-r", "0.086602540378443865"})) ==
+          csv_rows(world));
+}
+
+TEST_CASE("a higher pool ratio leaves fewer gaps") {
+    const TemporaryFolder folder;
+    const auto few = csv_rows(sample_cube(folder, "a.csv", {"-d", "0.1", "--pool-ratio", "2"}));
+    const auto many = csv_rows(sample_cube(folder, "a.csv", {"-d", "0.1", "--pool-ratio", "100"}));
+    CHECK(few.size() < many.size());
+}
+
+TEST_CASE("an existing output is replaced") {
+    const TemporaryFolder folder;
+    folder.write("a.xyz", "old");
+    CHECK_FALSE(contains(sample_cube(folder, "a.xyz", {"-n", "9"}), "old"));
+    CHECK(files_in(folder) == std::vector<std::string>{"a.xyz"});
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,118 @@
+// Help, version, and every way to ask for something impossible.
+#include <doctest/doctest.h>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+Arguments sample(const Arguments& options) {
+    Arguments arguments{"sample", "builtin:cube", "-o", "a.ply"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return arguments;
+}
+
+} // namespace
+
+TEST_CASE("help tells options, examples and exit statuses") {
+    const TemporaryFolder folder;
+    for (const Arguments& arguments :
+         {Arguments{"--help"}, Arguments{"sample", "--help"}, Arguments{"verify", "-h"}}) {
+        const Outcome outcome = run(folder, arguments);
+        CHECK(outcome.status == 0);
+        CHECK(outcome.err.empty());
+        CHECK(contains(outcome.out, "Usage: geodisk"));
+        CHECK(contains(outcome.out, "Exit status:"));
+        for (const char* const status :
+             {"0 ", "1 ", "2 ", "3 ", "4 ", "5 ", "6 ", "7 ", "130 ", "143 "}) {
+            CHECK(contains(outcome.out, std::string("\n  ") + status));
+        }
+        for (const std::string& line : lines_of(outcome.out)) {
+            CHECK_MESSAGE(line.size() <= 100, line);
+        }
+    }
+    const Outcome help = run(folder, {"sample", "--help"});
+    for (const char* const option : {"--min-distance", "--radius", "--count", "--seed",
+                                     "--pool-ratio", "--device", "--json", "--quiet", "--ascii"}) {
+        CHECK(contains(help.out, option));
+    }
+}
+
+TEST_CASE("the version is one line") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder, {"--version"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.starts_with("geodisk "));
+    CHECK(lines_of(outcome.out).size() == 1);
+}
+
+TEST_CASE("shapes lists names that sample and verify take") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder, {"shapes"});
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.out, "builtin:cube "));
+    CHECK(contains(outcome.out, "builtin:torus-knot "));
+}
+
+TEST_CASE("wrong usage is explained") {
+    const TemporaryFolder folder;
+    check_fails(folder, 2, "see geodisk --help", {});
+    check_fails(folder, 2, "see geodisk --help", {"resample"});
+    check_fails(folder, 2, "MESH is required (see geodisk sample --help)", {"sample"});
+    check_fails(folder, 2, "--output is required", {"sample", "builtin:cube", "-n", "9"});
+    check_fails(folder, 2, "SAMPLES is required", {"verify", "builtin:cube"});
+    check_fails(folder, 2, "--speed", sample({"-n", "9", "--speed", "3"}));
+    check_fails(folder, 2, "surplus", sample({"surplus", "-n", "9"}));
+    check_fails(folder, 2, "--count needs a value", sample({"-n"}));
+    check_fails(folder, 2, "--count is given more than once", sample({"-n", "9", "-n", "8"}));
+}
+
+TEST_CASE("the distance must be given once and make sense") {
+    const TemporaryFolder folder;
+    check_fails(folder, 2, "no distance given", sample({}));
+    check_fails(folder, 2, "--min-distance and --count contradict",
+                sample({"--min-distance", "1", "--count", "9"}));
+    check_fails(folder, 2, "contradict", sample({"--min-distance", "1", "--radius", "0.5"}));
+    check_fails(folder, 2, "contradict", sample({"-d", "1", "-r", "1", "-n", "1"}));
+    for (const char* const length : {"0", "-1", "nan", "inf", "0%", "-5%", "1e999"}) {
+        check_fails(folder, 2, "not a positive, finite length", sample({"-d", length}));
+        check_fails(folder, 2, "not a positive, finite length", sample({"-r", length}));
+    }
+    for (const char* const length : {"thin", "1,5", "1 m", "%", "0x10", "1%%"}) {
+        check_fails(folder, 2, "is not a length", sample({"-d", length}));
+    }
+    for (const char* const count : {"0", "-3", "1.5", "many", "nan", "1e30"}) {
+        check_fails(folder, 2, "--count", sample({"-n", count}));
+    }
+    check_fails(folder, 2, "is not a length",
+                {"verify", "builtin:cube", "a.ply", "--min-distance", "wide"});
+}
+
+TEST_CASE("a pool that cannot fit names its size") {
+    const TemporaryFolder folder;
+    check_fails(folder, 2, "candidates", sample({"-d", "1e-7"}));
+    check_fails(folder, 2, "bytes", sample({"-d", "1e-7"}));
+    check_fails(folder, 2, "candidates", sample({"-d", "1e-300"}));
+    check_fails(folder, 2, "candidates", sample({"-n", "1e12"}));
+    check_fails(folder, 6, "--memory", sample({"-n", "9", "--memory", "1"}));
+}
+
+TEST_CASE("other values out of range are named") {
+    const TemporaryFolder folder;
+    for (const char* const seed : {"-1", "1.5", "18446744073709551616", "0xg", "", "0x"}) {
+        check_fails(folder, 2, "--seed", sample({"-n", "9", "--seed", seed}));
+    }
+    for (const char* const ratio : {"0", "0.5", "10001", "nan", "much"}) {
+        check_fails(folder, 2, "--pool-ratio", sample({"-n", "9", "--pool-ratio", ratio}));
+    }
+    for (const char* const size : {"0", "-1M", "1T", "all", "M"}) {
+        check_fails(folder, 2, "--memory", sample({"-n", "9", "--memory", size}));
+    }
+    check_fails(folder, 2, "unknown built-in shape 'kube'",
+                {"sample", "builtin:kube", "-o", "a.ply", "-n", "9"});
+    check_fails(folder, 2, "resolution", {"sample", "builtin:cube:0", "-o", "a.ply", "-n", "9"});
+}
+
+} // namespace geodisk::test

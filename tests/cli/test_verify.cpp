@@ -1,0 +1,147 @@
+// `geodisk verify` accepts what `geodisk sample` wrote, and nothing else.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "cli/command.hpp"
+#include "common/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+constexpr const char* kMesh = "builtin:torus-knot:8";
+
+tools::SampleFile make_samples(const TemporaryFolder& folder) {
+    const Outcome made = run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "400"});
+    REQUIRE(made.status == 0);
+    tools::SampleFile samples = tools::read_samples(folder / "a.ply");
+    REQUIRE(samples.rows.size() > 300);
+    return samples;
+}
+
+void write_back(const TemporaryFolder& folder, const tools::SampleFile& samples) {
+    tools::write_samples(folder / "b.csv", samples.header, samples.rows, false);
+}
+
+} // namespace
+
+TEST_CASE("samples pass, in every format with faces") {
+    const TemporaryFolder folder;
+    for (const std::string output : {"a.ply", "a.csv"}) {
+        REQUIRE(run(folder, {"sample", kMesh, "-o", output, "-n", "400"}).status == 0);
+        const Outcome outcome = run(folder, {"verify", kMesh, output});
+        INFO(outcome.out, outcome.err);
+        CHECK(outcome.status == 0);
+        CHECK(outcome.err.empty());
+        CHECK(contains(outcome.out, "violations    0\n"));
+        CHECK(contains(outcome.out, "smallest      "));
+        CHECK(contains(outcome.out, "rho           0.7"));
+        CHECK_FALSE(contains(outcome.out, "\r"));
+        CHECK(run(folder, {"verify", kMesh, output, "-q"}).out.empty());
+    }
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.xyz", "-n", "9"}).status == 0);
+    check_fails(folder, 3, "face_index", {"verify", kMesh, "a.xyz"});
+}
+
+TEST_CASE("meshes of every kind pass") {
+    const TemporaryFolder folder;
+    for (const std::string mesh : {"builtin:plate:4", "builtin:folded-sheet:6", "builtin:moebius:4",
+                                   "builtin:lattice:1", "builtin:terrain:12"}) {
+        INFO(mesh);
+        REQUIRE(run(folder, {"sample", mesh, "-o", "a.ply", "-n", "500"}).status == 0);
+        const Outcome outcome = run(folder, {"verify", mesh, "a.ply"});
+        INFO(outcome.out, outcome.err);
+        CHECK(outcome.status == 0);
+    }
+}
+
+TEST_CASE("a sample moved onto another one is found") {
+    const TemporaryFolder folder;
+    tools::SampleFile samples = make_samples(folder);
+    const std::uint32_t candidate = samples.rows[7].candidate;
+    samples.rows[7] = samples.rows[42];
+    samples.rows[7].candidate = candidate;
+    write_back(folder, samples);
+    const Outcome outcome = run(folder, {"verify", kMesh, "b.csv"});
+    CHECK(outcome.status == 1);
+    CHECK(contains(outcome.err, "geodisk: b.csv: 1 pair of samples is closer than "));
+    CHECK(contains(outcome.out, "violations    1\n"));
+    CHECK(contains(outcome.out, "sample 7 (candidate " + std::to_string(candidate) +
+                                    ") and sample 42 (candidate " +
+                                    std::to_string(samples.rows[42].candidate) + "): 0\n"));
+}
+
+TEST_CASE("a larger distance is violated by many pairs, each counted once") {
+    const TemporaryFolder folder;
+    const std::size_t n = make_samples(folder).rows.size();
+    const Outcome outcome = run(folder, {"verify", kMesh, "a.ply", "--min-distance", "1000"});
+    CHECK(outcome.status == 1);
+    std::string plain = outcome.out;
+    std::erase(plain, ',');
+    CHECK(contains(plain, "violations    " + std::to_string(n * (n - 1) / 2) + "\n"));
+}
+
+TEST_CASE("a distance that nobody comes near is bounded") {
+    const TemporaryFolder folder;
+    make_samples(folder);
+    for (const char* const distance : {"1e-3", "1e-12", "1e-300"}) {
+        const Outcome outcome = run(folder, {"verify", kMesh, "a.ply", "-d", distance});
+        INFO(outcome.out, outcome.err);
+        CHECK(outcome.status == 0);
+        CHECK(contains(outcome.out, "smallest      > "));
+    }
+}
+
+TEST_CASE("positions off the mesh are found") {
+    const TemporaryFolder folder;
+    tools::SampleFile samples = make_samples(folder);
+    samples.rows[3].position[1] += 0.01;
+    write_back(folder, samples);
+    const Outcome outcome = run(folder, {"verify", kMesh, "b.csv"});
+    CHECK(outcome.status == 1);
+    CHECK(contains(outcome.err, "1 position does not agree with face and weights"));
+    CHECK(contains(outcome.out, "sample 3 "));
+    const Outcome other = run(folder, {"verify", "builtin:torus-knot:9", "a.ply"});
+    CHECK(other.status == 1);
+}
+
+TEST_CASE("rows that are not on the mesh at all are malformed") {
+    const TemporaryFolder folder;
+    const tools::SampleFile good = make_samples(folder);
+    tools::SampleFile bad = good;
+    bad.rows[5].face = 100000;
+    write_back(folder, bad);
+    check_fails(folder, 3, "b.csv: sample 5 ", {"verify", kMesh, "b.csv"});
+    bad = good;
+    bad.rows[6].bary[1] += 0.5f;
+    write_back(folder, bad);
+    check_fails(folder, 3, "weights", {"verify", kMesh, "b.csv"});
+    folder.write("c.csv", "x,y,z\n1,2,3\n");
+    check_fails(folder, 3, "face_index", {"verify", kMesh, "c.csv"});
+    check_fails(folder, 3, "no such file", {"verify", kMesh, "none.csv"});
+    folder.write("c.txt", "");
+    check_fails(folder, 3, "unknown sample format", {"verify", kMesh, "c.txt"});
+}
+
+TEST_CASE("the distance comes from the option or the header") {
+    const TemporaryFolder folder;
+    tools::SampleFile samples = make_samples(folder);
+    samples.header.entries.clear();
+    write_back(folder, samples);
+    check_fails(folder, 2, "give --min-distance", {"verify", kMesh, "b.csv"});
+    CHECK(run(folder, {"verify", kMesh, "b.csv", "--min-distance", "0.1%"}).status == 0);
+    samples.header.entries = {{"min_distance", "wide"}};
+    write_back(folder, samples);
+    check_fails(folder, 3, "'wide'", {"verify", kMesh, "b.csv"});
+}
+
+TEST_CASE("no samples are no violation") {
+    const TemporaryFolder folder;
+    write_back(folder, {});
+    const Outcome outcome = run(folder, {"verify", kMesh, "b.csv", "-d", "1"});
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.out, "samples       0 in b.csv\n"));
+}
+
+} // namespace geodisk::test
