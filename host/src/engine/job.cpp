@@ -47,7 +47,7 @@ const RunPlan& Job::plan() const noexcept { return impl_->plan; }
 std::uint32_t Job::candidates() const noexcept { return impl_->push.candidates; }
 
 Job::Impl::~Impl() {
-    if (sampler != nullptr) {
+    if (!sampler->abandoned) {
         sampler->vk.vkDestroyDescriptorPool(sampler->device.device, descriptor_pool,
                                             sampler->device.host_allocator);
     }
@@ -134,8 +134,10 @@ Result<Done> Job::Impl::write_sets() {
     pool_info.maxSets = kSets;
     pool_info.poolSizeCount = 1;
     pool_info.pPoolSizes = &size;
-    VkResult result = vk.vkCreateDescriptorPool(device, &pool_info, sampler->device.host_allocator,
-                                                &descriptor_pool);
+    VkResult result = null_unless_success(
+        vk.vkCreateDescriptorPool(device, &pool_info, sampler->device.host_allocator,
+                                  &descriptor_pool),
+        descriptor_pool);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateDescriptorPool", result);
     }

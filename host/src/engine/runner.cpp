@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <string>
 #include <utility>
 
 #include "engine/runner_impl.hpp"
@@ -60,13 +61,49 @@ std::uint64_t RunMemory::bytes() const {
     return sum;
 }
 
+void RunMemory::abandon() noexcept {
+    staging.abandon();
+    for (DeviceBuffer& buffer : buffers) {
+        buffer.abandon();
+    }
+}
+
 namespace {
+
+Result<Done> check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device,
+                         const QueueRef& queue) {
+    if (queue.queue == VK_NULL_HANDLE) {
+        return Error{Status::invalid_argument, "QueueRef::queue is null"};
+    }
+    if ((queue.lock == nullptr) != (queue.unlock == nullptr)) {
+        return Error{Status::invalid_argument,
+                     "QueueRef::lock and QueueRef::unlock must be set both or neither"};
+    }
+    std::uint32_t count = 0;
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(physical_device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(physical_device, &count, families.data());
+    if (queue.family >= count || (families[queue.family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
+        return Error{Status::invalid_argument, "QueueRef::family is " +
+                                                   std::to_string(queue.family) +
+                                                   ", which is no family with compute"};
+    }
+    return Done{};
+}
 
 /// One run: its memory, its job and what the device reported last.
 class Run {
   public:
     Run(Runner::Impl& runner, const PreparedMesh& mesh, const SampleParams& params)
         : runner_(runner), mesh_(mesh), params_(params) {}
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+    ~Run() {
+        if (runner_.submitter->abandoned()) {
+            runner_.settle(); // For the job.
+            memory_.abandon();
+        }
+    }
 
     Result<SampleSet> go(const ProgressCallback& progress, std::uint32_t chain);
     std::uint32_t longest_chain() const { return control_.longest_chain; }
@@ -327,6 +364,9 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
         if (!instance) {
             return instance.error();
         }
+        if (auto checked = check_queue(*instance, device.physical_device, queue); !checked) {
+            return checked.error();
+        }
         auto impl = std::make_unique<Impl>(std::move(*sampler));
         impl->options = options;
         instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
@@ -346,6 +386,9 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
 Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                           const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SampleSet> {
+        if (auto usable = impl_->submitter->ready(); !usable) {
+            return usable.error();
+        }
         std::uint32_t chain = 0;
         for (;;) {
             Run run(*impl_, mesh, params);

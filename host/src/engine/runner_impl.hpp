@@ -19,6 +19,15 @@ struct Runner::Impl {
     std::optional<Submitter> submitter;
 
     explicit Impl(Sampler s) : sampler(std::move(s)) {}
+    ~Impl() { settle(); }
+
+    /// Once a submission was given up, keeps all that it may still use from being destroyed. The
+    /// buffers are left to whoever owns them.
+    void settle() noexcept {
+        if (submitter && submitter->abandoned()) {
+            sampler.impl_->abandoned = true;
+        }
+    }
 
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
@@ -35,6 +44,7 @@ struct RunMemory {
 
     Workspace workspace() const;
     std::uint64_t bytes() const;
+    void abandon() noexcept;
 };
 
 } // namespace geodisk

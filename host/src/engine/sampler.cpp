@@ -77,10 +77,10 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
 }
 
 Sampler::Impl::~Impl() {
+    if (abandoned) {
+        return;
+    }
     for (std::size_t k = 0; k < kKernels; ++k) {
-        if (vk.vkDestroyPipeline == nullptr) {
-            return;
-        }
         vk.vkDestroyPipeline(device.device, pipelines[k], device.host_allocator);
         vk.vkDestroyPipelineLayout(device.device, layouts[k], device.host_allocator);
         vk.vkDestroyDescriptorSetLayout(device.device, set_layouts[k], device.host_allocator);
@@ -108,8 +108,10 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     set_info.pBindings = bindings.data();
-    VkResult result = vk.vkCreateDescriptorSetLayout(device.device, &set_info,
-                                                     device.host_allocator, &set_layouts[k]);
+    VkResult result = null_unless_success(
+        vk.vkCreateDescriptorSetLayout(device.device, &set_info, device.host_allocator,
+                                       &set_layouts[k]),
+        set_layouts[k]);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateDescriptorSetLayout", result);
     }
@@ -120,8 +122,9 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     layout_info.pSetLayouts = &set_layouts[k];
     layout_info.pushConstantRangeCount = 1;
     layout_info.pPushConstantRanges = &range;
-    result = vk.vkCreatePipelineLayout(device.device, &layout_info, device.host_allocator,
-                                       &layouts[k]);
+    result = null_unless_success(
+        vk.vkCreatePipelineLayout(device.device, &layout_info, device.host_allocator, &layouts[k]),
+        layouts[k]);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreatePipelineLayout", result);
     }
@@ -149,8 +152,10 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     pipeline_info.stage.pName = "main";
     pipeline_info.stage.pSpecializationInfo = &specialization;
     pipeline_info.layout = layouts[k];
-    result = vk.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &pipeline_info,
-                                         device.host_allocator, &pipelines[k]);
+    result = null_unless_success(
+        vk.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &pipeline_info,
+                                    device.host_allocator, &pipelines[k]),
+        pipelines[k]);
     vk.vkDestroyShaderModule(device.device, module, device.host_allocator);
     if (result != VK_SUCCESS) {
         Error error = vk_error("vkCreateComputePipelines", result);

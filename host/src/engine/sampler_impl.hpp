@@ -21,6 +21,8 @@ struct Sampler::Impl {
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
+    /// The device may be using these objects and those of the jobs for ever: destroy none.
+    bool abandoned = false;
 
     ~Impl();
     Result<Done> create_pipelines();

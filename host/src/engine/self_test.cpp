@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <string>
 
 #include "engine/runner_impl.hpp"
@@ -98,7 +99,7 @@ Result<Done> Runner::Impl::check_rounding() {
     push.candidates = kVectors;
     push.seed_low = static_cast<std::uint32_t>(kSeed);
     push.seed_high = static_cast<std::uint32_t>(kSeed >> 32);
-    auto done = submitter->run([&](VkCommandBuffer commands) {
+    const auto record = [&](VkCommandBuffer commands) {
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_impl.pipelines[k]);
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                    sampler_impl.layouts[k], 0, 1, &set, 0, nullptr);
@@ -108,8 +109,11 @@ Result<Done> Runner::Impl::check_rounding() {
         record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                        VK_ACCESS_HOST_READ_BIT);
-    });
-    if (!submitter->abandoned()) {
+    };
+    auto done = submitter->run(std::cref(record)); // Does not allocate, so that nothing leaks.
+    if (submitter->abandoned()) {
+        results->abandon();
+    } else {
         vk.vkDestroyDescriptorPool(device, pool, allocator);
     }
     if (!done) {

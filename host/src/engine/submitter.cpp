@@ -1,5 +1,6 @@
 #include "engine/submitter.hpp"
 
+#include <thread>
 #include <utility>
 
 #include "vk/result.hpp"
@@ -17,8 +18,9 @@ Result<Submitter> Submitter::create(const DeviceRefs& device, const DeviceTable&
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool.queueFamilyIndex = queue.family;
-    VkResult status =
-        vk.vkCreateCommandPool(device.device, &pool, device.host_allocator, &result.pool_);
+    VkResult status = null_unless_success(
+        vk.vkCreateCommandPool(device.device, &pool, device.host_allocator, &result.pool_),
+        result.pool_);
     if (status != VK_SUCCESS) {
         return vk_error("vkCreateCommandPool", status);
     }
@@ -33,7 +35,9 @@ Result<Submitter> Submitter::create(const DeviceRefs& device, const DeviceTable&
     }
     VkFenceCreateInfo fence{};
     fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    status = vk.vkCreateFence(device.device, &fence, device.host_allocator, &result.fence_);
+    status = null_unless_success(
+        vk.vkCreateFence(device.device, &fence, device.host_allocator, &result.fence_),
+        result.fence_);
     if (status != VK_SUCCESS) {
         return vk_error("vkCreateFence", status);
     }
@@ -43,7 +47,7 @@ Result<Submitter> Submitter::create(const DeviceRefs& device, const DeviceTable&
 Submitter::Submitter(Submitter&& other) noexcept
     : device_(other.device_), vk_(std::exchange(other.vk_, nullptr)), queue_(other.queue_),
       stall_limit_(other.stall_limit_), pool_(other.pool_), commands_(other.commands_),
-      fence_(other.fence_), abandoned_(other.abandoned_) {}
+      fence_(other.fence_), abandoned_(other.abandoned_), lost_(other.lost_) {}
 
 Submitter::~Submitter() {
     if (vk_ != nullptr && !abandoned_) {
@@ -52,22 +56,46 @@ Submitter::~Submitter() {
     }
 }
 
+Error Submitter::failed(const char* call, VkResult result) {
+    lost_ = lost_ || result == VK_ERROR_DEVICE_LOST;
+    return vk_error(call, result);
+}
+
+Result<Done> Submitter::ready() const {
+    if (abandoned_) {
+        return Error{Status::device_lost, "the device has not answered an earlier submission"};
+    }
+    if (lost_) {
+        return Error{Status::device_lost, "the device was lost earlier"};
+    }
+    return Done{};
+}
+
 Result<Done> Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
+    if (auto usable = ready(); !usable) {
+        return usable;
+    }
     VkResult status = vk_->vkResetCommandPool(device_->device, pool_, 0);
     if (status != VK_SUCCESS) {
-        return vk_error("vkResetCommandPool", status);
+        return failed("vkResetCommandPool", status);
+    }
+    // Before and not after each submission: a fence left signalled by a failed call would pretend
+    // that the next submission had ended.
+    status = vk_->vkResetFences(device_->device, 1, &fence_);
+    if (status != VK_SUCCESS) {
+        return failed("vkResetFences", status);
     }
     VkCommandBufferBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     status = vk_->vkBeginCommandBuffer(commands_, &begin);
     if (status != VK_SUCCESS) {
-        return vk_error("vkBeginCommandBuffer", status);
+        return failed("vkBeginCommandBuffer", status);
     }
     record(commands_);
     status = vk_->vkEndCommandBuffer(commands_);
     if (status != VK_SUCCESS) {
-        return vk_error("vkEndCommandBuffer", status);
+        return failed("vkEndCommandBuffer", status);
     }
     VkSubmitInfo submit{};
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
@@ -81,7 +109,7 @@ Result<Done> Submitter::run(const std::function<void(VkCommandBuffer)>& record) 
         queue_.unlock(queue_.lock_user);
     }
     if (status != VK_SUCCESS) {
-        return vk_error("vkQueueSubmit", status);
+        return failed("vkQueueSubmit", status);
     }
     return wait();
 }
@@ -93,22 +121,23 @@ Result<Done> Submitter::wait() {
         const VkResult status =
             vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE, kSlice);
         if (status == VK_SUCCESS) {
-            break;
+            return Done{};
         }
-        if (status != VK_TIMEOUT) {
-            return vk_error("vkWaitForFences", status);
+        if (status == VK_ERROR_DEVICE_LOST) {
+            return failed("vkWaitForFences", status);
         }
         if (std::chrono::steady_clock::now() > deadline) {
             abandoned_ = true;
-            return Error{Status::device_lost, "the device has not answered for " +
-                                                  std::to_string(stall_limit_.count()) + " seconds"};
+            return Error{Status::device_lost,
+                         "the device has not answered for " +
+                             std::to_string(stall_limit_.count()) + " seconds",
+                         kNoElement, status};
+        }
+        // A lack of memory ends the waiting but not the work, whose memory must not be freed yet.
+        if (status != VK_TIMEOUT) {
+            std::this_thread::yield();
         }
     }
-    const VkResult reset = vk_->vkResetFences(device_->device, 1, &fence_);
-    if (reset != VK_SUCCESS) {
-        return vk_error("vkResetFences", reset);
-    }
-    return Done{};
 }
 
 } // namespace geodisk

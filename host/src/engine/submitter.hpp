@@ -21,14 +21,19 @@ class Submitter {
 
     /// Records with `record`, submits and waits until the device is done. A submission that does not
     /// end within the stall limit is an error (`device_lost`), after which nothing may be freed that
-    /// it uses.
+    /// it uses. After any other error nothing is running.
     Result<Done> run(const std::function<void(VkCommandBuffer)>& record);
+
+    /// An error (`device_lost`) once the device was lost or a submission given up. Nothing is
+    /// submitted any more then.
+    Result<Done> ready() const;
 
     /// Whether a submission was given up and may still be running.
     bool abandoned() const noexcept { return abandoned_; }
 
   private:
     Submitter() = default;
+    Error failed(const char* call, VkResult result);
     Result<Done> wait();
 
     const DeviceRefs* device_ = nullptr;
@@ -39,6 +44,7 @@ class Submitter {
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
     bool abandoned_ = false;
+    bool lost_ = false;
 };
 
 } // namespace geodisk

@@ -48,8 +48,9 @@ Result<DeviceBuffer> DeviceBuffer::create(const DeviceRefs& device, const Device
     info.size = bytes;
     info.usage = usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    VkResult status =
-        vk.vkCreateBuffer(device.device, &info, device.host_allocator, &result.buffer_);
+    VkResult status = null_unless_success(
+        vk.vkCreateBuffer(device.device, &info, device.host_allocator, &result.buffer_),
+        result.buffer_);
     if (status != VK_SUCCESS) {
         return vk_error("vkCreateBuffer", status);
     }
@@ -63,7 +64,9 @@ Result<DeviceBuffer> DeviceBuffer::create(const DeviceRefs& device, const Device
     allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = *type;
-    status = vk.vkAllocateMemory(device.device, &allocate, device.host_allocator, &result.memory_);
+    status = null_unless_success(
+        vk.vkAllocateMemory(device.device, &allocate, device.host_allocator, &result.memory_),
+        result.memory_);
     if (status != VK_SUCCESS) {
         Error error = vk_error("vkAllocateMemory", status);
         error.message += " (" + std::to_string(requirements.size) + " bytes)";

@@ -28,6 +28,9 @@ class DeviceBuffer {
     DeviceBuffer& operator=(DeviceBuffer&& other) noexcept;
     ~DeviceBuffer();
 
+    /// Owns nothing any more, without destroying it: the device may still be using it.
+    void abandon() noexcept { vk_ = nullptr; }
+
     VkBuffer handle() const noexcept { return buffer_; }
     VkDeviceSize size() const noexcept { return size_; }
     /// The mapped bytes of a host buffer.
