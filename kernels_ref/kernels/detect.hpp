@@ -63,6 +63,7 @@ class Detector {
         std::uint32_t edge, corner;
         Real x, y, b0, b1, sigma;
         std::uint32_t chain;
+        Real start, end; ///< What was known of the edge's ends, rounded up.
     };
     struct HeapEntry {
         Real key;
@@ -132,22 +133,37 @@ class Detector {
         vertices_[v] = {distance, crossing, through, generation_};
         if (whole_fan || (surface_.fans[v].flags & gpu::kFanBends)) {
             push(distance, {v | gpu::kVertexEvent, whole_fan ? kWholeFan : corner, 0, 0, 0, 0,
-                            distance, chain});
+                            distance, chain, 0, 0});
         }
     }
 
-    /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e.
-    void leave(std::uint32_t e, Real x, Real y, Real b0, Real b1, Real sigma, std::uint32_t chain) {
+    /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e; `start`
+    /// and `end` are what is known of the edge's ends.
+    void leave(std::uint32_t e, Real start, Real end, Real x, Real y, Real b0, Real b1, Real sigma,
+               std::uint32_t chain) {
         if (around_half_edge(surface_.edges[e].around) == e || !(b0 < b1)) {
             return;
         }
         y = y < static_cast<Real>(kSmallestOffset) ? Real{0} : y;
         const Real aside = x < b0 ? b0 - x : (x > b1 ? x - b1 : Real{0});
         const Real key = sigma + root(aside * aside + y * y);
-        if (!(key < limit_) || beaten_at_ends(e, x, y, b0, b1, sigma)) {
+        // Xin and Wang's filter by the two ends of the edge.
+        const Real length = surface_.edges[e].length;
+        if (!(key < limit_) || beats(start, b1, sigma, square(x - b1) + y * y) ||
+            beats(end, length - b0, sigma, square(x - b0) + y * y)) {
             return;
         }
-        push(key, {e, 0, x, y, b0, b1, sigma, chain});
+        push(key, {e, 0, x, y, b0, b1, sigma, chain, rounded_up(start), rounded_up(end)});
+    }
+
+    /// A known distance as a window carries it: in steps of 2^-15, never less. A bound too large only
+    /// lets a window live that could be dropped.
+    Real rounded_up(Real distance) const {
+        if (!(distance < limit_)) {
+            return static_cast<Real>(kFar);
+        }
+        const Real steps = distance * static_cast<Real>(0x1p15);
+        return static_cast<Real>(static_cast<std::uint32_t>(steps) + 1) * static_cast<Real>(0x1p-15);
     }
 
     /// Whether `known` plus a straight way of length `way` beats the window's own distance to a
@@ -155,24 +171,6 @@ class Detector {
     bool beats(Real known, Real way, Real sigma, Real own_square) const {
         const Real rest = ((known + way) - sigma) + margin_;
         return rest < 0 || rest * rest < own_square;
-    }
-
-    /// Xin and Wang's filter by the two ends of the edge.
-    bool beaten_at_ends(std::uint32_t e, Real x, Real y, Real b0, Real b1, Real sigma) const {
-        const Real start = distance_at(surface_.edges[e].origin);
-        const Real end = distance_at(surface_.edges[next_in_face(e)].origin);
-        const Real length = surface_.edges[e].length;
-        return beats(start, b1, sigma, square(x - b1) + y * y) ||
-               beats(end, length - b0, sigma, square(x - b0) + y * y);
-    }
-
-    /// The same by the corner opposite to e, which lies at e's apex: against the end of the lit
-    /// interval next to the edge the window came through.
-    bool beaten_at_apex(std::uint32_t e, Real x, Real y, Real b, Real sigma) const {
-        const Edge<Real>& edge = surface_.edges[e];
-        const Real known = distance_at(surface_.edges[previous_in_face(e)].origin);
-        const Real way = root(square(edge.apex_x - b) + edge.apex_y * edge.apex_y);
-        return beats(known, way, sigma, square(x - b) + y * y);
     }
 
     template <class Wanted, class Hit>
@@ -185,7 +183,9 @@ class Detector {
             const Real distance = root(p.x * p.x + p.y * p.y);
             reach(surface_.edges[e].origin, distance, e, kNoEdge, 0,
                   distance <= static_cast<Real>(kNearVertex), 1);
-            leave(e, p.x, p.y, 0, surface_.edges[e].length, 0, 1);
+            leave(e, distance_at(surface_.edges[e].origin),
+                  distance_at(surface_.edges[next_in_face(e)].origin), p.x, p.y, 0,
+                  surface_.edges[e].length, 0, 1);
         }
     }
 
@@ -236,7 +236,8 @@ class Detector {
                   event.chain + 1);
             reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back,
                   kNoEdge, 0, false, event.chain + 1);
-            leave(e, edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1);
+            leave(e, distance_at(edge.origin), distance_at(surface_.edges[back].origin),
+                  edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1);
             scan_face(e, edge.apex_x, edge.apex_y, event.sigma, wanted, hit);
         }
     }
@@ -247,6 +248,7 @@ class Detector {
         const Real length = surface_.edges[window.edge].length;
         bool same_way = true;
         std::uint32_t h = window.edge;
+        Record entering = window;
         for (;;) {
             const std::uint32_t around = surface_.edges[h].around;
             same_way = same_way == around_same_way(around);
@@ -255,18 +257,25 @@ class Detector {
                 return;
             }
             if (same_way) {
-                enter_face(h, window.x, window.y, window.b0, window.b1, window, wanted, hit);
+                entering = window;
             } else {
-                enter_face(h, length - window.x, window.y, length - window.b1, length - window.b0,
-                           window, wanted, hit);
+                entering.x = length - window.x;
+                entering.b0 = length - window.b1;
+                entering.b1 = length - window.b0;
+                entering.start = window.end;
+                entering.end = window.start;
             }
+            enter_face(h, entering, wanted, hit);
         }
     }
 
-    /// The window enters the face of h, lit on [b0, b1] of h from (x, -y) in the frame of h.
+    /// The window, given in the frame of h with its source at (x, -y), enters the face of h.
     template <class Wanted, class Hit>
-    void enter_face(std::uint32_t h, Real x, Real y, Real b0, Real b1, const Record& window,
-                    Wanted& wanted, Hit& hit) {
+    void enter_face(std::uint32_t h, const Record& window, Wanted& wanted, Hit& hit) {
+        const Real x = window.x;
+        const Real y = window.y;
+        const Real b0 = window.b0;
+        const Real b1 = window.b1;
         const Real sigma = window.sigma;
         const Edge<Real>& edge = surface_.edges[h];
         const std::uint32_t left = previous_in_face(h);
@@ -274,19 +283,20 @@ class Detector {
         const Real crossing = x + (edge.apex_x - x) * ratio(y, edge.apex_y + y);
         bool to_left = crossing > b0;
         bool to_right = crossing < b1;
+        const std::uint32_t apex = surface_.edges[left].origin;
         if (crossing >= b0 - slack_ && crossing <= b1 + slack_) {
-            const std::uint32_t apex = surface_.edges[left].origin;
             const Real distance =
                 sigma + root(square(edge.apex_x - x) + square(edge.apex_y + y));
             split_once(apex, h, crossing, distance, to_left, to_right);
             reach(apex, distance, left, h, crossing, false, window.chain + 1);
         }
+        const Real known = distance_at(apex);
         if (to_left) {
-            lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, window);
+            lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, known, window);
         }
         if (to_right) {
             lit_child(right, false, h, edge.length - x, y, edge.length - b1,
-                      crossing > b0 ? kFull : edge.length - b0, window);
+                      crossing > b0 ? kFull : edge.length - b0, known, window);
         }
         scan_wedge(h, x, y, b0, b1, sigma, wanted, hit);
     }
@@ -305,10 +315,11 @@ class Detector {
         (crossing < note.crossing ? to_right : to_left) = false;
     }
 
-    /// The part of the child edge e that the rays through `near` and `far` light. For the left
-    /// child all is measured from the start of h, for the right one from its end.
+    /// The child over the left or right edge e, lit between the rays through `near` and `far`. For
+    /// the left child all is measured from the start of h, for the right one from its end. `apex` is
+    /// what is known of the corner both children share.
     void lit_child(std::uint32_t e, bool left, std::uint32_t h, Real x, Real y, Real near, Real far,
-                   const Record& window) {
+                   Real apex, const Record& window) {
         const Edge<Real>& child = surface_.edges[e];
         const Edge<Real>& edge = surface_.edges[h];
         const Edge<Real>& angle = left ? edge : child;
@@ -321,20 +332,19 @@ class Detector {
         const Real high = far == kFull ? child.length : along(far);
         const Real child_x = x * angle.cosine - y * angle.sine;
         const Real child_y = x * angle.sine + y * angle.cosine;
-        if (left) {
-            const Real b0 = child.length - high;
-            const Real b1 = child.length - low;
-            leave_checked(e, child.length - child_x, child_y, b0, b1, b1, window);
-        } else {
-            leave_checked(e, child_x, child_y, low, high, low, window);
+        const Real px = left ? child.length - child_x : child_x;
+        const Real b0 = left ? child.length - high : low;
+        const Real b1 = left ? child.length - low : high;
+        // Xin and Wang's filter by the third corner of the face, which lies at the child's apex:
+        // against the end of the lit interval next to the edge the window came through.
+        const Real b = left ? b1 : b0;
+        const Real third = left ? window.end : window.start;
+        const Real way = root(square(child.apex_x - b) + child.apex_y * child.apex_y);
+        if (beats(third, way, window.sigma, square(px - b) + child_y * child_y)) {
+            return;
         }
-    }
-
-    void leave_checked(std::uint32_t e, Real x, Real y, Real b0, Real b1, Real near,
-                       const Record& window) {
-        if (!beaten_at_apex(e, x, y, near, window.sigma)) {
-            leave(e, x, y, b0, b1, window.sigma, window.chain + 1);
-        }
+        leave(e, left ? apex : window.end, left ? window.start : apex, px, child_y, b0, b1,
+              window.sigma, window.chain + 1);
     }
 
     /// Points of h's face at straight distance from (x, y) in the frame of h.

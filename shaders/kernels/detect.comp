@@ -28,6 +28,10 @@ GEODISK_CONTROL;
 #include "../lib/propagate.glsl"
 #include "../lib/scan.glsl"
 
+// Flags of SlotRec::root.
+const uint kRootOpen = 1u;
+const uint kRootPending = 2u;
+
 // Table rows emptied per trip of the main loop.
 const uint kClearPerTrip = 64u;
 
@@ -55,6 +59,9 @@ void load_slot(uint slot) {
     scan_place = f.x, scan_end = f.y, scan_row = f.z, scan_row_end = f.w;
     scan_column = g.x, scan_columns = g.y, tested = g.z, own_face = g.w;
     pushed = h.x, peak = h.y, longest_chain = h.z;
+    root_open = (h.w & kRootOpen) != 0u, has_pending = (h.w & kRootPending) != 0u;
+    uvec4 i = slots[row + 8u];
+    pending = i.xy, open_window = i.z;
     edge = load_edge(half_edge);
     heap_first = slice_row(slot);
     windows_first = windows_row(slot);
@@ -74,7 +81,9 @@ void save_slot(uint slot) {
     slots[row + 4u] = uvec4(window_edge, cursor, cursor_end, entered_by);
     slots[row + 5u] = uvec4(scan_place, scan_end, scan_row, scan_row_end);
     slots[row + 6u] = uvec4(scan_column, scan_columns, tested, own_face);
-    slots[row + 7u] = uvec4(pushed, peak, longest_chain, 0u);
+    slots[row + 7u] = uvec4(pushed, peak, longest_chain,
+                            (root_open ? kRootOpen : 0u) | (has_pending ? kRootPending : 0u));
+    slots[row + 8u] = uvec4(pending, open_window, 0u);
 }
 
 void clear_table() {
@@ -118,11 +127,12 @@ uint corner_at(uint i) {
 
 // Takes the nearest window or vertex from the heap; a vertex reached sooner by now is dropped.
 void take_nearest() {
-    if (heap_size == 0u) {
+    uint window;
+    if (!pop_window(window)) {
         phase = kPhaseDone;
         return;
     }
-    uint row = windows_first + kWindowRows * pop_window();
+    uint row = windows_first + kWindowRows * window;
     uvec4 row0 = pool[row];
     uvec4 row1 = pool[row + 1u];
     x = uintBitsToFloat(row0.y);

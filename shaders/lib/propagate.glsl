@@ -18,7 +18,7 @@ float b1;
 float sigma;
 uint chain;
 uint window_edge;
-uint entered_by;
+uint entered_by;    // of an event: the corner; of a window: what was known of the edge's ends
 uint longest_chain;
 
 void push_record(float key, uvec4 row0, uvec4 row1) {
@@ -57,6 +57,20 @@ float reach(uint vertex, float known, float distance, uint corner, uint through,
     return distance;
 }
 
+// A known distance as a window carries it: in steps of 2^-15, never less. A bound too large only
+// lets a window live that could be dropped.
+const uint kUnknownSteps = 0xffffu;
+
+uint steps_up(float distance) {
+    precise float steps = distance * 32768.0;
+    return distance < push.limit ? uint(steps) + 1u : kUnknownSteps;
+}
+
+float from_steps(uint steps) {
+    precise float distance = float(steps) * 3.0517578125e-5;
+    return steps == kUnknownSteps ? kFar : distance;
+}
+
 // A window leaves through half-edge e, lit on [i0, i1] from (sx, sy) in its frame. `key` stays
 // negative unless it is to be pushed.
 void leave(uint e, Edge exit_edge, float start, float end, float sx, float sy, float i0,
@@ -78,7 +92,8 @@ void leave(uint e, Edge exit_edge, float start, float end, float sx, float sy, f
     }
     key = distance;
     row0 = uvec4(e, floatBitsToUint(sx), floatBitsToUint(sy), floatBitsToUint(i0));
-    row1 = uvec4(floatBitsToUint(i1), floatBitsToUint(sigma), chain + 1u, 0u);
+    row1 = uvec4(floatBitsToUint(i1), floatBitsToUint(sigma), chain + 1u,
+                 steps_up(start) | steps_up(end) << 16);
 }
 
 // How far along a child edge the ray through b falls, for a source at (sx, -sy), all measured from
@@ -140,16 +155,18 @@ void spread(bool from_vertex, float source_square, bool near_vertex) {
     uint right = next_in_face(half_edge);
     Edge left_edge = load_edge(left);
     Edge right_edge = load_edge(right);
+    bool inside = mode == kModeInside;
+    // Start, end and apex of the edge. A window brings what was known of the ends when it set out.
     uvec3 corner = uvec3(edge.origin, right_edge.origin, left_edge.origin);
-    vec3 known;
-    uvec4 apex_note = uvec4(0u);
-    for (uint i = 0u; i < 3u; ++i) {
+    bool turned = mode == kModeOpposite;
+    vec3 known = vec3(from_steps(turned ? entered_by >> 16 : entered_by & 0xffffu),
+                      from_steps(turned ? entered_by & 0xffffu : entered_by >> 16), kFar);
+    uvec4 apex_note;
+    for (uint i = inside ? 0u : 2u; i != (inside ? 2u : 3u); ++i) {
         ++trips;
         find_vertex(corner[i], apex_note);
         known[i] = known_distance(apex_note);
     }
-
-    bool inside = mode == kModeInside;
     float sx = entry_x(edge.len);
     vec2 lit = entry_interval(edge.len);
     precise float apex_dx = edge.apex_x - sx;

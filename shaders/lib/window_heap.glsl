@@ -28,12 +28,22 @@ void set_heap_entry(uint i, uvec2 entry) {
     pool[row][half_row + 1u] = entry.y;
 }
 
-// Removes the least entry of a heap that is not empty and returns its window, whose rows stay
-// readable until the next push.
-uint pop_window() {
-    uint window = heap_entry(0u).y;
-    --heap_size;
-    uvec2 last = heap_entry(heap_size);
+// The root may be open: its window was taken, and the entry that follows is decided when the next
+// one is taken. Mostly that is the first window pushed meanwhile, which then costs one way down
+// instead of a way down and a way up.
+bool root_open;
+bool has_pending;
+uvec2 pending;      // what goes into the open root; its window is the one taken
+uint open_window;   // the window taken from the open root
+
+// Fills the open root: with the pending entry, or with the heap's last.
+void close_root() {
+    uvec2 entry = pending;
+    if (!has_pending) {
+        --heap_size;
+        entry = heap_entry(heap_size);
+        set_heap_entry(heap_size, uvec2(0u, open_window));
+    }
     uint hole = 0u;
     for (;;) {
         ++trips;
@@ -58,33 +68,60 @@ uint pop_window() {
             least = back.zw;
             least_child = child + 3u;
         }
-        if (!before(least, last)) {
+        if (!before(least, entry)) {
             break;
         }
         set_heap_entry(hole, least);
         hole = least_child;
     }
-    set_heap_entry(hole, last);
-    set_heap_entry(heap_size, uvec2(0u, window));
-    return window;
+    if (heap_size > 0u) {
+        set_heap_entry(hole, entry);
+    }
+    root_open = false;
+    has_pending = false;
+}
+
+// Takes the least entry and returns its window, whose rows stay readable until the next push; false
+// if the heap is empty.
+bool pop_window(out uint window) {
+    if (root_open) {
+        close_root();
+    }
+    window = heap_entry(0u).y;
+    if (heap_size == 0u) {
+        return false;
+    }
+    root_open = true;
+    open_window = window;
+    return true;
 }
 
 void push_window(float key, uvec4 row0, uvec4 row1) {
-    if (heap_size >= push.window_capacity) {
-        overflow |= kOverflowWindows;
-        return;
-    }
-    uint window = high_water;
-    if (heap_size < high_water) {
-        window = heap_entry(heap_size).y;
-    } else {
-        ++high_water;
+    uint window = open_window;
+    bool fills_root = root_open && !has_pending;
+    if (!fills_root) {
+        if (heap_size >= push.window_capacity) {
+            overflow |= kOverflowWindows;
+            return;
+        }
+        window = high_water;
+        if (heap_size < high_water) {
+            window = heap_entry(heap_size).y;
+        } else {
+            ++high_water;
+        }
     }
     pool[windows_first + kWindowRows * window] = row0;
     pool[windows_first + kWindowRows * window + 1u] = row1;
+    ++pushed;
     uvec2 entry = uvec2(floatBitsToUint(key), window);
+    if (fills_root) {
+        pending = entry;
+        has_pending = true;
+        return;
+    }
     uint hole = heap_size;
-    while (hole > 0u) {
+    while (hole > (root_open ? 4u : 0u)) {
         ++trips;
         uint parent = (hole - 1u) >> 2;
         uvec2 above = heap_entry(parent);
@@ -96,7 +133,6 @@ void push_window(float key, uvec4 row0, uvec4 row1) {
     }
     set_heap_entry(hole, entry);
     ++heap_size;
-    ++pushed;
     peak = max(peak, heap_size);
 }
 

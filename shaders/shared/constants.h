@@ -65,7 +65,7 @@ GEODISK_CONST uint kNoHalfEdge = 0xffffffffu;
 GEODISK_CONST uint kWholeFan = 0xffffffffu;
 
 // Rows of a slot record and of a window.
-GEODISK_CONST uint kSlotRows = 8u;
+GEODISK_CONST uint kSlotRows = 9u;
 GEODISK_CONST uint kWindowRows = 2u;
 
 // Specialization constants.

@@ -43,7 +43,8 @@ struct SlotRec {
     uint window_edge; uint cursor; uint cursor_end; uint entered_by;
     uint scan_place; uint scan_end; uint scan_row; uint scan_row_end;
     uint scan_column; uint scan_columns; uint tested; uint face;
-    uint windows; uint peak; uint longest_chain; uint spare;
+    uint windows; uint peak; uint longest_chain; uint root;
+    uint pending_key; uint pending_window; uint open_window; uint spare;
 };
 
 // The run as a whole. The three leading words are the indirect size of detect and resolve.
@@ -80,7 +81,7 @@ static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
 static_assert(sizeof(PointRec) == 16 && offsetof(PointRec, face) == 12);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
-static_assert(sizeof(SlotRec) == 128 && offsetof(SlotRec, spare) == 124);
+static_assert(sizeof(SlotRec) == 144 && offsetof(SlotRec, spare) == 140);
 static_assert(sizeof(ControlRec) == 88 && offsetof(ControlRec, most_conflicts) == 84);
 } // namespace geodisk::gpu
 #endif

@@ -45,8 +45,9 @@ GEODISK_API double packing_density(double area, double min_distance, double coun
 
 /// Candidates in the pool: pool_ratio times the expected count, at least 64.
 ///
-/// Fails with `invalid_argument` when a parameter is out of range, and when the pool cannot be
-/// indexed with 32 bits; the message tells how many candidates and bytes it would take.
+/// Fails with `invalid_argument` when a parameter is out of range; when the pool cannot be indexed
+/// with 32 bits, telling how many candidates and bytes it would take; and when an edge is more than
+/// 10,000 distances long, where the guard would outgrow its purpose.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
 

@@ -13,6 +13,8 @@ constexpr double kMinimumPool = 64;
 // Ranks share words with flags.
 constexpr double kMaximumPool = 0x1p30;
 constexpr double kBytesPerCandidate = 28;
+// Edges longer than this many distances would need a guard of a percent.
+constexpr double kLongestEdge = 10000;
 constexpr std::uint32_t kMinimumChain = 64;
 constexpr std::uint32_t kMaximumChain = 1u << 16;
 
@@ -50,6 +52,16 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
                       "the minimum distance is too small for this surface: the pool would take %.3g "
                       "candidates and %.3g bytes, the most is %.0f candidates",
                       wanted, wanted * kBytesPerCandidate, kMaximumPool);
+        return invalid(text);
+    }
+    const double longest = statistics.longest_edge / params.min_distance;
+    if (!(longest <= kLongestEdge)) {
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "the minimum distance is too small for this mesh: its longest edge is %.3g "
+                      "times as long, and single precision resolves at most %.0f times; split long "
+                      "edges",
+                      longest, kLongestEdge);
         return invalid(text);
     }
     return static_cast<std::uint32_t>(std::max(wanted, kMinimumPool));
