@@ -93,7 +93,7 @@ Vec3 position_of(const MeshFile& mesh, std::uint32_t vertex) {
 MeshFile make_icosahedron() {
     const double golden = (1 + std::sqrt(5.0)) / 2;
     MeshFile mesh;
-    for (const Vec3 p :
+    for (const Vec3& p :
          {Vec3{-1, golden, 0}, Vec3{1, golden, 0}, Vec3{-1, -golden, 0}, Vec3{1, -golden, 0},
           Vec3{0, -1, golden}, Vec3{0, 1, golden}, Vec3{0, -1, -golden}, Vec3{0, 1, -golden},
           Vec3{golden, 0, -1}, Vec3{golden, 0, 1}, Vec3{-golden, 0, -1}, Vec3{-golden, 0, 1}}) {
