@@ -23,7 +23,6 @@ struct Push {
     uint list_capacity;   // conflicts one slot can list
     uint slice_rows;      // rows of four words per slot
     uint trip_budget;     // loop iterations an invocation may start per dispatch
-    uint restart;         // select: forget the active batch and select again
     uint scan_count;      // scans: words to scan, and where they start
     uint scan_base;
 };
@@ -33,7 +32,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 72 && offsetof(Push, scan_base) == 68);
+static_assert(sizeof(Push) == 68 && offsetof(Push, scan_base) == 64);
 }
 #endif
 

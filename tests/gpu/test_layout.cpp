@@ -54,8 +54,8 @@ const Offsets kPush{
     GEODISK_OFFSET(Push, slack),           GEODISK_OFFSET(Push, slots),
     GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
     GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, slice_rows),
-    GEODISK_OFFSET(Push, trip_budget),     GEODISK_OFFSET(Push, restart),
-    GEODISK_OFFSET(Push, scan_count),      GEODISK_OFFSET(Push, scan_base)};
+    GEODISK_OFFSET(Push, trip_budget),     GEODISK_OFFSET(Push, scan_count),
+    GEODISK_OFFSET(Push, scan_base)};
 
 const Offsets kControl{
     GEODISK_OFFSET(ControlRec, groups_x),      GEODISK_OFFSET(ControlRec, groups_y),

@@ -32,7 +32,9 @@ struct RunReport {
     std::uint64_t windows = 0;      ///< Windows and vertex events of all disks.
     std::uint64_t tested = 0;       ///< Candidate distances computed in all disks.
     std::uint32_t largest_heap = 0; ///< Most windows in one heap.
-    std::uint32_t longest_chain = 0;
+    std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window.
+    std::uint32_t most_vertices = 0;  ///< Reached by one disk.
+    std::uint32_t most_conflicts = 0; ///< Listed by one disk.
     double guard = 0;               ///< Conflicts were tested against min_distance * (1 + guard).
     std::uint64_t device_bytes = 0; ///< Memory allocated on the device.
     RunPlan plan;                   ///< As it stood at the end.

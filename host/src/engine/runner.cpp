@@ -106,7 +106,6 @@ class Run {
     }
 
     Result<SampleSet> go(const ProgressCallback& progress, std::uint32_t chain);
-    std::uint32_t longest_chain() const { return control_.longest_chain; }
 
   private:
     Result<Done> prepare(std::uint32_t chain);
@@ -334,6 +333,8 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
     report_.tested = std::uint64_t{control_.tested_high} << 32 | control_.tested_low;
     report_.largest_heap = control_.largest_heap;
     report_.longest_chain = control_.longest_chain;
+    report_.most_vertices = control_.most_vertices;
+    report_.most_conflicts = control_.most_conflicts;
     report_.device_bytes = memory_.bytes();
     report_.plan = job_->plan();
     return SampleSet{std::move(*samples), report_};

@@ -112,7 +112,9 @@ void place_face(const MeshView& mesh, std::span<const std::uint32_t> face, HalfE
         place_apex(mesh, face[k], face[(k + 1) % 3], face[(k + 2) % 3], edges[k]);
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-        const double left = std::hypot(edges[k].apex_x, edges[k].apex_y);
+        // Not std::hypot: its last bit differs between C libraries.
+        const double left =
+            std::sqrt(edges[k].apex_x * edges[k].apex_x + edges[k].apex_y * edges[k].apex_y);
         edges[k].cosine = left > 0 ? edges[k].apex_x / left : 1;
         edges[k].sine = left > 0 ? edges[k].apex_y / left : 0;
     }
