@@ -175,8 +175,16 @@ struct DeviceSpy::Functions {
     static VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, std::uint32_t count,
                                                const VkFence* fences, VkBool32 all,
                                                std::uint64_t timeout) {
-        const VkResult result =
-            Step<"vkWaitForFences", PFN_vkWaitForFences>::call(device, count, fences, all, timeout);
+        const auto real_wait = real<PFN_vkWaitForFences>("vkWaitForFences");
+        const VkResult failure = enter("vkWaitForFences");
+        if (failure == VK_ERROR_DEVICE_LOST) {
+            // Whoever loses a device may free what it used, so the work has to be over.
+            real_wait(device, count, fences, all, std::numeric_limits<std::uint64_t>::max());
+        }
+        if (failure != VK_SUCCESS) {
+            return failure;
+        }
+        const VkResult result = real_wait(device, count, fences, all, timeout);
         if (result == VK_SUCCESS && active->on_done) {
             std::vector<std::span<std::byte>> mapped;
             for (const auto& [memory, bytes] : active->mapped_) {

@@ -1,0 +1,314 @@
+// Every fallible Vulkan call fails once, at every place: the error says so, nothing leaks, nothing
+// that was never made is destroyed, and the next run is as good as any.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <geodisk/context.hpp>
+#include <geodisk/runner.hpp>
+
+#include "device_spy.hpp"
+#include "fake_driver.hpp"
+#include "gpu/device_run.hpp"
+#include "gpu/sets.hpp"
+#include "support/meshes.hpp"
+#include "vk/result.hpp"
+
+namespace geodisk::test {
+namespace {
+
+constexpr VkResult kNoHostMemory = VK_ERROR_OUT_OF_HOST_MEMORY;
+constexpr VkResult kNoDeviceMemory = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+
+/// A function and all that the specification lets it fail with and that can happen.
+struct Fallible {
+    const char* function;
+    std::vector<VkResult> results;
+};
+
+const std::vector<Fallible> kFallible = {
+    {"vkCreateDescriptorSetLayout", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkCreatePipelineLayout", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkCreateShaderModule", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkCreateComputePipelines", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkCreateCommandPool", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkAllocateCommandBuffers", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkCreateFence", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkCreateDescriptorPool", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkAllocateDescriptorSets",
+     {kNoHostMemory, kNoDeviceMemory, VK_ERROR_FRAGMENTED_POOL, VK_ERROR_OUT_OF_POOL_MEMORY}},
+    {"vkCreateBuffer", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkAllocateMemory", {kNoHostMemory, kNoDeviceMemory, VK_ERROR_TOO_MANY_OBJECTS}},
+    {"vkBindBufferMemory", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkMapMemory", {kNoHostMemory, kNoDeviceMemory, VK_ERROR_MEMORY_MAP_FAILED}},
+    {"vkResetCommandPool", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkBeginCommandBuffer", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkEndCommandBuffer", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkQueueSubmit", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkResetFences", {kNoDeviceMemory}},
+};
+
+/// A context whose device is watched, and a small job with its answer.
+struct Bench {
+    Context context = expect(Context::create());
+    DeviceSpy spy{context.device().get_instance_proc_addr};
+    PreparedMesh mesh = prepared(builtin("icosphere", 2));
+    SampleParams params = params_for(mesh, 30);
+
+    Result<Runner> create(const RunnerOptions& options = {}) const {
+        DeviceRefs refs = context.device();
+        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        return Runner::create(refs, context.queue(), options);
+    }
+
+    void check_set(const Result<SampleSet>& set) {
+        REQUIRE_MESSAGE(set, (set ? "" : set.error().message));
+        if (wanted_.empty()) {
+            wanted_ = float_set(mesh, params, set->report.plan.chain);
+        }
+        CHECK(ranks_of(*set) == wanted_);
+    }
+
+    void check_run(Runner& runner) { check_set(runner.sample_and_wait(mesh, params)); }
+
+  private:
+    std::vector<std::uint32_t> wanted_;
+};
+
+void check_error(const Error& error, const char* function, VkResult result) {
+    CHECK(error.status == status_of(result));
+    CHECK(error.status != Status::internal);
+    CHECK(error.vk_result == result);
+    CHECK(error.message.find(function) != std::string::npos);
+    CHECK(error.message.find(to_string(result)) != std::string::npos);
+}
+
+/// Fails every call that Runner::create makes of `function`, one after the other.
+std::uint32_t sweep_create(Bench& bench, const char* function, VkResult result) {
+    for (std::uint32_t number = 0;; ++number) {
+        CAPTURE(number);
+        bench.spy.fail(function, number, result);
+        Result<Runner> runner = bench.create();
+        if (!bench.spy.end_of_fault()) {
+            REQUIRE(runner);
+            bench.check_run(*runner);
+            return number;
+        }
+        REQUIRE_FALSE(runner);
+        check_error(runner.error(), function, result);
+        CHECK(bench.spy.alive() == "");
+        CHECK(bench.spy.strangers() == 0);
+    }
+}
+
+/// Fails every call that a run makes of `function`; the runner works again after each.
+std::uint32_t sweep_run(Bench& bench, const char* function, VkResult result) {
+    Runner runner = expect(bench.create());
+    const std::string own = bench.spy.alive();
+    for (std::uint32_t number = 0;; ++number) {
+        CAPTURE(number);
+        bench.spy.fail(function, number, result);
+        const Result<SampleSet> set = runner.sample_and_wait(bench.mesh, bench.params);
+        if (!bench.spy.end_of_fault()) {
+            bench.check_set(set);
+            return number;
+        }
+        REQUIRE_FALSE(set);
+        check_error(set.error(), function, result);
+        CHECK(bench.spy.alive() == own);
+        CHECK(bench.spy.strangers() == 0);
+        bench.check_run(runner);
+    }
+}
+
+/// Shader modules are done with once the pipelines exist.
+bool frees_what_runs(std::string_view function) {
+    return (function.starts_with("vkDestroy") && function != "vkDestroyShaderModule") ||
+           function.starts_with("vkFree");
+}
+
+void check_given_up(const Error& error) {
+    CHECK(error.status == Status::device_lost);
+    CHECK(error.message.find("not answered") != std::string::npos);
+}
+
+} // namespace
+
+TEST_SUITE("faults") {
+    TEST_CASE("no failed call leaks, spoils the runner or goes unnamed") {
+        Bench bench;
+        for (const Fallible& fallible : kFallible) {
+            for (const VkResult result : fallible.results) {
+                CAPTURE(fallible.function);
+                CAPTURE(to_string(result));
+                const std::uint32_t faults = sweep_create(bench, fallible.function, result) +
+                                             sweep_run(bench, fallible.function, result);
+                CHECK(faults > 0);
+                CHECK(bench.spy.alive() == "");
+                CHECK(bench.spy.strangers() == 0);
+            }
+        }
+    }
+
+    TEST_CASE("a wait that fails for want of memory goes on waiting") {
+        Bench bench;
+        for (const VkResult result : {kNoHostMemory, kNoDeviceMemory}) {
+            Runner runner = expect(bench.create());
+            bool fired = true;
+            for (std::uint32_t number = 0; fired; ++number) {
+                bench.spy.fail("vkWaitForFences", number, result);
+                bench.check_run(runner);
+                fired = bench.spy.end_of_fault();
+            }
+        }
+        CHECK(bench.spy.alive() == "");
+    }
+
+    TEST_CASE("a lost device is reported, left alone and cleaned up") {
+        for (const char* function : {"vkQueueSubmit", "vkWaitForFences"}) {
+            CAPTURE(function);
+            Bench bench;
+            bench.spy.fail(function, 0, VK_ERROR_DEVICE_LOST);
+            const Result<Runner> refused = bench.create();
+            CHECK(bench.spy.end_of_fault());
+            REQUIRE_FALSE(refused);
+            check_error(refused.error(), function, VK_ERROR_DEVICE_LOST);
+            CHECK(bench.spy.alive() == "");
+            bool fired = true;
+            for (std::uint32_t number = 0; fired; ++number) {
+                Runner runner = expect(bench.create());
+                const std::string own = bench.spy.alive();
+                bench.spy.fail(function, number, VK_ERROR_DEVICE_LOST);
+                const Result<SampleSet> set = runner.sample_and_wait(bench.mesh, bench.params);
+                fired = bench.spy.end_of_fault();
+                if (fired) {
+                    REQUIRE_FALSE(set);
+                    check_error(set.error(), function, VK_ERROR_DEVICE_LOST);
+                    CHECK(bench.spy.alive() == own);
+                    std::uint32_t calls = 0;
+                    bench.spy.on_call = [&](std::string_view) { ++calls; };
+                    const auto again = runner.sample_and_wait(bench.mesh, bench.params);
+                    bench.spy.on_call = nullptr;
+                    REQUIRE_FALSE(again);
+                    CHECK(again.error().status == Status::device_lost);
+                    CHECK(calls == 0);
+                }
+            }
+            CHECK(bench.spy.alive() == "");
+            CHECK(bench.spy.strangers() == 0);
+        }
+    }
+
+    TEST_CASE("a device that never answers is given up, and nothing it may use is freed") {
+        Bench bench;
+        RunnerOptions options;
+        options.stall_seconds = 1;
+        std::uint32_t freed = 0;
+        {
+            Runner runner = expect(bench.create(options));
+            bench.spy.never_signal = true;
+            bench.spy.on_call = [&](std::string_view function) {
+                freed += frees_what_runs(function) ? 1u : 0u;
+            };
+            const auto set = runner.sample_and_wait(bench.mesh, bench.params);
+            REQUIRE_FALSE(set);
+            check_given_up(set.error());
+            const std::uint32_t submitted = bench.spy.calls("vkQueueSubmit");
+            const std::uint32_t reset = bench.spy.calls("vkResetCommandPool");
+            const auto again = runner.sample_and_wait(bench.mesh, bench.params);
+            REQUIRE_FALSE(again);
+            check_given_up(again.error());
+            CHECK(bench.spy.calls("vkQueueSubmit") == submitted);
+            CHECK(bench.spy.calls("vkResetCommandPool") == reset);
+        }
+        CHECK(freed == 0);
+        const std::string alive = bench.spy.alive();
+        for (const char* kept : {"vkDestroyPipeline", "vkDestroyFence", "vkDestroyCommandPool",
+                                 "vkDestroyDescriptorPool", "vkFreeMemory", "vkDestroyBuffer"}) {
+            CHECK(alive.find(kept) != std::string::npos);
+        }
+        bench.spy.destroy_what_is_alive();
+
+        // The same for the very first submission, the self-test's.
+        const Result<Runner> refused = bench.create(options);
+        REQUIRE_FALSE(refused);
+        check_given_up(refused.error());
+        CHECK(freed == 0);
+        CHECK(bench.spy.alive().find("vkFreeMemory") != std::string::npos);
+        CHECK(bench.spy.alive().find("vkDestroyPipeline") != std::string::npos);
+        bench.spy.destroy_what_is_alive();
+
+        bench.spy.never_signal = false;
+        bench.spy.on_call = nullptr;
+        Runner runner = expect(bench.create());
+        bench.check_run(runner);
+    }
+
+    TEST_CASE("a device that computes wrongly is refused, naming the operation") {
+        Bench bench;
+        const char* const operations[] = {"division", "square root", "a * b + c", "(c + a) - c"};
+        for (std::size_t operation = 0; operation < 4; ++operation) {
+            for (const std::size_t vector : {0u, 1234u, 4095u}) {
+                CAPTURE(operation);
+                CAPTURE(vector);
+                bench.spy.on_done = [&](std::span<const std::span<std::byte>> mapped) {
+                    REQUIRE(mapped.size() == 1);
+                    // The last bit of the fraction.
+                    mapped[0][(vector * 4 + operation) * 4] ^= std::byte{1};
+                };
+                const Result<Runner> runner = bench.create();
+                REQUIRE_FALSE(runner);
+                CHECK(runner.error().status == Status::device_lacks);
+                CHECK(runner.error().message.find(operations[operation]) != std::string::npos);
+                CHECK(runner.error().message.find("llvmpipe") != std::string::npos);
+                CHECK(bench.spy.alive() == "");
+            }
+        }
+        bench.spy.on_done = nullptr;
+        Runner runner = expect(bench.create());
+        bench.check_run(runner);
+    }
+
+    TEST_CASE("a device without enough memory is told from its bytes") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        for (const VkDeviceSize left : {1000u, 100'000u, 10'000'000u}) {
+            CAPTURE(left);
+            bench.spy.memory_left = left;
+            const auto set = runner.sample_and_wait(bench.mesh, bench.params);
+            REQUIRE_FALSE(set);
+            CHECK(set.error().status == Status::out_of_device_memory);
+            CHECK(set.error().message.find("vkAllocateMemory") != std::string::npos);
+            CHECK(set.error().message.find("bytes") != std::string::npos);
+        }
+        bench.spy.memory_left = ~VkDeviceSize{0};
+        bench.check_run(runner);
+    }
+
+    TEST_CASE("more candidates than the device can bind are refused with the numbers") {
+        const Context context = expect(Context::create());
+        FakeDriver driver;
+        const PreparedMesh mesh = prepared(builtin("icosphere", 2));
+        for (const std::uint32_t range : {1u << 27, 1u << 28}) {
+            CAPTURE(range);
+            driver.edit_properties = [range](VkPhysicalDeviceProperties& properties) {
+                properties.limits.maxStorageBufferRange = range;
+            };
+            DeviceRefs refs = context.device();
+            refs.get_instance_proc_addr = &FakeDriver::get_instance_proc_addr;
+            Runner runner = expect(Runner::create(refs, context.queue()));
+            CHECK(runner.sample_and_wait(mesh, params_for(mesh, 30)));
+            // A point takes 16 bytes; one percent more of them than fit.
+            const double most = range / 16 / kDefaultPoolRatio;
+            const auto set = runner.sample_and_wait(mesh, params_for(mesh, 1.01 * most));
+            REQUIRE_FALSE(set);
+            CHECK(set.error().status == Status::device_lacks);
+            CHECK(set.error().message.find("candidates") != std::string::npos);
+            CHECK(set.error().message.find(std::to_string(range)) != std::string::npos);
+        }
+    }
+}
+
+} // namespace geodisk::test
