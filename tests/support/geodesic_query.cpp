@@ -1,6 +1,7 @@
 #include "support/geodesic_query.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace geodisk::test {
 namespace {
@@ -24,15 +25,15 @@ std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
 Tolerances tight_tolerances() {
     Tolerances t{};
     t.limit = 1;
-    t.margin = 0x1p-40f;
-    t.slack = 0x1p-40f;
+    t.margin = 0x1p-30f;
+    t.slack = 0x1p-30f;
     return t;
 }
 
 template <class Real>
-GeodesicQuery<Real>::GeodesicQuery(const PreparedMesh& mesh, double reach,
+GeodesicQuery<Real>::GeodesicQuery(PreparedMesh mesh, double reach,
                                    const std::vector<Point>& targets, const Tolerances& tolerances)
-    : reach_(reach), surface_(mesh, reach), bins_(surface_, converted<Real>(targets)),
+    : mesh_(std::move(mesh)), reach_(reach), surface_(mesh_, reach), bins_(surface_, converted<Real>(targets)),
       detector_(surface_, bins_, tolerances, tolerances.limit) {}
 
 template <class Real>

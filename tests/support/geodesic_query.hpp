@@ -13,7 +13,8 @@ namespace geodisk::test {
 
 inline constexpr double kUnreachable = std::numeric_limits<double>::infinity();
 
-/// Tolerances that let rounding in double alone show: margin and slack of 2^-40.
+/// Tolerances that let errors of double rounding show: margin and slack of 2^-30, a thousand times
+/// the smallest offset.
 Tolerances tight_tolerances();
 
 /// "All distances from this point to those within reach." Lengths are in mesh units; inside, the
@@ -21,8 +22,7 @@ Tolerances tight_tolerances();
 template <class Real>
 class GeodesicQuery {
   public:
-    /// `mesh` must outlive the query.
-    GeodesicQuery(const PreparedMesh& mesh, double reach, const std::vector<Point>& targets,
+    GeodesicQuery(PreparedMesh mesh, double reach, const std::vector<Point>& targets,
                   const Tolerances& tolerances);
     GeodesicQuery(const GeodesicQuery&) = delete;
     GeodesicQuery& operator=(const GeodesicQuery&) = delete;
@@ -34,6 +34,7 @@ class GeodesicQuery {
     const ref::DiskCount& count() const { return count_; }
 
   private:
+    PreparedMesh mesh_;
     double reach_;
     ref::Surface<Real> surface_;
     ref::Bins<Real> bins_;
