@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,24 +15,74 @@
 namespace geodisk {
 namespace {
 
+constexpr const char* kRoleNames[kBufferRoles] = {
+    "half_edges", "fans", "alias",   "cells", "points", "states", "places",
+    "slots",      "pool", "control", "marks", "sums",   "samples"};
+
+Error range_error(Status status, std::size_t role, const std::string& what) {
+    return Error{status, std::string("the workspace's buffer ") + kRoleNames[role] + ' ' + what};
+}
+
+Result<Done> check_range(const BufferRange& range, std::size_t role, VkDeviceSize needed,
+                         const DeviceLimits& limits) {
+    if (range.buffer == VK_NULL_HANDLE) {
+        return range_error(Status::invalid_argument, role, "is null");
+    }
+    if (range.size < needed) {
+        return range_error(Status::workspace_too_small, role,
+                           "has " + std::to_string(range.size) + " bytes and needs " +
+                               std::to_string(needed));
+    }
+    if (range.size > limits.max_storage_buffer_range) {
+        return range_error(Status::invalid_argument, role,
+                           "has " + std::to_string(range.size) +
+                               " bytes, but the device binds at "
+                               "most " +
+                               std::to_string(limits.max_storage_buffer_range));
+    }
+    const std::uint64_t alignment = limits.min_storage_buffer_offset_alignment;
+    if (range.offset % alignment != 0) {
+        return range_error(Status::invalid_argument, role,
+                           "starts at " + std::to_string(range.offset) +
+                               ", off the device's alignment of " + std::to_string(alignment));
+    }
+    return Done{};
+}
+
+bool overlap(const BufferRange& a, const BufferRange& b) {
+    return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+}
+
 Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
                              const DeviceLimits& limits) {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        const BufferRange& range = workspace[i];
-        if (range.buffer == VK_NULL_HANDLE) {
-            return Error{Status::invalid_argument, "workspace buffer " + std::to_string(i) + " is null"};
+        if (auto checked = check_range(workspace[i], i, needs.bytes[i], limits); !checked) {
+            return checked;
         }
-        if (range.size < needs.bytes[i]) {
-            return Error{Status::workspace_too_small,
-                         "workspace buffer " + std::to_string(i) + " has " +
-                             std::to_string(range.size) + " bytes and needs " +
-                             std::to_string(needs.bytes[i])};
+        for (std::size_t k = 0; k < i; ++k) {
+            if (overlap(workspace[i], workspace[k])) {
+                return range_error(Status::invalid_argument, i,
+                                   std::string("overlaps the buffer ") + kRoleNames[k]);
+            }
         }
-        if (range.offset % limits.min_storage_buffer_offset_alignment != 0) {
-            return Error{Status::invalid_argument,
-                         "workspace buffer " + std::to_string(i) + " starts off the alignment of " +
-                             std::to_string(limits.min_storage_buffer_offset_alignment)};
-        }
+    }
+    return Done{};
+}
+
+/// What the shaders rely on without looking.
+Result<Done> check_plan(const RunPlan& plan) {
+    constexpr std::uint32_t kMost = 1u << 26;
+    const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
+                      plan.window_capacity % 2 == 0 && std::has_single_bit(plan.table_capacity) &&
+                      plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 &&
+                      plan.trip_budget >= 1 && plan.slots <= kMost &&
+                      plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
+                      plan.list_capacity <= kMost;
+    if (!fine) {
+        return Error{Status::invalid_argument,
+                     "the plan is not as RunPlan asks: slots and trip_budget at least 1, "
+                     "window_capacity even, table_capacity a power of two, list_capacity a "
+                     "multiple of 4, none of them 0 or more than 2^26"};
     }
     return Done{};
 }
@@ -43,8 +94,12 @@ Job::Job(Job&&) noexcept = default;
 Job& Job::operator=(Job&&) noexcept = default;
 Job::~Job() = default;
 
-const RunPlan& Job::plan() const noexcept { return impl_->plan; }
-std::uint32_t Job::candidates() const noexcept { return impl_->push.candidates; }
+const RunPlan& Job::plan() const noexcept {
+    return impl_->plan;
+}
+std::uint32_t Job::candidates() const noexcept {
+    return impl_->push.candidates;
+}
 
 Job::Impl::~Impl() {
     if (!sampler->abandoned) {
@@ -65,12 +120,15 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
     return guarded([&]() -> Result<Done> {
+        if (auto checked = check_plan(plan); !checked) {
+            return checked;
+        }
         const VkDeviceSize pool = impl_->workspace[gpu::kBindPool].size;
         if (plan.pool_bytes() > pool || plan.slots > impl_->most_slots) {
             return Error{Status::workspace_too_small,
                          "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
-                             " bytes and " + std::to_string(plan.slots) + " slots; the workspace has " +
-                             std::to_string(pool) + " bytes and " +
+                             " bytes and " + std::to_string(plan.slots) +
+                             " slots; the workspace has " + std::to_string(pool) + " bytes and " +
                              std::to_string(impl_->most_slots) + " slots"};
         }
         impl_->apply_plan(plan);
@@ -79,21 +137,31 @@ Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
 }
 
 Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcept {
-    const BufferRange before = std::exchange(impl_->workspace[gpu::kBindPool], pool);
-    auto done = set_plan(plan);
-    if (!done) {
-        impl_->workspace[gpu::kBindPool] = before;
+    return guarded([&]() -> Result<Done> {
+        if (auto checked =
+                check_range(pool, gpu::kBindPool, plan.pool_bytes(), impl_->sampler->report.limits);
+            !checked) {
+            return checked;
+        }
+        const BufferRange before = std::exchange(impl_->workspace[gpu::kBindPool], pool);
+        auto done = set_plan(plan);
+        if (!done) {
+            impl_->workspace[gpu::kBindPool] = before;
+            return done;
+        }
+        for (std::uint32_t role = 0; role < kSetRoles; ++role) {
+            impl_->write_binding(static_cast<SetRole>(role), gpu::kBindPool);
+        }
         return done;
-    }
-    for (std::uint32_t role = 0; role < kSetRoles; ++role) {
-        impl_->write_binding(static_cast<SetRole>(role), gpu::kBindPool);
-    }
-    return done;
+    });
 }
 
 Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& params,
                               const RunPlan& plan, const Workspace& workspace) const noexcept {
     return guarded([&]() -> Result<Job> {
+        if (auto checked = check_plan(plan); !checked) {
+            return checked.error();
+        }
         auto needs = workspace_needs(mesh, params, plan);
         if (!needs) {
             return needs.error();
@@ -134,10 +202,10 @@ Result<Done> Job::Impl::write_sets() {
     pool_info.maxSets = kSets;
     pool_info.poolSizeCount = 1;
     pool_info.pPoolSizes = &size;
-    VkResult result = null_unless_success(
-        vk.vkCreateDescriptorPool(device, &pool_info, sampler->device.host_allocator,
-                                  &descriptor_pool),
-        descriptor_pool);
+    VkResult result = null_unless_success(vk.vkCreateDescriptorPool(device, &pool_info,
+                                                                    sampler->device.host_allocator,
+                                                                    &descriptor_pool),
+                                          descriptor_pool);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateDescriptorPool", result);
     }
