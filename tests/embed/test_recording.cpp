@@ -1,0 +1,390 @@
+// An engine that records geodisk's work among its own, in memory that it cuts out of one buffer.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <geodisk/context.hpp>
+#include <geodisk/sampler.hpp>
+
+#include "gpu/device_run.hpp"
+#include "gpu/sets.hpp"
+#include "records.h"
+#include "support/meshes.hpp"
+#include "vk/barriers.hpp"
+#include "workshop.hpp"
+
+namespace geodisk::test {
+namespace {
+
+constexpr BufferRole kUploaded[] = {BufferRole::half_edges, BufferRole::fans, BufferRole::alias,
+                                    BufferRole::cells};
+
+struct Task {
+    PreparedMesh mesh;
+    SampleParams params;
+    std::vector<std::uint32_t> wanted;
+};
+
+Task task(const Sampler& sampler, const char* shape, int resolution, double count) {
+    PreparedMesh mesh = prepared(builtin(shape, resolution));
+    const SampleParams params = params_for(mesh, count);
+    const RunPlan plan = expect(sampler.plan_run(mesh, params, Workshop::kPoolBytes));
+    auto wanted = float_set(mesh, params, plan.chain);
+    return {std::move(mesh), params, std::move(wanted)};
+}
+
+/// One job of the engine, a few rounds a frame.
+class EngineJob {
+  public:
+    EngineJob(Workshop& workshop, const Sampler& sampler, const Task& task)
+        : workshop_(workshop), sampler_(sampler), task_(task),
+          plan_(expect(sampler.plan_run(task.mesh, task.params, Workshop::kPoolBytes))) {
+        const WorkspaceNeeds needs = expect(sampler.workspace_needs(task.mesh, task.params, plan_));
+        workspace_ = workshop.cut(needs);
+        job_.emplace(expect(sampler.make_job(task.mesh, task.params, plan_, workspace_)));
+    }
+
+    /// Uploads through staging and begins, in the frame's command buffer.
+    void record_first(VkCommandBuffer commands) {
+        std::size_t staged = 0;
+        for (const BufferRole role : kUploaded) {
+            const std::size_t size = sampler_.mesh_bytes_size(task_.mesh, role);
+            expect(sampler_.mesh_bytes(task_.mesh, task_.params, role,
+                                       workshop_.upload_bytes().subspan(staged, size)));
+            workshop_.record_upload(commands, range(role), staged, size);
+            staged += size;
+        }
+        workshop_.barrier(commands, Workshop::kUploaded, Sampler::kFirstUse);
+        sampler_.record_begin(commands, *job_);
+    }
+
+    void record_rounds(VkCommandBuffer commands, std::uint32_t rounds) {
+        sampler_.record_rounds(commands, *job_, rounds);
+        record_read(commands, BufferRole::control, sizeof(gpu::ControlRec));
+    }
+
+    void record_last(VkCommandBuffer commands) {
+        sampler_.record_finish(commands, *job_);
+        record_read(commands, BufferRole::samples, range(BufferRole::samples).size);
+    }
+
+    /// The engine's own copy to where the host can read.
+    void record_read(VkCommandBuffer commands, BufferRole role, VkDeviceSize size) {
+        workshop_.barrier(commands, Sampler::kLastUse, Workshop::kCopied);
+        workshop_.record_download(commands, range(role), size);
+        workshop_.barrier(commands, Workshop::kCopied, Sampler::kFirstUse);
+    }
+
+    gpu::ControlRec control() const {
+        gpu::ControlRec control;
+        std::memcpy(&control, workshop_.download_bytes().data(), sizeof control);
+        return control;
+    }
+
+    /// With larger slices, as far as the pool allows.
+    void record_regrown(VkCommandBuffer commands, std::uint32_t overflow) {
+        expect(job_->set_plan(
+            expect(sampler_.grow_plan(job_->plan(), overflow, range(BufferRole::pool).size))));
+        sampler_.record_rewind(commands, *job_);
+    }
+
+    void check_samples(std::uint32_t accepted) const {
+        std::vector<std::uint32_t> ranks(accepted);
+        for (std::uint32_t i = 0; i < accepted; ++i) {
+            gpu::SampleRec sample;
+            std::memcpy(&sample, workshop_.download_bytes().data() + i * sizeof sample,
+                        sizeof sample);
+            ranks[i] = sample.rank;
+        }
+        CHECK(ranks == task_.wanted);
+    }
+
+    /// Frames until the samples are there.
+    void run() {
+        gpu::ControlRec last{};
+        for (std::uint32_t frame = 0; last.done == 0; ++frame) {
+            workshop_.frame(frame, [&](VkCommandBuffer commands) {
+                if (frame == 0) {
+                    record_first(commands);
+                }
+                if (last.overflow != 0) {
+                    record_regrown(commands, last.overflow);
+                }
+                record_rounds(commands, 3);
+            });
+            last = control();
+            if (last.abi != gpu::kAbi || frame == 10'000) {
+                throw std::runtime_error("the rounds lead nowhere");
+            }
+        }
+        workshop_.frame(0, [&](VkCommandBuffer commands) { record_last(commands); });
+        check_samples(last.accepted);
+    }
+
+    Job& job() { return *job_; }
+    const Workspace& workspace() const { return workspace_; }
+    const RunPlan& plan() const { return plan_; }
+
+  private:
+    const BufferRange& range(BufferRole role) const {
+        return workspace_[static_cast<std::size_t>(role)];
+    }
+
+    Workshop& workshop_;
+    const Sampler& sampler_;
+    const Task& task_;
+    RunPlan plan_;
+    Workspace workspace_;
+    std::optional<Job> job_;
+};
+
+Context validated_context() {
+    ContextOptions options;
+    options.validation = true;
+    return expect(Context::create(options));
+}
+
+void check_silent(const Context& context) {
+    CHECK(expect(context.validation_messages()) == std::vector<std::string>{});
+}
+
+} // namespace
+
+TEST_SUITE("recording") {
+    TEST_CASE("an engine samples a few rounds a frame, in ranges of its own buffer") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 200);
+            const Task cube = task(sampler, "cube", 1, 300);
+            Workshop workshop(context);
+            EngineJob(workshop, sampler, knot).run();
+            CHECK(workshop.damage() == 0);
+            // The same memory again, cut differently.
+            workshop.start_over();
+            EngineJob(workshop, sampler, cube).run();
+            CHECK(workshop.damage() == 0);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("a whole job in one command buffer, and another in the same workspace") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 60);
+            Workshop workshop(context);
+            EngineJob first(workshop, sampler, knot);
+            workshop.frame(0, [&](VkCommandBuffer commands) {
+                for (int job = 0; job < 2; ++job) {
+                    first.record_first(commands);
+                    first.record_rounds(commands, 40);
+                    first.record_last(commands);
+                }
+                first.record_read(commands, BufferRole::control, sizeof(gpu::ControlRec));
+            });
+            const gpu::ControlRec control = first.control();
+            REQUIRE(control.done == 1);
+            workshop.frame(1, [&](VkCommandBuffer commands) { first.record_last(commands); });
+            first.check_samples(control.accepted);
+            CHECK(workshop.damage() == 0);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("rounds after the last change nothing") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const Task knot = task(sampler, "torus-knot", 8, 60);
+        Workshop workshop(context);
+        EngineJob job(workshop, sampler, knot);
+        job.run();
+        const std::vector<std::byte> before = workshop.contents();
+        workshop.frame(0, [&](VkCommandBuffer commands) { job.record_rounds(commands, 20); });
+        CHECK(workshop.contents() == before);
+        CHECK(job.control().done == 1);
+        CHECK(job.control().accepted == knot.wanted.size());
+    }
+
+    TEST_CASE("slices that overflow grow within the engine's pool") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 100);
+            Workshop workshop(context);
+            EngineJob job(workshop, sampler, knot);
+            RunPlan tight = job.plan();
+            tight.window_capacity = 2;
+            tight.table_capacity = 4;
+            tight.list_capacity = 4;
+            expect(job.job().set_plan(tight));
+            job.run();
+            CHECK(job.job().plan().window_capacity > tight.window_capacity);
+            CHECK(workshop.damage() == 0);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("two threads record two jobs with one sampler") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const std::array tasks{task(sampler, "torus-knot", 8, 200),
+                                   task(sampler, "icosphere", 3, 80)};
+            std::array<std::optional<Workshop>, 2> workshops;
+            std::array<std::string, 2> failures;
+            {
+                std::vector<std::jthread> threads;
+                for (std::size_t t = 0; t < tasks.size(); ++t) {
+                    threads.emplace_back([&, t] {
+                        try {
+                            workshops[t].emplace(context);
+                            EngineJob(*workshops[t], sampler, tasks[t]).run();
+                        } catch (const std::exception& error) {
+                            failures[t] = error.what();
+                        }
+                    });
+                }
+            }
+            CHECK(failures == std::array<std::string, 2>{});
+            for (auto& workshop : workshops) {
+                CHECK(workshop->damage() == 0);
+            }
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("a missing barrier does not go unnoticed") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 60);
+            Workshop workshop(context);
+            EngineJob job(workshop, sampler, knot);
+            workshop.frame(0, [&](VkCommandBuffer commands) {
+                job.record_first(commands);
+                workshop.record_download(commands, job.workspace()[4], 16);
+            });
+        }
+        bool hazard = false;
+        for (const std::string& message : expect(context.validation_messages())) {
+            hazard = hazard || message.find("SYNC-HAZARD") != std::string::npos;
+        }
+        CHECK(hazard);
+    }
+}
+
+TEST_SUITE("workspaces") {
+    /// The error that make_job gives for a workspace with one range replaced.
+    Error refused(const Sampler& sampler, const Task& task, const RunPlan& plan,
+                  const Workspace& workspace) {
+        const Result<Job> job = sampler.make_job(task.mesh, task.params, plan, workspace);
+        REQUIRE_FALSE(job);
+        return job.error();
+    }
+
+    TEST_CASE("ranges that cannot work are refused by name") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 60);
+            Workshop workshop(context);
+            const EngineJob good(workshop, sampler, knot);
+            const WorkspaceNeeds needs =
+                expect(sampler.workspace_needs(knot.mesh, knot.params, good.plan()));
+            const char* names[] = {"half_edges", "fans",   "alias",  "cells", "points",
+                                   "states",     "places", "slots",  "pool",  "control",
+                                   "marks",      "sums",   "samples"};
+            for (std::size_t i = 0; i < kBufferRoles; ++i) {
+                CAPTURE(names[i]);
+                const auto check = [&](const BufferRange& range, Status status, const char* part) {
+                    Workspace wrong = good.workspace();
+                    wrong[i] = range;
+                    const Error error = refused(sampler, knot, good.plan(), wrong);
+                    CHECK(error.status == status);
+                    CHECK(error.message.find(names[i]) != std::string::npos);
+                    CHECK(error.message.find(part) != std::string::npos);
+                };
+                const BufferRange& range = good.workspace()[i];
+                const std::string needed = std::to_string(needs.bytes[i]);
+                check({VK_NULL_HANDLE, 0, range.size}, Status::invalid_argument, "null");
+                check({range.buffer, range.offset, needs.bytes[i] - 1}, Status::workspace_too_small,
+                      needed.c_str());
+                check({range.buffer, range.offset + 4, range.size}, Status::invalid_argument,
+                      "alignment");
+                check({range.buffer, range.offset, VK_WHOLE_SIZE}, Status::invalid_argument,
+                      "binds at most");
+                check({range.buffer, good.workspace()[(i + 1) % kBufferRoles].offset, range.size},
+                      Status::invalid_argument, "overlaps");
+            }
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("plans and pools that cannot work are refused") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const Task knot = task(sampler, "torus-knot", 8, 60);
+        Workshop workshop(context);
+        EngineJob good(workshop, sampler, knot);
+        const auto check = [&](std::uint32_t RunPlan::*field, std::uint32_t value) {
+            CAPTURE(value);
+            RunPlan plan = good.plan();
+            plan.*field = value;
+            const Error error = refused(sampler, knot, plan, good.workspace());
+            CHECK(error.status == Status::invalid_argument);
+            CHECK(error.message.find("plan") != std::string::npos);
+            const Result<Done> set = good.job().set_plan(plan);
+            REQUIRE_FALSE(set);
+            CHECK(set.error().status == Status::invalid_argument);
+        };
+        check(&RunPlan::slots, 0);
+        check(&RunPlan::window_capacity, 0);
+        check(&RunPlan::window_capacity, 33);
+        check(&RunPlan::window_capacity, 0xfffffffe);
+        check(&RunPlan::table_capacity, 0);
+        check(&RunPlan::table_capacity, 48);
+        check(&RunPlan::list_capacity, 0);
+        check(&RunPlan::list_capacity, 6);
+        check(&RunPlan::trip_budget, 0);
+
+        RunPlan larger = good.plan();
+        larger.window_capacity *= 2;
+        const Result<Done> grown = good.job().set_plan(larger);
+        REQUIRE_FALSE(grown);
+        CHECK(grown.error().status == Status::workspace_too_small);
+        const BufferRange& pool = good.workspace()[static_cast<std::size_t>(BufferRole::pool)];
+        for (const BufferRange& wrong :
+             {BufferRange{VK_NULL_HANDLE, 0, pool.size},
+              BufferRange{pool.buffer, pool.offset + 4, pool.size},
+              BufferRange{pool.buffer, pool.offset, good.plan().pool_bytes() - 1}}) {
+            const Result<Done> set = good.job().set_plan(good.plan(), wrong);
+            REQUIRE_FALSE(set);
+            CHECK(set.error().message.find("pool") != std::string::npos);
+        }
+        CHECK(good.job().plan().slots == good.plan().slots);
+        good.run(); // As if nothing had been asked.
+    }
+
+    TEST_CASE("mesh bytes go to mesh buffers of the right size only") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const Task knot = task(sampler, "torus-knot", 8, 60);
+        for (const BufferRole role : kUploaded) {
+            std::vector<std::byte> bytes(sampler.mesh_bytes_size(knot.mesh, role));
+            CHECK(sampler.mesh_bytes(knot.mesh, knot.params, role, bytes));
+            bytes.pop_back();
+            CHECK_FALSE(sampler.mesh_bytes(knot.mesh, knot.params, role, bytes));
+        }
+        std::vector<std::byte> none;
+        CHECK_FALSE(sampler.mesh_bytes(knot.mesh, knot.params, BufferRole::pool, none));
+    }
+}
+
+} // namespace geodisk::test
