@@ -35,8 +35,8 @@ Worst worst_error(const std::vector<double>& found, const std::vector<double>& t
 void report(const DistanceCase& c, const char* kind, const Point& source, const Worst& worst,
             double bound) {
     const Point& target = c.targets[worst.target];
-    CHECK_MESSAGE(worst.error <= bound, c.name, ", ", std::string(kind), ": face ", source.face, " (",
-                  source.weight1, ", ", source.weight2, ") to face ", target.face, " (",
+    const std::string title = c.name + ", " + kind;
+    CHECK_MESSAGE(worst.error <= bound, title, ": face ", source.face, " (", source.weight1, ", ", source.weight2, ") to face ", target.face, " (",
                   target.weight1, ", ", target.weight2, "): found ", worst.found, ", truth ",
                   worst.truth, ", error ", worst.error, " > ", bound);
 }

@@ -234,7 +234,8 @@ struct TwoWays {
             (length(folded(m, angle) - a) > length(s_in_b - a) ? low : high) = angle;
         }
         const Vec3 s = folded(m, low);
-        const Vec3 k_at = trilaterated(a, b, s, length(k - a), length(k - b), length(k - s_in_b), 1);
+        const Vec3 k_at =
+            trilaterated(a, b, s, length(k - a), length(k - b), length(k - s_in_b), 1);
         for (const Vec3& p : {a, b, s, m, k_at, v, q}) {
             mesh.add_vertex(p);
         }

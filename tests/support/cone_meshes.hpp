@@ -10,8 +10,8 @@ namespace geodisk::test {
 class Cone {
   public:
     /// The apex has the angle sum `angle`, well below pi * sectors. `zigzag` lifts and lowers the
-    /// spokes in turns by so many radians, which keeps even a flat vertex from being plane; it needs
-    /// 2 * sectors * zigzag < angle.
+    /// spokes in turns by so many radians, which keeps even a flat vertex from being plane; it
+    /// needs 2 * sectors * zigzag < angle.
     Cone(std::uint32_t sectors, double angle, double zigzag, int subdivisions);
 
     const TestMesh& mesh() const { return mesh_; }

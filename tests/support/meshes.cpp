@@ -31,8 +31,9 @@ bool outside_circle(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const double p2 = dot(p, p);
     const double q2 = dot(q, q);
     const double r2 = dot(r, r);
-    return p.x * (q.y * r2 - q2 * r.y) - p.y * (q.x * r2 - q2 * r.x) + p2 * (q.x * r.y - q.y * r.x) <=
-           0;
+    const double sum = p.x * (q.y * r2 - q2 * r.y) - p.y * (q.x * r2 - q2 * r.x) +
+                       p2 * (q.x * r.y - q.y * r.x);
+    return sum <= 0;
 }
 
 double uniform(std::mt19937_64& random) {

@@ -25,7 +25,9 @@ struct TestMesh {
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(triangles.size() / 3); }
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
     Vec3 vertex(std::uint32_t v) const;
-    Vec3 corner(std::uint32_t face, std::uint32_t k) const { return vertex(triangles[3 * face + k]); }
+    Vec3 corner(std::uint32_t face, std::uint32_t k) const {
+        return vertex(triangles[std::size_t{3} * face + k]);
+    }
     Vec3 position(const Point& point) const;
 
     std::uint32_t add_vertex(Vec3 p);
