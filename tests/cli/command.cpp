@@ -126,6 +126,13 @@ Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& argum
     return outcome;
 }
 
+bool terminals_work() {
+    const Channel terminal = open_terminal();
+    close(terminal.writer);
+    close(terminal.reader);
+    return terminal.writer >= 0;
+}
+
 std::vector<std::string> files_in(const TemporaryFolder& folder) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "")) {
