@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "constants.h"
@@ -145,6 +146,12 @@ class Detector {
             return;
         }
         y = y < static_cast<Real>(kSmallestOffset) ? Real{0} : y;
+        // From the edge's own end nothing but the edge is lit: that vertex lights its fan itself,
+        // and rounding could carry the window around it for ever.
+        const Real grain = surface_.edges[e].length * (4 * std::numeric_limits<Real>::epsilon());
+        if (y == 0 && (x <= grain || surface_.edges[e].length - x <= grain)) {
+            return;
+        }
         const Real aside = x < b0 ? b0 - x : (x > b1 ? x - b1 : Real{0});
         const Real key = sigma + root(aside * aside + y * y);
         // Xin and Wang's filter by the two ends of the edge.
@@ -308,11 +315,16 @@ class Detector {
     void split_once(std::uint32_t apex, std::uint32_t h, Real crossing, Real distance,
                     bool& to_left, bool& to_right) const {
         const VertexNote& note = vertices_[apex];
-        if (note.generation != generation_ || note.through != h || !to_left || !to_right ||
-            !(distance > note.distance + margin_)) {
+        if (!surface_.splits_once || note.generation != generation_ || note.through != h ||
+            !to_left || !to_right || !(distance > note.distance + margin_)) {
             return;
         }
-        (crossing < note.crossing ? to_right : to_left) = false;
+        // Rays that cross at one place within rounding do not tell which side is whose.
+        if (crossing < note.crossing - slack_) {
+            to_right = false;
+        } else if (crossing > note.crossing + slack_) {
+            to_left = false;
+        }
     }
 
     /// The child over the left or right edge e, lit between the rays through `near` and `far`. For

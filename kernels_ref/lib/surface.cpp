@@ -6,10 +6,11 @@ namespace geodisk::ref {
 
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
-    : fans(mesh.fans()), corners(mesh.corners()), alias(mesh.alias_columns()) {
+    : unit(working_distance(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()), alias(mesh.alias_columns()),
+      splits_once(mesh.statistics().nonmanifold_edges == 0) {
     edges.reserve(mesh.half_edges().size());
-    const auto scaled = [=](double length) {
-        const double x = length / min_distance;
+    const auto scaled = [this](double length) {
+        const double x = length / unit;
         return static_cast<Real>(x < kSmallestOffset && x > -kSmallestOffset ? 0.0 : x);
     };
     for (const HalfEdge& e : mesh.half_edges()) {

@@ -1,4 +1,4 @@
-// The prepared mesh in units of the minimum distance, in the precision of the twin.
+// The prepared mesh in units of the working distance, in the precision of the twin.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,14 @@ struct Edge {
 /// Owns the scaled half-edges; borrows fans, corners and alias table from the PreparedMesh.
 template <class Real>
 struct Surface {
+    double unit; ///< In which lengths are measured: working_distance() of the minimum distance.
     std::vector<Edge<Real>> edges;
     std::span<const VertexFan> fans;
     std::span<const std::uint32_t> corners;
     std::span<const AliasColumn> alias;
+    /// No edge has three faces. Only then a vertex lies between any two ways into an edge, and the
+    /// order of their rays tells which window serves which side ("one angle, one split").
+    bool splits_once;
 
     Surface(const PreparedMesh& mesh, double min_distance);
 

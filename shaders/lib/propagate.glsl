@@ -81,6 +81,17 @@ void leave(uint e, Edge exit_edge, float start, float end, float sx, float sy, f
         return;
     }
     sy = sy < kSmallestOffset ? 0.0 : sy;
+    // From the edge's own end nothing but the edge is lit: that vertex lights its fan itself, and
+    // rounding could carry the window around it for ever.
+    precise float grain = exit_edge.len * kEdgeGrain;
+    precise float from_end = exit_edge.len - sx;
+    if (sy == 0.0 && (sx <= grain || from_end <= grain)) {
+        return;
+    }
+    if (chain >= kLongestChain) {
+        overflow |= kOverflowChain;
+        return;
+    }
     precise float left_of = i0 - sx;
     precise float right_of = sx - i1;
     float aside = sx < i0 ? left_of : (sx > i1 ? right_of : 0.0);
@@ -180,14 +191,17 @@ void spread(bool from_vertex, float source_square, bool near_vertex) {
     precise float apex_distance = sigma + root(squared(apex_dx, apex_dy));
     bool whole_left = to_right;
     bool whole_right = to_left;
-    if (sees_apex && to_left && to_right && apex_note.x != 0u && apex_note.z == half_edge) {
+    if (push.splits_once != 0u && sees_apex && to_left && to_right && apex_note.x != 0u &&
+        apex_note.z == half_edge) {
         // One angle, one split: behind a shorter window through the same angle only the child on
-        // this window's own side can matter.
+        // this window's own side can matter. Rays that cross at one place within rounding do not
+        // tell which side is whose.
         precise float beaten_from = known.z + push.margin;
+        precise float left_of = uintBitsToFloat(apex_note.w) - push.slack;
+        precise float right_of = uintBitsToFloat(apex_note.w) + push.slack;
         if (apex_distance > beaten_from) {
-            bool on_left = crossing < uintBitsToFloat(apex_note.w);
-            to_left = on_left;
-            to_right = !on_left;
+            to_right = crossing >= left_of;
+            to_left = crossing <= right_of;
         }
     }
     precise float end_distance0 = sigma + (from_vertex ? left_edge.len : root(source_square));

@@ -38,6 +38,9 @@ GEODISK_CONST uint kSingleCell = 3u;
 GEODISK_CONST uint kOverflowWindows = 1u;
 GEODISK_CONST uint kOverflowVertices = 2u;
 GEODISK_CONST uint kOverflowConflicts = 4u;
+// Not an overflow but an error: a window has crossed kLongestChain edges, which no disk needs.
+GEODISK_CONST uint kOverflowChain = 8u;
+GEODISK_CONST uint kLongestChain = 65536u;
 
 // Set in a heap record's first word when it is the event of a vertex and not a window.
 GEODISK_CONST uint kVertexEvent = 0x80000000u;

@@ -17,6 +17,7 @@ struct Push {
     float limit;          // conflict below it: 1 + guard, in units of the minimum distance
     float margin;         // by how much a window must be beaten before it is dropped
     float slack;          // by how much an interval is widened for hits
+    uint splits_once;     // 1 unless an edge has three faces, see lib/propagate.glsl
     uint slots;           // most candidates active at a time
     uint window_capacity; // windows in the heap of one slot
     uint table_capacity;  // vertex table of one slot, a power of two
@@ -32,7 +33,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 68 && offsetof(Push, scan_base) == 64);
+static_assert(sizeof(Push) == 72 && offsetof(Push, scan_base) == 68);
 }
 #endif
 

@@ -52,9 +52,13 @@ TEST_SUITE("pipeline") {
     TEST_CASE("fewer samples than slots, down to one") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
         check_against_reference(mesh, 3);
-        SampleParams params;
-        params.min_distance = 100 * mesh.statistics().diagonal;
-        CHECK(sample(mesh, params).samples.size() == 1);
+        // However large the distance: a connected surface has room for one.
+        for (const double factor : {2.0, 100.0, 1e12, 1e300}) {
+            CAPTURE(factor);
+            SampleParams params;
+            params.min_distance = factor * mesh.statistics().diagonal;
+            CHECK(ranks_of(sample(mesh, params)) == std::vector<std::uint32_t>{0});
+        }
     }
 
     TEST_CASE("folded and unfolded sheet give the same set") {

@@ -33,7 +33,7 @@ Tolerances tight_tolerances() {
 template <class Real>
 GeodesicQuery<Real>::GeodesicQuery(PreparedMesh mesh, double reach,
                                    const std::vector<Point>& targets, const Tolerances& tolerances)
-    : mesh_(std::move(mesh)), reach_(reach), surface_(mesh_, reach),
+    : mesh_(std::move(mesh)), surface_(mesh_, reach),
       bins_(surface_, converted<Real>(targets)),
       detector_(surface_, bins_, tolerances, tolerances.limit) {}
 
@@ -44,7 +44,7 @@ std::vector<double> GeodesicQuery<Real>::from(const Point& source) {
         converted<Real>(source), [](std::uint32_t) { return true; },
         [&](std::uint32_t place, Real distance) {
             double& best = result[bins_.order[place]];
-            best = std::min(best, static_cast<double>(distance) * reach_);
+            best = std::min(best, static_cast<double>(distance) * surface_.unit);
         });
     return result;
 }

@@ -35,7 +35,6 @@ class GeodesicQuery {
 
   private:
     PreparedMesh mesh_;
-    double reach_;
     ref::Surface<Real> surface_;
     ref::Bins<Real> bins_;
     ref::Detector<Real> detector_;

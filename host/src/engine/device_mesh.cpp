@@ -3,16 +3,18 @@
 #include <cstring>
 #include <string>
 
+#include <geodisk/params.hpp>
+
 #include "constants.h"
 #include "records.h"
 
 namespace geodisk {
 namespace {
 
-/// A length in units of the minimum distance; what is too small to be told from zero is zero, so
+/// A length in units of the working distance; what is too small to be told from zero is zero, so
 /// that no product on the device becomes denormal.
-float scaled(double length, double min_distance) {
-    const double x = length / min_distance;
+float scaled(double length, double unit) {
+    const double x = length / unit;
     return static_cast<float>(x < 0x1p-40 && x > -0x1p-40 ? 0.0 : x);
 }
 
@@ -31,16 +33,16 @@ std::uint64_t cell_count(float extent) {
     return static_cast<std::uint64_t>(extent * static_cast<float>(gpu::kCellsPerDistance)) + 1;
 }
 
-Grid face_grid(const PreparedMesh& mesh, std::uint32_t face, double min_distance) {
+Grid face_grid(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     const auto edges = mesh.half_edges().subspan(std::size_t{3} * face, 3);
     std::uint32_t corner = 0;
     for (std::uint32_t k = 1; k < 3; ++k) {
-        corner = scaled(edges[k].length, min_distance) > scaled(edges[corner].length, min_distance)
+        corner = scaled(edges[k].length, unit) > scaled(edges[corner].length, unit)
                      ? k
                      : corner;
     }
-    return {cell_count(scaled(edges[corner].length, min_distance)),
-            cell_count(scaled(edges[corner].apex_y, min_distance)), corner};
+    return {cell_count(scaled(edges[corner].length, unit)),
+            cell_count(scaled(edges[corner].apex_y, unit)), corner};
 }
 
 template <class Record>
@@ -51,9 +53,10 @@ void store(std::span<std::byte> out, std::size_t index, const Record& record) {
 } // namespace
 
 Result<std::uint32_t> count_cells(const PreparedMesh& mesh, double min_distance) {
+    const double unit = working_distance(mesh, min_distance);
     std::uint64_t cells = 0;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const Grid grid = face_grid(mesh, f, min_distance);
+        const Grid grid = face_grid(mesh, f, unit);
         cells += grid.columns * grid.rows; // At most 2^62, and 2^30 before.
         if (cells > gpu::kFirstCellMask) {
             return Error{Status::invalid_argument,
@@ -83,12 +86,12 @@ std::size_t face_word_bytes(const PreparedMesh& mesh) {
 }
 
 void write_half_edges(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out) {
+    const double unit = working_distance(mesh, min_distance);
     for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
         const HalfEdge& e = mesh.half_edges()[h];
         const bool border = around_half_edge(e.around) == h;
         store(out, h,
-              gpu::HalfEdgeRec{scaled(e.length, min_distance), scaled(e.apex_x, min_distance),
-                               scaled(e.apex_y, min_distance),
+              gpu::HalfEdgeRec{scaled(e.length, unit), scaled(e.apex_x, unit), scaled(e.apex_y, unit),
                                e.origin | (border ? gpu::kBorder : 0u),
                                static_cast<float>(e.cosine), static_cast<float>(e.sine), e.around,
                                e.fan_angles});
@@ -116,9 +119,10 @@ void write_alias(const PreparedMesh& mesh, std::span<std::byte> out) {
 }
 
 void write_face_words(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out) {
+    const double unit = working_distance(mesh, min_distance);
     std::uint32_t first = 0;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const Grid grid = face_grid(mesh, f, min_distance);
+        const Grid grid = face_grid(mesh, f, unit);
         const bool single = grid.columns * grid.rows == 1;
         store(out, f, first | (single ? gpu::kSingleCell : grid.corner) << gpu::kFaceCornerShift);
         first += static_cast<std::uint32_t>(grid.columns * grid.rows);

@@ -184,6 +184,7 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         push.limit = tolerances.limit;
         push.margin = tolerances.margin;
         push.slack = tolerances.slack;
+        push.splits_once = mesh.statistics().nonmanifold_edges == 0 ? 1 : 0;
         job->apply_plan(plan);
         if (auto written = job->write_sets(); !written) {
             return written.error();

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <charconv>
 #include <string>
+
+#include "mesh/extent.hpp"
 
 namespace geodisk {
 namespace {
@@ -14,11 +16,29 @@ constexpr double kMinimumPool = 64;
 constexpr double kMaximumPool = 0x1p30;
 constexpr double kBytesPerCandidate = 28;
 // Edges longer than this many distances would need a guard of a percent.
-constexpr double kLongestEdge = 10000;
+constexpr double kLongestEdge = 4000;
 constexpr std::uint32_t kMinimumChain = 64;
 constexpr std::uint32_t kMaximumChain = 1u << 16;
 
+/// A large number for a message, three digits, the same in every locale.
+std::string number(double value) {
+    if (!std::isfinite(value)) {
+        return "more than 1e308";
+    }
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
+    return {text, end.ptr};
+}
+
 } // namespace
+
+double working_distance(const PreparedMesh& mesh, double min_distance) noexcept {
+    if (!(min_distance > mesh.statistics().diagonal)) {
+        return min_distance;
+    }
+    // A little more than the bound, so that what is within it conflicts beyond doubt.
+    return std::min(min_distance, 1.01 * distance_bound(mesh));
+}
 
 double expected_count(double area, double min_distance) noexcept {
     const double radius = min_distance / 2;
@@ -47,22 +67,15 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
     const double wanted =
         std::ceil(params.pool_ratio * expected_count(statistics.area, params.min_distance));
     if (!(wanted <= kMaximumPool)) {
-        char text[200];
-        std::snprintf(text, sizeof text,
-                      "the minimum distance is too small for this surface: the pool would take %.3g "
-                      "candidates and %.3g bytes, the most is %.0f candidates",
-                      wanted, wanted * kBytesPerCandidate, kMaximumPool);
-        return invalid(text);
+        return invalid("the minimum distance is too small for this surface: the pool would take " +
+                       number(wanted) + " candidates and " + number(wanted * kBytesPerCandidate) +
+                       " bytes, the most is " + number(kMaximumPool) + " candidates");
     }
     const double longest = statistics.longest_edge / params.min_distance;
     if (!(longest <= kLongestEdge)) {
-        char text[200];
-        std::snprintf(text, sizeof text,
-                      "the minimum distance is too small for this mesh: its longest edge is %.3g "
-                      "times as long, and single precision resolves at most %.0f times; split long "
-                      "edges",
-                      longest, kLongestEdge);
-        return invalid(text);
+        return invalid("the minimum distance is too small for this mesh: its longest edge is " +
+                       number(longest) + " times as long, and single precision resolves at most " +
+                       number(kLongestEdge) + " times; split long edges");
     }
     return static_cast<std::uint32_t>(std::max(wanted, kMinimumPool));
 }
@@ -77,7 +90,8 @@ std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noex
 
 Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
                           std::uint32_t chain) noexcept {
-    const double longest = mesh.statistics().longest_edge / min_distance;
+    const double longest =
+        mesh.statistics().longest_edge / working_distance(mesh, min_distance);
     Tolerances t{};
     t.chain = chain;
     t.guard = 0x1p-22 * (chain + 4 * std::ceil(longest));

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "constants.h"
 #include "engine/runner_impl.hpp"
 #include "support/guard.hpp"
 #include "vk/barriers.hpp"
@@ -227,6 +228,11 @@ Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
 }
 
 Result<Done> Run::grow() {
+    if ((control_.overflow & gpu::kOverflowChain) != 0) {
+        return Error{Status::internal, "a window crossed more than " +
+                                           std::to_string(gpu::kLongestChain) +
+                                           " edges; the mesh defeats single precision"};
+    }
     // As many slots as the job was made with, if the pool may be as large as that takes.
     RunPlan before = job_->plan();
     before.slots = slots_;
