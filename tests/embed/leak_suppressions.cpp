@@ -13,7 +13,8 @@
 
 #include <dlfcn.h>
 
-extern "C" const char* __lsan_default_suppressions() {
+// The sanitizer's library looks it up, so it has to be visible.
+extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions() {
     return "leak:libVkLayer_khronos_validation\n"
            "leak:libvulkan_lvp\n";
 }
