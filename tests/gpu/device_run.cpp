@@ -2,22 +2,11 @@
 
 #include <stdexcept>
 
+#include "engine/plan.hpp"
 #include "vk/barriers.hpp"
 
 namespace geodisk::test {
 namespace {
-
-void apply(RunPlan& plan, const RunPlan& wanted) {
-    const auto replace = [](std::uint32_t& field, std::uint32_t value) {
-        field = value != 0 ? value : field;
-    };
-    replace(plan.slots, wanted.slots);
-    replace(plan.window_capacity, wanted.window_capacity);
-    replace(plan.table_capacity, wanted.table_capacity);
-    replace(plan.list_capacity, wanted.list_capacity);
-    replace(plan.trip_budget, wanted.trip_budget);
-    replace(plan.chain, wanted.chain);
-}
 
 void barrier_to_host(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
@@ -42,7 +31,7 @@ DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const
     VkPhysicalDeviceMemoryProperties memory{};
     instance.vkGetPhysicalDeviceMemoryProperties(device_.physical_device, &memory);
     RunPlan used = expect(sampler_->plan_run(mesh, params, std::uint64_t{64} << 20));
-    apply(used, plan);
+    used = overridden(used, plan);
     const WorkspaceNeeds needs = expect(sampler_->workspace_needs(mesh, params, used));
     Workspace workspace;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {

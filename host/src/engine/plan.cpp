@@ -8,6 +8,7 @@
 
 #include "constants.h"
 #include "engine/device_mesh.hpp"
+#include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
 #include "records.h"
 #include "support/guard.hpp"
@@ -50,6 +51,19 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
 }
 
 } // namespace
+
+RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
+    const auto replace = [](std::uint32_t& field, std::uint32_t value) {
+        field = value != 0 ? value : field;
+    };
+    replace(plan.slots, wanted.slots);
+    replace(plan.window_capacity, wanted.window_capacity);
+    replace(plan.table_capacity, wanted.table_capacity);
+    replace(plan.list_capacity, wanted.list_capacity);
+    replace(plan.trip_budget, wanted.trip_budget);
+    replace(plan.chain, wanted.chain);
+    return plan;
+}
 
 std::uint32_t RunPlan::slice_rows() const noexcept {
     return window_capacity / 2 + 2 + gpu::kWindowRows * window_capacity + table_capacity +

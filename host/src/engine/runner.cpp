@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "constants.h"
+#include "engine/plan.hpp"
 #include "engine/runner_impl.hpp"
 #include "support/guard.hpp"
 #include "vk/barriers.hpp"
@@ -31,18 +32,6 @@ constexpr std::uint32_t kMostRounds = 256;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
 constexpr std::size_t index_of(BufferRole role) { return static_cast<std::size_t>(role); }
-
-void apply_overrides(RunPlan& plan, const RunPlan& wanted) {
-    const auto replace = [](std::uint32_t& field, std::uint32_t value) {
-        field = value != 0 ? value : field;
-    };
-    replace(plan.slots, wanted.slots);
-    replace(plan.window_capacity, wanted.window_capacity);
-    replace(plan.table_capacity, wanted.table_capacity);
-    replace(plan.list_capacity, wanted.list_capacity);
-    replace(plan.trip_budget, wanted.trip_budget);
-    replace(plan.chain, wanted.chain);
-}
 
 } // namespace
 
@@ -133,7 +122,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     if (!plan) {
         return plan.error();
     }
-    apply_overrides(*plan, runner_.options.plan);
+    *plan = overridden(*plan, runner_.options.plan);
     plan->chain = std::max(plan->chain, chain);
     const auto needs = sampler.workspace_needs(mesh_, params_, *plan);
     if (!needs) {
