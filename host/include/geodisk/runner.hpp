@@ -85,7 +85,8 @@ class GEODISK_API Runner {
     /// window chains outgrow the guard is repeated with a wider one.
     ///
     /// Errors: `invalid_argument`, `device_lacks` and `workspace_too_small` as Sampler's functions;
-    /// `out_of_device_memory`, `device_lost`, `cancelled`.
+    /// `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the runner refuses all
+    /// further work; when a submission was given up as hung, what it uses is never freed.
     Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;
 

@@ -51,6 +51,9 @@ enum class BufferRole : std::uint32_t {
 };
 inline constexpr std::size_t kBufferRoles = 13;
 
+/// Name of a role as spelled above, for messages.
+GEODISK_API const char* to_string(BufferRole role) noexcept;
+
 /// A range of a caller's buffer, bound as storage buffer: `offset` a multiple of the device's
 /// minStorageBufferOffsetAlignment.
 struct BufferRange {

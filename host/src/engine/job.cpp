@@ -15,12 +15,8 @@
 namespace geodisk {
 namespace {
 
-constexpr const char* kRoleNames[kBufferRoles] = {
-    "half_edges", "fans", "alias",   "cells", "points", "states", "places",
-    "slots",      "pool", "control", "marks", "sums",   "samples"};
-
 Error range_error(Status status, std::size_t role, const std::string& what) {
-    return Error{status, std::string("the workspace's buffer ") + kRoleNames[role] + ' ' + what};
+    return Error{status, std::string("the workspace's buffer ") + to_string(static_cast<BufferRole>(role)) + ' ' + what};
 }
 
 Result<Done> check_range(const BufferRange& range, std::size_t role, VkDeviceSize needed,
@@ -62,7 +58,7 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
         for (std::size_t k = 0; k < i; ++k) {
             if (overlap(workspace[i], workspace[k])) {
                 return range_error(Status::invalid_argument, i,
-                                   std::string("overlaps the buffer ") + kRoleNames[k]);
+                                   std::string("overlaps the buffer ") + to_string(static_cast<BufferRole>(k)));
             }
         }
     }

@@ -16,10 +16,6 @@
 namespace geodisk {
 namespace {
 
-constexpr const char* kBufferNames[kBufferRoles] = {
-    "half-edge", "fan",  "alias", "cell", "point", "state", "place", "slot",
-    "pool",      "control", "mark",  "sum",  "sample"};
-
 // llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently. The group
 // has at most 16 lanes, whose iterations add up in the worst case, and the last trip of detect's
 // main loop may overshoot the budget by less than 1,024.
@@ -51,6 +47,13 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
 }
 
 } // namespace
+
+const char* to_string(BufferRole role) noexcept {
+    constexpr const char* kNames[kBufferRoles] = {
+        "half_edges", "fans", "alias",   "cells", "points", "states", "places",
+        "slots",      "pool", "control", "marks", "sums",   "samples"};
+    return kNames[static_cast<std::size_t>(role)];
+}
 
 RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     const auto replace = [](std::uint32_t& field, std::uint32_t value) {
@@ -162,7 +165,8 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
         for (std::size_t i = 0; i < kBufferRoles; ++i) {
             if (needs.bytes[i] > limit) {
                 return Error{Status::device_lacks,
-                             std::string("the ") + kBufferNames[i] + " buffer for " +
+                             std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) +
+                                 " for " +
                                  std::to_string(count) + " candidates and " +
                                  std::to_string(mesh.face_count()) + " faces takes " +
                                  std::to_string(needs.bytes[i]) + " bytes, but " +
