@@ -158,9 +158,52 @@ void spread_child(bool left, bool whole, float sx, float near, float far, Edge p
     }
 }
 
-// What the operation in flight does to vertices and edges: at most three records, from one place.
-// `from_vertex` tells a fan from the candidate's own face, where `source_square` is the squared
-// distance to the edge's start and `near_vertex` whether that is as good as nothing.
+// How the window in flight meets the apex of the face it enters.
+struct Meeting {
+    float crossing;       // where the ray to the apex crosses half_edge
+    float apex_distance;
+    bool sees_apex;
+    bool to_left;         // a child goes over the left edge, from the apex on if the other does too
+    bool to_right;
+    bool reaches_left;    // the interval lies to the left of the apex, at least in part
+    bool reaches_right;
+};
+
+Meeting meet_apex(float sx, vec2 lit, uvec4 apex_note) {
+    Meeting m;
+    precise float apex_dx = edge.apex_x - sx;
+    precise float apex_dy = edge.apex_y + y;
+    precise float crossing = sx + apex_dx * ratio(y, apex_dy);
+    precise float apex_distance = sigma + root(squared(apex_dx, apex_dy));
+    precise float slack_low = lit.x - push.slack;
+    precise float slack_high = lit.y + push.slack;
+    m.crossing = crossing;
+    m.apex_distance = apex_distance;
+    m.sees_apex = crossing >= slack_low && crossing <= slack_high;
+    m.reaches_left = crossing > lit.x;
+    m.reaches_right = crossing < lit.y;
+    m.to_left = m.reaches_left;
+    m.to_right = m.reaches_right;
+    if (push.splits_once != 0u && m.sees_apex && m.to_left && m.to_right && apex_note.x != 0u &&
+        apex_note.z == half_edge) {
+        // One angle, one split: behind a shorter window through the same angle only the child on
+        // this window's own side can matter. Rays that cross at one place within rounding do not
+        // tell which side is whose.
+        precise float beaten_from = uintBitsToFloat(apex_note.y) + push.margin;
+        precise float left_of = uintBitsToFloat(apex_note.w) - push.slack;
+        precise float right_of = uintBitsToFloat(apex_note.w) + push.slack;
+        if (apex_distance > beaten_from) {
+            m.to_right = crossing >= left_of;
+            m.to_left = crossing <= right_of;
+        }
+    }
+    return m;
+}
+
+// What the operation in flight does to vertices and edges: at most three records, pushed from one
+// place, first those of vertices. `from_vertex` tells a fan from the candidate's own face, where
+// `source_square` is the squared distance to the edge's start and `near_vertex` whether that is as
+// good as nothing.
 void spread(bool from_vertex, float source_square, bool near_vertex) {
     uint left = previous_in_face(half_edge);
     uint right = next_in_face(half_edge);
@@ -172,40 +215,17 @@ void spread(bool from_vertex, float source_square, bool near_vertex) {
     bool turned = mode == kModeOpposite;
     vec3 known = vec3(from_steps(turned ? entered_by >> 16 : entered_by & 0xffffu),
                       from_steps(turned ? entered_by & 0xffffu : entered_by >> 16), kFar);
-    uvec4 apex_note;
+    uvec4 note;
     for (uint i = inside ? 0u : 2u; i != (inside ? 2u : 3u); ++i) {
         ++trips;
-        find_vertex(corner[i], apex_note);
-        known[i] = known_distance(apex_note);
+        find_vertex(corner[i], note);
+        known[i] = known_distance(note);
     }
     float sx = entry_x(edge.len);
     vec2 lit = entry_interval(edge.len);
-    precise float apex_dx = edge.apex_x - sx;
-    precise float apex_dy = edge.apex_y + y;
-    precise float crossing = sx + apex_dx * ratio(y, apex_dy);
-    bool to_left = crossing > lit.x;
-    bool to_right = crossing < lit.y;
-    precise float slack_low = lit.x - push.slack;
-    precise float slack_high = lit.y + push.slack;
-    bool sees_apex = !inside && crossing >= slack_low && crossing <= slack_high;
-    precise float apex_distance = sigma + root(squared(apex_dx, apex_dy));
-    bool whole_left = to_right;
-    bool whole_right = to_left;
-    if (push.splits_once != 0u && sees_apex && to_left && to_right && apex_note.x != 0u &&
-        apex_note.z == half_edge) {
-        // One angle, one split: behind a shorter window through the same angle only the child on
-        // this window's own side can matter. Rays that cross at one place within rounding do not
-        // tell which side is whose.
-        precise float beaten_from = known.z + push.margin;
-        precise float left_of = uintBitsToFloat(apex_note.w) - push.slack;
-        precise float right_of = uintBitsToFloat(apex_note.w) + push.slack;
-        if (apex_distance > beaten_from) {
-            to_right = crossing >= left_of;
-            to_left = crossing <= right_of;
-        }
-    }
-    precise float end_distance0 = sigma + (from_vertex ? left_edge.len : root(source_square));
-    precise float end_distance1 = sigma + right_edge.len;
+    Meeting apex = meet_apex(sx, lit, note);
+    precise float start_distance = sigma + (from_vertex ? left_edge.len : root(source_square));
+    precise float end_distance = sigma + right_edge.len;
     Turn own_angle = load_turn(half_edge);
     Turn right_angle = load_turn(right);
 
@@ -216,30 +236,27 @@ void spread(bool from_vertex, float source_square, bool near_vertex) {
         uvec4 row1 = uvec4(0u);
         if (item == 0u || (item == 1u && inside)) {
             uint at = inside ? item : 2u;
-            bool wanted = inside ? (item == 0u || from_vertex) : sees_apex;
-            if (wanted) {
-                float distance =
-                    inside ? (item == 0u ? end_distance0 : end_distance1) : apex_distance;
+            if (inside ? (item == 0u || from_vertex) : apex.sees_apex) {
+                float distance = inside ? (item == 0u ? start_distance : end_distance)
+                                        : apex.apex_distance;
                 uint by = inside ? (item == 0u ? half_edge : right) : left;
                 known[at] =
                     reach(corner[at], known[at], distance, by, inside ? kNoHalfEdge : half_edge,
-                          inside ? 0.0 : crossing, near_vertex && item == 0u, key, row0, row1);
+                          inside ? 0.0 : apex.crossing, near_vertex && item == 0u, key, row0, row1);
             }
         } else if (inside) {
             leave(half_edge, edge, known.x, known.y, x, y, 0.0, edge.len, key, row0, row1);
-        } else {
+        } else if (item == 1u ? apex.to_left : apex.to_right) {
             bool is_left = item == 1u;
-            if (is_left ? to_left : to_right) {
-                precise float mirrored = edge.len - sx;
-                precise float from_end = edge.len - lit.y;
-                precise float from_start = edge.len - lit.x;
-                spread_child(is_left, is_left ? whole_left : whole_right, is_left ? sx : mirrored,
-                             is_left ? lit.x : from_end, is_left ? lit.y : from_start, edge,
-                             is_left ? left : right, is_left ? left_edge : right_edge,
-                             is_left ? known.z : known.y, is_left ? known.x : known.z,
-                             is_left ? known.y : known.x, is_left ? own_angle : right_angle, key,
-                             row0, row1);
-            }
+            precise float mirrored = edge.len - sx;
+            precise float from_end = edge.len - lit.y;
+            precise float from_start = edge.len - lit.x;
+            spread_child(is_left, is_left ? apex.reaches_right : apex.reaches_left,
+                         is_left ? sx : mirrored, is_left ? lit.x : from_end,
+                         is_left ? lit.y : from_start, edge, is_left ? left : right,
+                         is_left ? left_edge : right_edge, is_left ? known.z : known.y,
+                         is_left ? known.x : known.z, is_left ? known.y : known.x,
+                         is_left ? own_angle : right_angle, key, row0, row1);
         }
         if (key >= 0.0) {
             push_record(key, row0, row1);
