@@ -155,14 +155,18 @@ Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh) noexcept try {
     for (std::size_t f = 0; f < faces; ++f) {
         const auto face = mesh.triangles.subspan(3 * f, 3);
         HalfEdge* edges = result.half_edges_.data() + 3 * f;
-        place_face(mesh, face, edges);
         if (repeats_vertex(face)) {
+            // No length either: its sides must neither widen the tolerances nor take cells.
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                edges[k].origin = face[k];
+            }
             ++statistics.repeated_index_faces;
-        } else {
-            areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
-            statistics.area += areas[f];
-            statistics.zero_area_faces += areas[f] == 0;
+            continue;
         }
+        place_face(mesh, face, edges);
+        areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
+        statistics.area += areas[f];
+        statistics.zero_area_faces += areas[f] == 0;
         for (std::uint32_t k = 0; k < 3; ++k) {
             statistics.longest_edge = std::fmax(statistics.longest_edge, edges[k].length);
         }
