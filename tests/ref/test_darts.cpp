@@ -1,0 +1,204 @@
+// Dart throwing by the reference: a valid and maximal sample of every surface, the same one in
+// float and in double, and the same one wherever the mesh lies.
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "ref/dart_check.hpp"
+#include "support/replay.hpp"
+
+using namespace geodisk;
+using namespace geodisk::test;
+
+namespace {
+
+/// Spacing, maximality, and float against double, decision by decision and as sets.
+void check_darts(const std::string& name, const TestMesh& mesh, double count) {
+    INFO(name << " at " << count);
+    const PreparedMesh surface = prepared(mesh);
+    const SampleParams params = params_for(surface, count);
+    const Darts darts = thrown<float>(surface, params);
+    CHECK(static_cast<double>(darts.ranks.size()) > 0.7 * count);
+    check_spacing(mesh, darts.samples(), params.min_distance);
+    check_maximal(surface, darts);
+    const ReplayReport judged = replay(surface, params, darts.tolerances.chain);
+    CHECK(judged.wrong == 0);
+    CHECK(judged.accepted == darts.ranks.size());
+    // The guard allows for the worst; what rounding does is a thousandth of it.
+    CHECK(judged.ties <= 2);
+    if (judged.ties == 0) {
+        CHECK(thrown<double>(surface, params).ranks == darts.ranks);
+    }
+}
+
+void check_shared(const std::string& name, double count) {
+    if (const auto mesh = shared_mesh("meshes/" + name)) {
+        check_darts(name, *mesh, count);
+    }
+}
+
+double density(const TestMesh& mesh, double count, std::uint64_t seed) {
+    const PreparedMesh surface = prepared(mesh);
+    const SampleParams params = params_for(surface, count, seed);
+    const double samples = static_cast<double>(thrown<float>(surface, params).ranks.size());
+    return packing_density(surface.statistics().area, params.min_distance, samples);
+}
+
+template <class Change>
+TestMesh moved(TestMesh mesh, Change change) {
+    for (double& x : mesh.positions) {
+        x = change(x);
+    }
+    return mesh;
+}
+
+template <class Real>
+void check_sheets(double count) {
+    const PreparedMesh folded = prepared(builtin("folded-sheet", 8));
+    const PreparedMesh flat = prepared(builtin("unfolded-sheet", 8));
+    const SampleParams params = params_for(flat, count);
+    // The layers lie much closer than samples may.
+    REQUIRE(params.min_distance > 0.03);
+    CHECK(thrown<Real>(folded, params).ranks == thrown<Real>(flat, params).ranks);
+}
+
+} // namespace
+
+TEST_CASE("darts: built-in shapes") {
+    for (const double count : {300.0, 1000.0}) {
+        check_darts("icosphere", builtin("icosphere", 4), count);
+        check_darts("cube", builtin("cube", 1), count);
+        check_darts("torus-knot", builtin("torus-knot", 16), count);
+        check_darts("plate", builtin("plate", 16), count);
+        check_darts("lattice", builtin("lattice", 1), count);
+        check_darts("terrain", builtin("terrain", 60), count);
+        check_darts("two-sided square", two_sided_square(), count);
+        check_darts("needles", flat_obtuse_fan(30), count);
+    }
+    check_darts("showpiece", builtin("showpiece", 60), 1000);
+}
+
+TEST_CASE("darts: spot") {
+    check_shared("spot_pose_a_6k.obj", 300);
+    check_shared("spot_pose_a_6k.obj", 1000);
+}
+
+TEST_CASE("darts: bunny") {
+    check_shared("bunny_14k.obj", 300);
+    check_shared("bunny_14k.obj", 1000);
+}
+
+TEST_CASE("darts: fandisk") {
+    check_shared("fandisk_13k.obj", 300);
+    check_shared("fandisk_13k.obj", 1000);
+}
+
+TEST_CASE("darts: rocker arm") {
+    check_shared("rocker_arm_20k.obj", 300);
+    check_shared("rocker_arm_20k.obj", 1000);
+}
+
+TEST_CASE("darts: tray with slivers") {
+    check_shared("tray_4k5.ply", 300);
+    check_shared("tray_4k5.ply", 1000);
+}
+
+TEST_CASE("darts: large shared meshes") {
+    for (const char* name :
+         {"bunny_69k.ply", "bunny_144k.ply", "gargoyle_52k.obj", "armadillo_29k.obj",
+          "lucy_100k.ply", "boot_40k.obj", "mountain_51k.obj", "human_neutral_21k.obj",
+          "human_man_14k.obj", "human_woman_14k.obj", "spot_pose_b_6k.obj"}) {
+        check_shared(name, 1000);
+    }
+}
+
+TEST_CASE("darts: no candidate is rejected without cause, by CGAL") {
+    for (const auto& [name, count] :
+         {std::pair{"spot_pose_a_6k.obj", 300.0}, std::pair{"fandisk_13k.obj", 300.0},
+          std::pair{"tray_4k5.ply", 300.0}}) {
+        if (const auto mesh = shared_mesh(std::string("meshes/") + name)) {
+            INFO(std::string(name));
+            const PreparedMesh surface = prepared(*mesh);
+            check_covered(*mesh, thrown<float>(surface, params_for(surface, count)));
+        }
+    }
+    const TestMesh knot = builtin("torus-knot", 16);
+    check_covered(knot, thrown<float>(prepared(knot), params_for(prepared(knot), 300)));
+}
+
+TEST_CASE("darts: folded and laid flat, a sheet has one sample") {
+    for (const double count : {50.0, 300.0, 1000.0}) {
+        check_sheets<double>(count);
+        check_sheets<float>(count);
+    }
+}
+
+TEST_CASE("darts: packing density of closed shapes") {
+    for (const std::uint64_t seed : {2u, 3u}) {
+        for (const auto& mesh : {builtin("icosphere", 4), builtin("torus-knot", 16),
+                                 builtin("lattice", 1), builtin("cube", 4)}) {
+            const double rho = density(mesh, 1500, seed);
+            CHECK(rho > 0.68);
+            CHECK(rho < 0.80);
+            // A count asked for is met on average.
+            CHECK(std::abs(rho - kExpectedRho) < 0.02);
+        }
+    }
+}
+
+TEST_CASE("darts: moved or scaled, a mesh has the same sample") {
+    // On a grid of 2^-24, where moving by 1e7 rounds nothing.
+    const TestMesh mesh =
+        moved(builtin("torus-knot", 12), [](double x) { return std::round(x * 0x1p24) * 0x1p-24; });
+    const PreparedMesh surface = prepared(mesh);
+    const SampleParams params = params_for(surface, 400);
+    const Darts darts = thrown<float>(surface, params);
+    const PreparedMesh far = prepared(moved(mesh, [](double x) { return x + 1e7; }));
+    CHECK(thrown<float>(far, params).ranks == darts.ranks);
+    for (const double scale : {0x1p40, 0x1p-40, 0x1p200}) {
+        const PreparedMesh scaled = prepared(moved(mesh, [=](double x) { return scale * x; }));
+        SampleParams scaled_params = params;
+        scaled_params.min_distance *= scale;
+        CHECK(thrown<float>(scaled, scaled_params).ranks == darts.ranks);
+        CHECK(thrown<double>(scaled, scaled_params).ranks == thrown<double>(surface, params).ranks);
+    }
+}
+
+TEST_CASE("darts: faces turned over leave the sample valid") {
+    for (const TestMesh& mesh : {builtin("icosphere", 4), builtin("torus-knot", 12)}) {
+        TestMesh turned = mesh;
+        for (std::uint32_t f = 0; f < mesh.face_count(); f += 3) {
+            std::swap(turned.triangles[3 * f + 1], turned.triangles[3 * f + 2]);
+        }
+        const PreparedMesh surface = prepared(turned);
+        const SampleParams params = params_for(surface, 500);
+        const Darts darts = thrown<float>(surface, params);
+        check_maximal(surface, darts);
+        CHECK(replay(surface, params, darts.tolerances.chain).wrong == 0);
+        std::vector<Point> samples = darts.samples();
+        for (Point& p : samples) {
+            if (p.face % 3 == 0) {
+                std::swap(p.weight1, p.weight2);
+            }
+        }
+        check_spacing(mesh, samples, params.min_distance);
+    }
+}
+
+TEST_CASE("darts: surfaces that CGAL cannot take are sampled to the full") {
+    for (const char* name :
+         {"bad/warn_nonmanifold_edge.obj", "bad/warn_bowtie_closed.obj", "bad/warn_moebius.obj",
+          "bad/warn_inconsistent_orientation.obj", "bad/warn_zero_area_cap.obj",
+          "bad/warn_repeated_index.obj", "bad/warn_sliver_fan.obj", "meshes/teapot_6k.obj"}) {
+        if (const auto mesh = shared_mesh(name)) {
+            INFO(std::string(name));
+            const PreparedMesh surface = prepared(*mesh);
+            const SampleParams params = params_for(surface, 300);
+            const Darts darts = thrown<float>(surface, params);
+            check_maximal(surface, darts);
+            CHECK(replay(surface, params, darts.tolerances.chain).wrong == 0);
+        }
+    }
+}
