@@ -246,7 +246,6 @@ void count_disk() {
         atomicAdd(control.tested_high, 1u);
     }
     atomicMax(control.largest_heap, peak);
-    atomicMax(control.longest_chain, longest_chain);
     atomicMax(control.most_vertices, vertices);
     atomicMax(control.most_conflicts, conflicts);
 }

@@ -57,6 +57,9 @@ void main() {
         atomicAdd(control.undecided, 0xffffffffu);
         if (!rejected) {
             atomicAdd(control.accepted, 1u);
+            // Of accepted candidates alone: which others get a disk depends on the slots, and the
+            // guard must not.
+            atomicMax(control.longest_chain, slots[slot * kSlotRows + 7u].z);
         }
     }
 }

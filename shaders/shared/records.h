@@ -66,7 +66,7 @@ struct ControlRec {
     uint tested_low;       // candidates tested in completed disks, 64 bits
     uint tested_high;
     uint largest_heap;
-    uint longest_chain;
+    uint longest_chain;    // of accepted candidates
     uint most_vertices;
     uint most_conflicts;
 };

@@ -134,6 +134,25 @@ TEST_SUITE("invariance") {
         CHECK(ranks_of(regrown) == want);
         CHECK(regrown.report.regrown > 0);
     }
+
+    // Which losers get a disk depends on the slots; the guard, which follows from the chains met,
+    // must not.
+    TEST_CASE("no tuning changes the guard of a repeated run") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 4));
+        const SampleParams params = params_for(mesh, 60);
+        std::vector<std::uint32_t> chains;
+        std::vector<std::vector<std::uint32_t>> sets;
+        for (const std::uint32_t slots : {1u, 16u, 1000u}) {
+            RunnerOptions options;
+            options.plan.slots = slots;
+            options.plan.chain = 1;
+            const SampleSet set = sample(mesh, params, options);
+            chains.push_back(set.report.plan.chain);
+            sets.push_back(ranks_of(set));
+        }
+        CHECK(chains == std::vector<std::uint32_t>(3, chains[0]));
+        CHECK(sets == std::vector<std::vector<std::uint32_t>>(3, sets[0]));
+    }
 }
 
 TEST_SUITE("meshes") {

@@ -32,7 +32,7 @@ struct RunReport {
     std::uint64_t windows = 0;      ///< Windows and vertex events of all disks.
     std::uint64_t tested = 0;       ///< Candidate distances computed in all disks.
     std::uint32_t largest_heap = 0; ///< Most windows in one heap.
-    std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window.
+    std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
     std::uint32_t most_vertices = 0;  ///< Reached by one disk.
     std::uint32_t most_conflicts = 0; ///< Listed by one disk.
     double guard = 0;               ///< Conflicts were tested against min_distance * (1 + guard).
@@ -60,7 +60,7 @@ struct RunnerOptions {
     /// Most bytes of the pool of window slices; bounded by one binding of the device.
     std::uint64_t pool_bytes = std::uint64_t{256} << 20;
     /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice changes
-    /// the samples.
+    /// the samples, but `chain`, which widens or narrows the guard and with it the ties.
     RunPlan plan;
     /// A submission that takes longer counts as hung.
     std::uint32_t stall_seconds = 120;

@@ -75,7 +75,8 @@ struct WorkspaceNeeds {
     GEODISK_API VkDeviceSize total() const noexcept;
 };
 
-/// How a job is cut into work. None of this changes which samples come out.
+/// How a job is cut into work. Nothing but `chain` bears on which samples come out, and that only
+/// where a distance is within the guard of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time.
     std::uint32_t window_capacity = 0; ///< Windows per slot, even.

@@ -11,10 +11,9 @@
 
 namespace geodisk {
 
-/// Outcome of a call. Zero is success, positive is valid but incomplete, negative is failure.
+/// Outcome of a call. Zero is success, negative is failure.
 enum class Status : std::int32_t {
     ok = 0,
-    not_finished = 1,          ///< More rounds are needed (recording callers only).
     invalid_argument = -1,     ///< A parameter is out of its documented range.
     mesh_rejected = -2,        ///< The mesh cannot be sampled; `Error::element` names the place.
     device_lacks = -3,         ///< The device misses a required limit or feature.

@@ -7,8 +7,6 @@ GEODISK_API const char* to_string(Status status) noexcept {
     switch (status) {
     case Status::ok:
         return "ok";
-    case Status::not_finished:
-        return "not_finished";
     case Status::invalid_argument:
         return "invalid_argument";
     case Status::mesh_rejected:
