@@ -38,7 +38,7 @@ enum class Rounding : std::uint32_t {
 };
 
 struct SamplerOptions {
-    /// Invocations per work group of the per-element kernels; 0 chooses. A power of two up to the
+    /// Invocations per work group of the per-candidate and per-slot kernels; 0 chooses. A power of two up to the
     /// device's limit.
     std::uint32_t local_size = 0;
     Rounding rounding = Rounding::automatic;

@@ -98,7 +98,7 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
         plan.slots = static_cast<std::uint32_t>(
-            std::clamp(disks / (cpu ? 24 : 8), cpu ? 16.0 : 64.0, double{kMostSlots}));
+            std::clamp(disks / (cpu ? 24 : 8), cpu ? 32.0 : 64.0, double{kMostSlots}));
         plan.window_capacity = pow2_at_least(32 + 4 * faces_per_disk);
         plan.table_capacity = pow2_at_least(32 + 2 * faces_per_disk);
         plan.list_capacity = pow2_at_least(4 * params.pool_ratio);

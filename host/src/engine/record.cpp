@@ -107,7 +107,7 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
     const Recorder recorder(commands, *impl_, *job.impl_);
     const BufferRange& slots = job.impl_->workspace[static_cast<std::size_t>(BufferRole::slots)];
     recorder.dispatch(Kernel::rewind,
-                      groups_for(slots.size / sizeof(gpu::SlotRec), impl_->local_size),
+                      groups_for(slots.size / sizeof(gpu::SlotRec), impl_->slot_local_size),
                       job.impl_->push);
 }
 

@@ -1,5 +1,6 @@
 #include <geodisk/sampler.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <utility>
@@ -15,6 +16,14 @@ namespace geodisk {
 namespace {
 
 constexpr std::uint32_t kDefaultLocalSize = 64;
+
+/// On a CPU a work group runs on one thread, so that slots are spread over as many as there are
+/// SIMD groups; a GPU wants whole subgroups, and a few of them.
+std::uint32_t default_slot_local_size(const DeviceReport& report) {
+    return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU
+               ? std::clamp(report.limits.subgroup_size, 1u, kDefaultLocalSize)
+               : kDefaultLocalSize;
+}
 
 Result<Done> check_options(const SamplerOptions& options, const DeviceReport& report) {
     const std::uint32_t most =
@@ -68,6 +77,8 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
         impl->native_rounding = options.rounding == Rounding::native ||
                                 (options.rounding == Rounding::automatic && report->rounds_natively);
         impl->local_size = options.local_size != 0 ? options.local_size : kDefaultLocalSize;
+        impl->slot_local_size =
+            options.local_size != 0 ? options.local_size : default_slot_local_size(*report);
         impl->report = std::move(*report);
         if (auto created = impl->create_pipelines(); !created) {
             return created.error();
@@ -137,7 +148,10 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateShaderModule", result);
     }
-    const std::array<std::uint32_t, 2> constants{local_size, native_rounding ? VK_TRUE : VK_FALSE};
+    const bool per_slot = kernel == Kernel::select || kernel == Kernel::detect ||
+                          kernel == Kernel::resolve || kernel == Kernel::rewind;
+    const std::array<std::uint32_t, 2> constants{per_slot ? slot_local_size : local_size,
+                                                 native_rounding ? VK_TRUE : VK_FALSE};
     const std::array<VkSpecializationMapEntry, 2> entries{{
         {gpu::kSpecLocalSize, 0, sizeof(std::uint32_t)},
         {gpu::kSpecNativeRounding, sizeof(std::uint32_t), sizeof(std::uint32_t)},
