@@ -33,6 +33,14 @@ std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
 }
 
+/// Few enough that most active candidates are accepted (paper Table 1), and enough to fill the
+/// device; where that cannot be had, a CPU rather waits than computes disks for losers.
+std::uint32_t wanted_slots(double disks, bool cpu) {
+    const double least = cpu ? std::clamp(disks / 8, 8.0, 32.0) : 64.0;
+    return static_cast<std::uint32_t>(
+        std::clamp(disks / (cpu ? 24 : 8), least, double{kMostSlots}));
+}
+
 /// As many slots as fit the pool; none if not even one does.
 std::uint32_t fitting_slots(const RunPlan& plan, std::uint64_t pool_bytes) {
     const std::uint64_t slice = std::uint64_t{plan.slice_rows()} * 16;
@@ -93,15 +101,13 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
             return candidates.error();
         }
         const DeviceReport& report = impl_->report;
-        const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
         const double disks = *candidates / params.pool_ratio;
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
-        plan.slots = static_cast<std::uint32_t>(
-            std::clamp(disks / (cpu ? 24 : 8), cpu ? 32.0 : 64.0, double{kMostSlots}));
+        plan.slots = wanted_slots(disks, report.type == VK_PHYSICAL_DEVICE_TYPE_CPU);
         plan.window_capacity = pow2_at_least(32 + 4 * faces_per_disk);
         plan.table_capacity = pow2_at_least(32 + 2 * faces_per_disk);
-        plan.list_capacity = pow2_at_least(4 * params.pool_ratio);
+        plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.trip_budget = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips
                                                                           : kDefaultTrips;
         plan.chain = provided_chain(mesh, params.min_distance);
