@@ -1,5 +1,5 @@
-// The candidates of a face that the operation in flight can reach: cells are visited row by row, a
-// few candidates per trip of the main loop, so that long lists cost no more than they must.
+// The candidates of a face that the operation in flight can reach: cells are visited row by row, some
+// candidates per trip of the main loop, so that a long list never outgrows the trip budget.
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 
@@ -14,7 +14,7 @@ uint conflicts;     // listed so far
 uint list_first;    // row of this slot's list
 uint own_rank;
 
-const uint kScanPerTrip = 16u;
+const uint kScanPerTrip = 64u;
 
 bool scanning() { return scan_place < scan_end || scan_row < scan_row_end; }
 
