@@ -49,9 +49,11 @@ class DeviceRun {
     template <class Record>
     std::vector<Record> read(BufferRole role, std::size_t count, std::size_t skip = 0) const {
         std::vector<Record> records(count);
-        std::memcpy(records.data(),
-                    buffers_[static_cast<std::size_t>(role)].bytes().data() + skip,
-                    count * sizeof(Record));
+        if (count > 0) {
+            std::memcpy(records.data(),
+                        buffers_[static_cast<std::size_t>(role)].bytes().data() + skip,
+                        count * sizeof(Record));
+        }
         return records;
     }
 
