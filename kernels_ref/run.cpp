@@ -25,7 +25,7 @@ RunResult throw_darts(const Surface<Real>& surface, const Bins<Real>& bins,
                          [&](std::uint32_t q, Real) { decided[q] = 1; });
         result.windows += disk.windows;
         result.tested += disk.tested;
-        result.largest_heap = std::max(result.largest_heap, disk.peak);
+        result.most_waiting = std::max(result.most_waiting, disk.most_waiting);
         result.longest_chain = std::max(result.longest_chain, disk.chain);
     }
     return result;

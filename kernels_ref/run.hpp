@@ -15,7 +15,7 @@ struct RunResult {
     std::vector<std::uint32_t> ranks; ///< Accepted candidates, in rank order.
     std::uint64_t windows = 0;
     std::uint64_t tested = 0;
-    std::uint32_t largest_heap = 0;
+    std::uint32_t most_waiting = 0;
     std::uint32_t longest_chain = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <vector>
 
@@ -18,10 +19,10 @@ namespace geodisk::ref {
 /// What one disk took; the shaders count the same.
 struct DiskCount {
     std::uint32_t windows = 0;  ///< Windows and vertex events pushed.
-    std::uint32_t peak = 0;     ///< Most in the heap at once.
+    std::uint32_t most_waiting = 0; ///< Most windows on the stack, or events in the queue.
     std::uint32_t chain = 0;    ///< Longest chain of crossings.
     std::uint32_t vertices = 0; ///< Vertices reached.
-    std::uint32_t tested = 0;   ///< Candidates whose distance was computed.
+    std::uint32_t tested = 0;   ///< Points whose distance was computed.
 };
 
 /// Computes geodesic disks one after the other; keeps its working memory between them.
@@ -45,13 +46,17 @@ class Detector {
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
         begin();
         spread_from_source(source, wanted, hit);
-        while (!heap_.empty()) {
-            const std::uint32_t slot = pop();
-            const Record record = records_[slot];
-            if (record.edge & gpu::kVertexEvent) {
-                spread_from_vertex(record, wanted, hit);
+        // Windows first, the last one first, then the oldest event: a vertex then mostly has its
+        // final distance before its fan is lit.
+        while (!windows_.empty() || !events_.empty()) {
+            if (!windows_.empty()) {
+                const Window window = windows_.back();
+                windows_.pop_back();
+                cross_edge(window, wanted, hit);
             } else {
-                cross_edge(record, wanted, hit);
+                const Event event = events_.front();
+                events_.pop_front();
+                spread_from_vertex(event, wanted, hit);
             }
         }
         return count_;
@@ -59,20 +64,18 @@ class Detector {
 
   private:
     /// A window in the frame of the half-edge it leaves its face through, the source at (x, y) with
-    /// y >= 0; or a vertex event with `edge` the marked vertex, `corner` where the path came in.
-    struct Record {
-        std::uint32_t edge, corner;
+    /// y >= 0.
+    struct Window {
+        std::uint32_t edge;
         Real x, y, b0, b1, sigma;
         std::uint32_t chain;
         Real start, end; ///< What was known of the edge's ends, rounded up.
     };
-    struct HeapEntry {
-        Real key;
-        std::uint32_t slot;
-        /// std heaps keep the largest in front.
-        bool operator<(const HeapEntry& o) const {
-            return key != o.key ? key > o.key : slot > o.slot;
-        }
+    /// A vertex reached by a path of length sigma that came in through `corner`.
+    struct Event {
+        std::uint32_t vertex, corner;
+        Real sigma;
+        std::uint32_t chain;
     };
     struct VertexNote {
         Real distance;
@@ -87,9 +90,8 @@ class Detector {
 
     void begin() {
         ++generation_;
-        heap_.clear();
-        records_.clear();
-        free_.clear();
+        windows_.clear();
+        events_.clear();
         count_ = {};
     }
 
@@ -98,30 +100,20 @@ class Detector {
                                                       : static_cast<Real>(kFar);
     }
 
-    /// Takes slots as the shader does, the one freed last first: slots decide ties.
-    void push(Real key, const Record& record) {
-        std::uint32_t slot;
-        if (free_.empty()) {
-            slot = static_cast<std::uint32_t>(records_.size());
-            records_.push_back(record);
-        } else {
-            slot = free_.back();
-            free_.pop_back();
-            records_[slot] = record;
-        }
-        heap_.push_back({key, slot});
-        std::push_heap(heap_.begin(), heap_.end());
-        ++count_.windows;
-        count_.peak = std::max(count_.peak, static_cast<std::uint32_t>(heap_.size()));
-        count_.chain = std::max(count_.chain, record.chain);
+    void push(const Window& record) {
+        windows_.push_back(record);
+        count_push(windows_.size(), record.chain);
     }
 
-    std::uint32_t pop() {
-        std::pop_heap(heap_.begin(), heap_.end());
-        const std::uint32_t slot = heap_.back().slot;
-        heap_.pop_back();
-        free_.push_back(slot);
-        return slot;
+    void push(const Event& event) {
+        events_.push_back(event);
+        count_push(events_.size(), event.chain);
+    }
+
+    void count_push(std::size_t waiting, std::uint32_t chain) {
+        ++count_.windows;
+        count_.most_waiting = std::max(count_.most_waiting, static_cast<std::uint32_t>(waiting));
+        count_.chain = std::max(count_.chain, chain);
     }
 
     /// A path of the given length ends at v, having come in through `corner`.
@@ -133,34 +125,54 @@ class Detector {
         count_.vertices += vertices_[v].generation != generation_;
         vertices_[v] = {distance, crossing, through, generation_};
         if (whole_fan || (surface_.fans[v].flags & gpu::kFanBends)) {
-            push(distance, {v | gpu::kVertexEvent, whole_fan ? kWholeFan : corner, 0, 0, 0, 0,
-                            distance, chain, 0, 0});
+            push(Event{v, whole_fan ? kWholeFan : corner, distance, chain});
+        }
+    }
+
+    /// A window to be pushed; none if its distance is negative.
+    struct Child {
+        Real distance = -1;
+        Window window{};
+    };
+
+    void push(const Child& child) {
+        if (child.distance >= 0) {
+            push(child.window);
         }
     }
 
     /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e; `start`
     /// and `end` are what is known of the edge's ends.
-    void leave(std::uint32_t e, Real start, Real end, Real x, Real y, Real b0, Real b1, Real sigma,
+    Child leave(std::uint32_t e, Real start, Real end, Real x, Real y, Real b0, Real b1, Real sigma,
                std::uint32_t chain) {
         if (around_half_edge(surface_.edges[e].around) == e || !(b0 < b1)) {
-            return;
+            return {};
         }
         y = y < static_cast<Real>(kSmallestOffset) ? Real{0} : y;
         // From the edge's own end nothing but the edge is lit: that vertex lights its fan itself,
         // and rounding could carry the window around it for ever.
         const Real grain = surface_.edges[e].length * (4 * std::numeric_limits<Real>::epsilon());
         if (y == 0 && (x <= grain || surface_.edges[e].length - x <= grain)) {
-            return;
+            return {};
         }
         const Real aside = x < b0 ? b0 - x : (x > b1 ? x - b1 : Real{0});
-        const Real key = sigma + root(aside * aside + y * y);
+        const Real distance = sigma + root(aside * aside + y * y);
         // Xin and Wang's filter by the two ends of the edge.
         const Real length = surface_.edges[e].length;
-        if (!(key < limit_) || beats(start, b1, sigma, square(x - b1) + y * y) ||
+        if (!(distance < limit_) || beats(start, b1, sigma, square(x - b1) + y * y) ||
             beats(end, length - b0, sigma, square(x - b0) + y * y)) {
-            return;
+            return {};
         }
-        push(key, {e, 0, x, y, b0, b1, sigma, chain, rounded_up(start), rounded_up(end)});
+        // Where many faces share the edge the shader has no room for what is known of its ends.
+        const bool many = shared_by_many(e);
+        return {distance, {e, x, y, b0, b1, sigma, chain,
+                      many ? static_cast<Real>(kFar) : rounded_up(start),
+                      many ? static_cast<Real>(kFar) : rounded_up(end)}};
+    }
+
+    bool shared_by_many(std::uint32_t e) const {
+        const std::uint32_t next = around_half_edge(surface_.edges[e].around);
+        return around_half_edge(surface_.edges[next].around) != e;
     }
 
     /// A known distance as a window carries it: in steps of 2^-15, never less. A bound too large only
@@ -190,9 +202,9 @@ class Detector {
             const Real distance = root(p.x * p.x + p.y * p.y);
             reach(surface_.edges[e].origin, distance, e, kNoEdge, 0,
                   distance <= static_cast<Real>(kNearVertex), 1);
-            leave(e, distance_at(surface_.edges[e].origin),
-                  distance_at(surface_.edges[next_in_face(e)].origin), p.x, p.y, 0,
-                  surface_.edges[e].length, 0, 1);
+            push(leave(e, distance_at(surface_.edges[e].origin),
+                       distance_at(surface_.edges[next_in_face(e)].origin), p.x, p.y, 0,
+                       surface_.edges[e].length, 0, 1));
         }
     }
 
@@ -225,8 +237,8 @@ class Detector {
     }
 
     template <class Wanted, class Hit>
-    void spread_from_vertex(const Record& event, Wanted& wanted, Hit& hit) {
-        const std::uint32_t v = event.edge & ~gpu::kVertexEvent;
+    void spread_from_vertex(const Event& event, Wanted& wanted, Hit& hit) {
+        const std::uint32_t v = event.vertex;
         if (distance_at(v) < event.sigma) {
             return;
         }
@@ -243,19 +255,19 @@ class Detector {
                   event.chain + 1);
             reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back,
                   kNoEdge, 0, false, event.chain + 1);
-            leave(e, distance_at(edge.origin), distance_at(surface_.edges[back].origin),
-                  edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1);
+            push(leave(e, distance_at(edge.origin), distance_at(surface_.edges[back].origin),
+                       edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1));
             scan_face(e, edge.apex_x, edge.apex_y, event.sigma, wanted, hit);
         }
     }
 
     /// A window enters every other face of its edge.
     template <class Wanted, class Hit>
-    void cross_edge(const Record& window, Wanted& wanted, Hit& hit) {
+    void cross_edge(const Window& window, Wanted& wanted, Hit& hit) {
         const Real length = surface_.edges[window.edge].length;
         bool same_way = true;
         std::uint32_t h = window.edge;
-        Record entering = window;
+        Window entering = window;
         for (;;) {
             const std::uint32_t around = surface_.edges[h].around;
             same_way = same_way == around_same_way(around);
@@ -278,7 +290,7 @@ class Detector {
 
     /// The window, given in the frame of h with its source at (x, -y), enters the face of h.
     template <class Wanted, class Hit>
-    void enter_face(std::uint32_t h, const Record& window, Wanted& wanted, Hit& hit) {
+    void enter_face(std::uint32_t h, const Window& window, Wanted& wanted, Hit& hit) {
         const Real x = window.x;
         const Real y = window.y;
         const Real b0 = window.b0;
@@ -298,13 +310,18 @@ class Detector {
             reach(apex, distance, left, h, crossing, false, window.chain + 1);
         }
         const Real known = distance_at(apex);
+        Child over_left, over_right;
         if (to_left) {
-            lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, known, window);
+            over_left = lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, known, window);
         }
         if (to_right) {
-            lit_child(right, false, h, edge.length - x, y, edge.length - b1,
-                      crossing > b0 ? kFull : edge.length - b0, known, window);
+            over_right = lit_child(right, false, h, edge.length - x, y, edge.length - b1,
+                                   crossing > b0 ? kFull : edge.length - b0, known, window);
         }
+        // The nearer one comes last, so that the stack gives it back first.
+        const bool right_first = over_left.distance < over_right.distance;
+        push(right_first ? over_right : over_left);
+        push(right_first ? over_left : over_right);
         scan_wedge(h, x, y, b0, b1, sigma, wanted, hit);
     }
 
@@ -330,8 +347,8 @@ class Detector {
     /// The child over the left or right edge e, lit between the rays through `near` and `far`. For
     /// the left child all is measured from the start of h, for the right one from its end. `apex` is
     /// what is known of the corner both children share.
-    void lit_child(std::uint32_t e, bool left, std::uint32_t h, Real x, Real y, Real near, Real far,
-                   Real apex, const Record& window) {
+    Child lit_child(std::uint32_t e, bool left, std::uint32_t h, Real x, Real y, Real near, Real far,
+                   Real apex, const Window& window) {
         const Edge<Real>& child = surface_.edges[e];
         const Edge<Real>& edge = surface_.edges[h];
         const Edge<Real>& angle = left ? edge : child;
@@ -353,9 +370,9 @@ class Detector {
         const Real third = left ? window.end : window.start;
         const Real way = root(square(child.apex_x - b) + child.apex_y * child.apex_y);
         if (beats(third, way, window.sigma, square(px - b) + child_y * child_y)) {
-            return;
+            return {};
         }
-        leave(e, left ? apex : window.end, left ? window.start : apex, px, child_y, b0, b1,
+        return leave(e, left ? apex : window.end, left ? window.start : apex, px, child_y, b0, b1,
               window.sigma, window.chain + 1);
     }
 
@@ -448,9 +465,8 @@ class Detector {
     std::vector<Grid> grids_;
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
-    std::vector<HeapEntry> heap_;
-    std::vector<Record> records_;
-    std::vector<std::uint32_t> free_;
+    std::vector<Window> windows_; ///< A stack.
+    std::deque<Event> events_;
     DiskCount count_;
 };
 

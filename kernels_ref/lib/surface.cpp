@@ -13,10 +13,16 @@ Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
         const double x = length / unit;
         return static_cast<Real>(x < kSmallestOffset && x > -kSmallestOffset ? 0.0 : x);
     };
-    for (const HalfEdge& e : mesh.half_edges()) {
-        edges.push_back({scaled(e.length), scaled(e.apex_x), scaled(e.apex_y),
-                         static_cast<Real>(e.cosine), static_cast<Real>(e.sine), e.origin, e.around,
-                         e.fan_angles});
+    const auto direction = [](double x) {
+        return static_cast<Real>(x < kSmallestOffset && x > -kSmallestOffset ? 0.0 : x);
+    };
+    for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
+        const HalfEdge& e = mesh.half_edges()[h];
+        const Real previous = scaled(mesh.half_edges()[geodisk::previous_in_face(h)].length);
+        const Real cosine = direction(e.cosine);
+        const Real sine = direction(e.sine);
+        edges.push_back({scaled(e.length), previous * cosine, previous * sine, cosine, sine,
+                         e.origin, e.around, e.fan_angles});
     }
 }
 

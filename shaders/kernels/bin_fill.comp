@@ -12,7 +12,7 @@ layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 GEODISK_BUFFER(kBindPlaces, , uint, places);
-GEODISK_BUFFER(kBindPoints, writeonly, uvec4, points);
+GEODISK_BUFFER(kBindPoints, writeonly, uvec2, points);
 
 void main() {
     uint rank = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
@@ -21,8 +21,7 @@ void main() {
         return;
     }
     Candidate c = draw_candidate(rank);
-    uint place = atomicAdd(cells[push.faces + places[rank] + 1u], 1u);
+    uint place = atomicAdd(cells[places[rank] + 1u], 1u);
     places[rank] = place;
-    points[place] =
-        uvec4(floatBitsToUint(c.weight1), floatBitsToUint(c.weight2), rank, c.face);
+    points[place] = uvec2(c.weight1 << kWeightShift | kIdle, c.weight2 << kWeightShift);
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Draws the pool and counts the candidates of every cell (paper GenerateDensePoints, sections 3.3
 // and 4.2). One invocation per candidate.
-// reads: alias columns, half-edges   writes: cell counts (one word late, see bin_fill), cell of each
+// reads: alias columns, faces   writes: cell counts (one word late, see bin_fill), cell of each
 // candidate into places   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
@@ -16,13 +16,15 @@ GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 GEODISK_BUFFER(kBindPlaces, writeonly, uint, places);
 
 uint cell_of(Candidate c) {
-    uint word = cells[c.face];
+    uint word = load_links(c.face).w;
     if (single_cell(word)) {
         return word & kFirstCellMask;
     }
-    Edge edge;
-    Grid grid = face_grid(c.face, word, edge);
-    vec2 at = position_in(grid.base, edge, c.weight1, c.weight2);
+    uint corner = grid_corner(word);
+    Edge edge = load_edge(c.face, corner);
+    vec2 apex = apex_of(edge, load_edge(c.face, previous_corner(corner)));
+    Grid grid = face_grid(word, edge.len, apex.y);
+    vec2 at = position_in(corner, edge.len, apex, weight_of(c.weight1), weight_of(c.weight2));
     return grid.first + cell_at(at.y, grid.rows) * grid.columns + cell_at(at.x, grid.columns);
 }
 
@@ -34,5 +36,5 @@ void main() {
     }
     uint cell = cell_of(draw_candidate(rank));
     places[rank] = cell;
-    atomicAdd(cells[push.faces + cell + 1u], 1u);
+    atomicAdd(cells[cell + 1u], 1u);
 }

@@ -1,16 +1,16 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Writes the accepted candidates in rank order. One invocation per candidate.
-// reads: places, states, marks, points   writes: samples   spec: local size
+// reads: alias columns, places, points, marks   writes: samples   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
+#include "../lib/candidate.glsl"
 
 layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
-GEODISK_BUFFER(kBindStates, readonly, uint, states);
 GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
-GEODISK_BUFFER(kBindPoints, readonly, uvec4, points);
+GEODISK_BUFFER(kBindPoints, readonly, uvec2, points);
 GEODISK_BUFFER(kBindSamples, writeonly, uvec4, samples);
 
 void main() {
@@ -19,9 +19,9 @@ void main() {
     if (rank >= push.candidates) {
         return;
     }
-    uint place = places[rank];
-    if ((states[place] & kStateMask) == kAccepted) {
-        uvec4 point = points[place];
-        samples[marks[rank]] = uvec4(rank, point.w, point.x, point.y);
+    if ((points[places[rank]].x & kStateMask) == kAccepted) {
+        Candidate c = draw_candidate(rank);
+        samples[marks[rank]] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
+                                     floatBitsToUint(weight_of(c.weight2)));
     }
 }

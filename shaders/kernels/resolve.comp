@@ -4,13 +4,14 @@
 // one of lower rank blocks is accepted and rejects what its disk holds; a rejected one lifts its
 // blocks. Blocks only fall and rejections only come, so every order of events ends the same.
 // One invocation per slot; resumable, since lists may be long.
-// reads: pool lists, slots   writes: states, slots, control, blockers   spec: local size
+// reads: pool lists, slots, marks   writes: points, slots, control, blockers   spec: local size
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindStates, coherent, uint, states);
+GEODISK_BUFFER(kBindPoints, coherent, uvec2, points);
+GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
 GEODISK_BUFFER(kBindPool, readonly, uvec4, pool);
 GEODISK_CONTROL;
@@ -24,7 +25,7 @@ void main() {
     }
     uvec4 head = slots[slot * kSlotRows];
     uint place = head.x;
-    if ((states[place] & kStateMask) != kActive) {
+    if ((points[place].x & kStateMask) != kActive) {
         return;
     }
     uint blocks = atomicOr(blockers[slot], 0u);
@@ -32,18 +33,20 @@ void main() {
     if (!rejected && blocks != 0u) {
         return;
     }
-    uint first = list_row(slot);
-    uint cursor = head.w;
-    uint end = min(head.z, cursor + push.trip_budget);
-    for (; cursor < end; ++cursor) {
-        uint other = pool[first + (cursor >> 2)][cursor & 3u];
-        uint state = states[other];
-        if ((state & kStateMask) == kIdle || (state & kStateMask) == kRejected) {
-            if (!rejected) {
-                atomicOr(states[other], kRejected);
-            }
-        } else {
-            uint other_slot = state >> kStateSlotShift;
+    // Active conflicts first; only an accepted candidate goes on to the idle ones.
+    uint resolved = slots[slot * kSlotRows + 2u].w;
+    uint total = head.w + (rejected ? 0u : head.z);
+    uint end = min(total, resolved + push.trip_budget);
+    for (; resolved < end; ++resolved) {
+        bool is_active = resolved < head.w;
+        uint at = is_active ? active_entry(resolved) : resolved - head.w;
+        uint other = pool[list_row(slot) + (at >> 2)][at & 3u];
+        if (!is_active) {
+            atomicOr(points[other].x, kRejected);
+            continue;
+        }
+        uint other_slot = marks[other];
+        if (other_slot > slot) {
             if (rejected) {
                 atomicAdd(blockers[other_slot], 0xffffffffu);
             } else {
@@ -51,15 +54,15 @@ void main() {
             }
         }
     }
-    slots[slot * kSlotRows].w = cursor;
-    if (cursor == head.z) {
-        atomicExchange(states[place], rejected ? kRejected : kAccepted);
+    slots[slot * kSlotRows + 2u].w = resolved;
+    if (resolved == total) {
+        atomicXor(points[place].x, kActive ^ (rejected ? kRejected : kAccepted));
         atomicAdd(control.undecided, 0xffffffffu);
         if (!rejected) {
             atomicAdd(control.accepted, 1u);
             // Of accepted candidates alone: which others get a disk depends on the slots, and the
             // guard must not.
-            atomicMax(control.longest_chain, slots[slot * kSlotRows + 7u].z);
+            atomicMax(control.longest_chain, slots[slot * kSlotRows + 8u].y);
         }
     }
 }

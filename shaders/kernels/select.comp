@@ -3,17 +3,19 @@
 // Activates the lowest-ranked idle candidates, as many as there are slots, once the batch before is
 // decided (paper section 4.2). One work group; it may stop early, since how many are active never
 // matters.
-// reads: places   writes: states, slots, control, blockers
+// reads: alias columns, places   writes: points, slots, marks, control, blockers
 
 #include "../lib/prelude.glsl"
+#include "../lib/candidate.glsl"
 #include "../lib/group_scan.glsl"
 
 layout(local_size_x = 128) in;
 layout(constant_id = kSpecLocalSize) const uint kDetectLocalSize = 64u;
 
 GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
-GEODISK_BUFFER(kBindStates, , uint, states);
+GEODISK_BUFFER(kBindPoints, , uvec2, points);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
+GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
 GEODISK_CONTROL;
 
 // Blocks of ranks looked at in one dispatch.
@@ -22,21 +24,24 @@ const uint kBlocksPerDispatch = 64u;
 shared uint first_left; // lowest idle rank that found no slot
 
 void activate(uint slot, uint place, uint rank) {
+    Candidate c = draw_candidate(rank);
     uint row = slot * kSlotRows;
     slots[row] = uvec4(place, kPhaseClear, 0u, 0u);
-    slots[row + 1u] = uvec4(0u, 0u, 0u, rank);
+    slots[row + 1u] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
+                            floatBitsToUint(weight_of(c.weight2)));
     for (uint i = 2u; i < kSlotRows; ++i) {
         slots[row + i] = uvec4(0u);
     }
     blockers[slot] = 0u;
-    states[place] = kActive | slot << kStateSlotShift;
+    marks[place] = slot;
+    points[place].x |= kActive;
 }
 
 // Idle ranks among [begin, end) as bits.
 uint idle_bits(uint begin, uint end) {
     uint bits = 0u;
     for (uint rank = begin; rank < end; ++rank) {
-        uint idle = (states[places[rank]] & kStateMask) == kIdle ? 1u : 0u;
+        uint idle = (points[places[rank]].x & kStateMask) == kIdle ? 1u : 0u;
         bits |= idle << (rank - begin);
     }
     return bits;

@@ -5,13 +5,14 @@
 
 #include "rng.glsl"
 #include "rounding.glsl"
+#include "weights.glsl"
 
 GEODISK_BUFFER(kBindAlias, readonly, uvec2, alias_columns);
 
 struct Candidate {
     uint face;
-    float weight1;
-    float weight2;
+    uint weight1; // in units of 2^-24
+    uint weight2;
 };
 
 Candidate draw_candidate(uint rank) {
@@ -32,9 +33,7 @@ Candidate draw_candidate(uint rank) {
     uint both = uint(both_scaled);
     umulExtended(both, 16777216u - beta, high, low);
     uint second = high << 8 | low >> 24;
-    precise float weight1 = float(second) * 5.9604645e-8;
-    precise float weight2 = float(both - second) * 5.9604645e-8;
-    return Candidate(face, weight1, weight2);
+    return Candidate(face, second, both - second);
 }
 
 #endif

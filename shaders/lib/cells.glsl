@@ -3,11 +3,14 @@
 #define GEODISK_CELLS_GLSL
 
 struct Grid {
-    uint base;    // half-edge whose frame the grid lies in
     uint first;   // first cell, row by row
     uint columns;
     uint rows;
 };
+
+bool single_cell(uint word) { return (word >> kFaceCornerShift) == kSingleCell; }
+// Of a face with more than one cell: the corner its longest edge starts from.
+uint grid_corner(uint word) { return word >> kFaceCornerShift; }
 
 uint cell_count(float extent) { return uint(extent * float(kCellsPerDistance)) + 1u; }
 
@@ -19,13 +22,11 @@ uint cell_at(float x, uint count) {
     return scaled >= float(count - 1u) ? count - 1u : uint(scaled);
 }
 
-// The grid of a face whose word says that it has more than one cell; `edge` is that of `base`.
-Grid face_grid(uint face, uint word, out Edge edge) {
-    uint base = 3u * face + (word >> kFaceCornerShift);
-    edge = load_edge(base);
-    return Grid(base, word & kFirstCellMask, cell_count(edge.len), cell_count(edge.apex_y));
+// `len` and `height` are those of the face over its longest edge.
+Grid face_grid(uint word, float len, float height) {
+    bool single = single_cell(word);
+    return Grid(word & kFirstCellMask, single ? 1u : cell_count(len),
+                single ? 1u : cell_count(height));
 }
-
-bool single_cell(uint word) { return (word >> kFaceCornerShift) == kSingleCell; }
 
 #endif

@@ -1,47 +1,43 @@
-// Read-only access to the mesh: half-edges in their own frames.
+// Read-only access to the mesh. All lengths are in units of the minimum distance, all coordinates
+// in the frame of a half-edge: origin at its start, x along it, its face in y >= 0.
 #ifndef GEODISK_HALF_EDGE_GLSL
 #define GEODISK_HALF_EDGE_GLSL
 
-GEODISK_BUFFER(kBindHalfEdges, readonly, uvec4, half_edges);
+GEODISK_BUFFER(kBindFaces, readonly, uvec4, faces);
 
 struct Edge {
     float len;
-    float apex_x;
-    float apex_y;
-    uint origin;
-    bool border;
-};
-
-struct Turn {
-    float cosine;
+    float cosine; // of the face's angle at the origin
     float sine;
-    uint around;
-    uint fan_angles;
+    uint origin;  // vertex and flags
 };
 
-Edge load_edge(uint h) {
-    uvec4 row = half_edges[2u * h];
-    return Edge(uintBitsToFloat(row.x), uintBitsToFloat(row.y), uintBitsToFloat(row.z),
-                row.w & ~kBorder, (row.w & kBorder) != 0u);
+Edge load_edge(uint face, uint corner) {
+    uvec4 row = faces[kFaceRows * face + corner];
+    return Edge(uintBitsToFloat(row.x), uintBitsToFloat(row.y), uintBitsToFloat(row.z), row.w);
 }
 
-Turn load_turn(uint h) {
-    uvec4 row = half_edges[2u * h + 1u];
-    return Turn(uintBitsToFloat(row.x), uintBitsToFloat(row.y), row.z, row.w);
-}
+uvec4 load_links(uint face) { return faces[kFaceRows * face + 3u]; }
 
+uint next_corner(uint corner) { return corner == 2u ? 0u : corner + 1u; }
+uint previous_corner(uint corner) { return corner == 0u ? 2u : corner - 1u; }
 uint next_in_face(uint h) { return h % 3u == 2u ? h - 2u : h + 1u; }
-uint previous_in_face(uint h) { return h % 3u == 0u ? h + 2u : h - 1u; }
 
-// Position, in the frame of half-edge h, of the point with these weights of the second and third
-// corner of its face.
-vec2 position_in(uint h, Edge edge, float weight1, float weight2) {
+// Apex of the face in the frame of an edge; `previous` is the edge that ends where it starts.
+vec2 apex_of(Edge edge, Edge previous) {
+    precise float x = previous.len * edge.cosine;
+    precise float y = previous.len * edge.sine;
+    return vec2(x, y);
+}
+
+// Position, in the frame of the half-edge at this corner, of the point with these weights of the
+// second and third corner of the face.
+vec2 position_in(uint corner, float len, vec2 apex, float weight1, float weight2) {
     precise float weight0 = 1.0 - weight1 - weight2;
-    uint k = h % 3u;
-    float end = k == 0u ? weight1 : (k == 1u ? weight2 : weight0);
-    float apex = k == 0u ? weight2 : (k == 1u ? weight0 : weight1);
-    precise float x = end * edge.len + apex * edge.apex_x;
-    precise float y = apex * edge.apex_y;
+    float to_end = corner == 0u ? weight1 : (corner == 1u ? weight2 : weight0);
+    float to_apex = corner == 0u ? weight2 : (corner == 1u ? weight0 : weight1);
+    precise float x = to_end * len + to_apex * apex.x;
+    precise float y = to_apex * apex.y;
     return vec2(x, y);
 }
 

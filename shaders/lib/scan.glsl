@@ -3,131 +3,102 @@
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 
+uint own_place;
 uint scan_place;    // next candidate
 uint scan_end;
-uint scan_row;      // next row of cells, counted from the face's first cell
-uint scan_row_end;
-uint scan_column;   // cells of a row that can be reached: first, and how many
-uint scan_columns;
+uint scan_row;      // next row: its first cell that can be reached
+uint scan_row_end;  // and that of the row after the last
+uint scan_columns;  // cells of a row that can be reached
+uint scan_stride;   // cells of a whole row
 uint tested;
-uint conflicts;     // listed so far
+uint idle_conflicts; // listed so far
+uint active_conflicts;
 uint list_first;    // row of this slot's list
-uint own_rank;
 
-const uint kScanPerTrip = 64u;
+bool scanning() { return scan_place < scan_end || scan_row != scan_row_end; }
 
-bool scanning() { return scan_place < scan_end || scan_row < scan_row_end; }
-
-// A point given in the frame of h, in the frame of `base`, another half-edge of the face.
-vec2 in_grid_frame(uint h, uint base, Edge base_edge, float px, float py) {
-    if (h == base) {
-        return vec2(px, py);
-    }
-    if (h == next_in_face(base)) {
-        Turn turn = load_turn(h);
-        precise float gx = base_edge.len - px * turn.cosine - py * turn.sine;
-        precise float gy = px * turn.sine - py * turn.cosine;
-        return vec2(gx, gy);
-    }
-    Turn turn = load_turn(base);
-    precise float gx = base_edge.apex_x - px * turn.cosine + py * turn.sine;
-    precise float gy = base_edge.apex_y - px * turn.sine - py * turn.cosine;
-    return vec2(gx, gy);
+// A point given in the frame of half_edge, in the frame of another half-edge of the face.
+vec2 in_grid_frame(bool to_left, bool to_right, float px, float py) {
+    precise float left_x = left.len - px * edge.cosine - py * edge.sine;
+    precise float left_y = px * edge.sine - py * edge.cosine;
+    vec2 right_apex = apex_of(right, edge);
+    precise float right_x = right_apex.x - px * right.cosine + py * right.sine;
+    precise float right_y = right_apex.y - px * right.sine - py * right.cosine;
+    return to_left ? vec2(left_x, left_y) : (to_right ? vec2(right_x, right_y) : vec2(px, py));
 }
 
-// Sets out the cells of half_edge's face within reach of the source at (sx, sy) in its frame.
+// Sets out the cells of the face within reach of the source at (sx, sy).
 void begin_scan(float sx, float sy) {
-    uint face = half_edge / 3u;
-    uint word = cells[face];
-    uint first = word & kFirstCellMask;
-    scan_row = 0u;
-    scan_row_end = 0u;
-    if (single_cell(word)) {
-        scan_place = cells[push.faces + first];
-        scan_end = cells[push.faces + first + 1u];
-        return;
-    }
-    Edge base;
-    Grid grid = face_grid(face, word, base);
-    vec2 at = in_grid_frame(half_edge, grid.base, base, sx, sy);
-    precise float reach = (push.limit - sigma) + kCellPadding * (base.len + 1.0);
+    uint corner = half_edge % 3u;
+    uint base = grid_corner(cell_word);
+    bool to_left = base == previous_corner(corner);
+    bool to_right = base == next_corner(corner);
+    float len = to_left ? left.len : (to_right ? right.len : edge.len);
+    float height = to_left ? apex_of(left, right).y : (to_right ? apex_of(right, edge).y : apex.y);
+    Grid grid = face_grid(cell_word, len, height);
+    vec2 at = in_grid_frame(to_left, to_right, sx, sy);
+    precise float reach = (P.limit - sigma) + kCellPadding * (len + 1.0);
     precise float low_x = at.x - reach;
     precise float high_x = at.x + reach;
     precise float low_y = at.y - reach;
     precise float high_y = at.y + reach;
-    scan_column = cell_at(low_x, grid.columns);
-    scan_columns = cell_at(high_x, grid.columns) - scan_column + 1u;
+    uint column = cell_at(low_x, grid.columns);
     uint row0 = cell_at(low_y, grid.rows);
     uint row1 = cell_at(high_y, grid.rows);
-    // Rows are kept as cell numbers with the grid's width between them.
-    scan_row = row0;
-    scan_row_end = row1 + 1u;
+    scan_columns = cell_at(high_x, grid.columns) - column + 1u;
+    scan_stride = grid.columns;
+    scan_row = grid.first + row0 * grid.columns + column;
+    scan_row_end = scan_row + (row1 - row0 + 1u) * grid.columns;
     scan_place = 0u;
     scan_end = 0u;
 }
 
-void next_row() {
-    uint word = cells[half_edge / 3u];
-    Edge base;
-    Grid grid = face_grid(half_edge / 3u, word, base);
-    uint start = push.faces + grid.first + scan_row * grid.columns + scan_column;
-    scan_place = cells[start];
-    scan_end = cells[start + scan_columns];
-    ++scan_row;
-}
-
-void list_conflict(uint place, uint state) {
-    if (conflicts >= push.list_capacity) {
+void list_conflict(uint place, bool is_active) {
+    if (idle_conflicts + active_conflicts >= P.list_capacity) {
         overflow |= kOverflowConflicts;
         return;
     }
-    pool[list_first + (conflicts >> 2)][conflicts & 3u] = place;
-    ++conflicts;
-    if ((state & kStateMask) == kActive) {
-        atomicAdd(blockers[state >> kStateSlotShift], 1u);
-    }
+    uint at = is_active ? P.list_capacity - 1u - active_conflicts : idle_conflicts;
+    pool[list_first + (at >> 2)][at & 3u] = place;
+    active_conflicts += is_active ? 1u : 0u;
+    idle_conflicts += is_active ? 0u : 1u;
 }
 
-// Tests a few candidates against the operation in flight.
+// Tests candidates against the operation in flight, no more than a trip may.
 void scan_some() {
     bool inside = mode == kModeInside;
-    float sx = entry_x(edge.len);
+    uint corner = half_edge % 3u;
+    float sx = entry_x();
     float sy = inside ? y : -y;
-    vec2 lit = entry_interval(edge.len);
-    precise float low = (lit.x - push.slack) - sx;
-    precise float high = (lit.y + push.slack) - sx;
-    precise float rest = push.limit - sigma;
+    vec2 lit = entry_interval();
+    precise float low = (lit.x - P.slack) - sx;
+    precise float high = (lit.y + P.slack) - sx;
+    precise float rest = P.limit - sigma;
     precise float rest2 = rest * rest;
-    for (uint i = 0u; i < kScanPerTrip; ++i) {
-        ++trips;
+    for (uint i = 0u; i < kRowsPerTrip && scanning(); ++i) {
         if (scan_place >= scan_end) {
-            if (scan_row >= scan_row_end) {
-                break;
+            scan_place = cells[scan_row];
+            scan_end = cells[scan_row + scan_columns];
+            scan_row += scan_stride;
+        }
+        for (uint k = 0u; k < kScanPerRow && scan_place < scan_end; ++k) {
+            uint place = scan_place;
+            ++scan_place;
+            uvec2 point = points[place];
+            uint state = point.x & kStateMask;
+            if (state > kActive || place == own_place) {
+                continue;
             }
-            next_row();
-            continue;
-        }
-        uint place = scan_place;
-        ++scan_place;
-        uint state = states[place];
-        if ((state & kStateMask) > kActive) {
-            continue;
-        }
-        uvec4 point = points[place];
-        if (point.z <= own_rank) {
-            continue;
-        }
-        ++tested;
-        vec2 q = position_in(half_edge, edge, uintBitsToFloat(point.x), uintBitsToFloat(point.y));
-        precise float dx = q.x - sx;
-        precise float dy = q.y - sy;
-        float distance2 = squared(dx, dy);
-        if (distance2 < rest2) {
+            ++tested;
+            vec2 q = position_in(corner, edge.len, apex, weight_of(point.x >> kWeightShift),
+                                 weight_of(point.y >> kWeightShift));
+            precise float dx = q.x - sx;
+            precise float dy = q.y - sy;
             precise float at = dx * y;
             precise float from = low * dy;
             precise float to = high * dy;
-            if (inside || (at >= from && at <= to)) {
-                list_conflict(place, state);
+            if (squared(dx, dy) < rest2 && (inside || (at >= from && at <= to))) {
+                list_conflict(place, state == kActive);
             }
         }
     }

@@ -6,16 +6,12 @@
 uint table_first; // row of this slot's table
 uint vertices;    // rows in use
 
-// Longest run of rows looked at; with the table at most three quarters full it is reached only by
-// bad luck, which a larger table mends.
-const uint kMostProbes = 64u;
-
-// Row of the vertex, or the empty row where it belongs; the table's size if neither was found.
+// Row of the vertex, or the empty row where it belongs; the table's size if neither was found. With
+// the table at most half full that is bad luck, which a larger table mends.
 uint find_vertex(uint vertex, out uvec4 row) {
-    uint mask = push.table_capacity - 1u;
+    uint mask = P.table_capacity - 1u;
     uint at = (vertex * 2654435769u) >> 7 & mask;
     for (uint probe = 0u; probe < kMostProbes; ++probe) {
-        ++trips;
         row = pool[table_first + at];
         if (row.x == vertex + 1u || row.x == 0u) {
             return at;
@@ -23,16 +19,15 @@ uint find_vertex(uint vertex, out uvec4 row) {
         at = (at + 1u) & mask;
     }
     row = uvec4(0u);
-    return push.table_capacity;
+    return P.table_capacity;
 }
 
 float known_distance(uvec4 row) { return row.x == 0u ? kFar : uintBitsToFloat(row.y); }
 
-void note_vertex(uint vertex, float distance, uint through, float crossing) {
-    uvec4 row;
-    uint at = find_vertex(vertex, row);
-    bool fresh = row.x == 0u;
-    if (at == push.table_capacity || (fresh && 4u * vertices >= 3u * push.table_capacity)) {
+// `at` and `found` are what find_vertex gave.
+void note_vertex(uint at, uvec4 found, uint vertex, float distance, uint through, float crossing) {
+    bool fresh = found.x == 0u;
+    if (at == P.table_capacity || (fresh && 2u * vertices >= P.table_capacity)) {
         overflow |= kOverflowVertices;
         return;
     }

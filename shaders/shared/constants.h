@@ -6,14 +6,14 @@
 
 GEODISK_BEGIN_SHARED
 
-// State of a candidate: the two low bits of its state word. The higher bits of an active one name
-// the slot that works on it.
+// State of a candidate: the two low bits of PointRec::first.
 GEODISK_CONST uint kIdle = 0u;
 GEODISK_CONST uint kActive = 1u;
 GEODISK_CONST uint kAccepted = 2u;
 GEODISK_CONST uint kRejected = 3u;
 GEODISK_CONST uint kStateMask = 3u;
-GEODISK_CONST uint kStateSlotShift = 2u;
+// A weight sits above this many bits of its word, in units of 2^-24.
+GEODISK_CONST uint kWeightShift = 8u;
 
 // Angles around a vertex are integers in units of 2^-13 radian, so that comparing them is exact
 // everywhere. A corner's word holds its start in the low half and its size in the high half.
@@ -42,33 +42,47 @@ GEODISK_CONST uint kOverflowConflicts = 4u;
 GEODISK_CONST uint kOverflowChain = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
 
-// Set in a heap record's first word when it is the event of a vertex and not a window.
-GEODISK_CONST uint kVertexEvent = 0x80000000u;
 // Set in a blocker word once an accepted candidate of lower rank conflicts.
 GEODISK_CONST uint kBlockedForGood = 0x80000000u;
 
 // Where a slot stands.
 GEODISK_CONST uint kPhaseClear = 0u;   // empties the vertex table; cursor is the next row
 GEODISK_CONST uint kPhaseSource = 1u;  // spreads over the three edges of the candidate's face
-GEODISK_CONST uint kPhasePop = 2u;     // takes the nearest window or vertex
+GEODISK_CONST uint kPhasePop = 2u;     // takes the next window or event
 GEODISK_CONST uint kPhaseFan = 3u;     // spreads over the corners of a vertex
-GEODISK_CONST uint kPhaseCross = 4u;   // carries a window into every other face of its edge
-GEODISK_CONST uint kPhaseDone = 5u;    // the disk is complete
-GEODISK_CONST uint kPhaseStuck = 6u;   // the slice overflowed
+GEODISK_CONST uint kPhaseCross = 4u;   // carries a window into the next face of its edge
+GEODISK_CONST uint kPhaseBlock = 5u;   // counts itself among the blockers of active conflicts
+GEODISK_CONST uint kPhaseDone = 6u;    // the disk is complete
+GEODISK_CONST uint kPhaseStuck = 7u;   // the slice overflowed
 
 // How the operation in flight lies in the frame of its half-edge.
 GEODISK_CONST uint kModeInside = 0u;   // the source is in the face, all of it is lit
 GEODISK_CONST uint kModeSameWay = 1u;  // a window whose edge runs as the half-edge does
 GEODISK_CONST uint kModeOpposite = 2u; // a window whose edge runs against it
 
-// Set in a half-edge's origin word where no other face shares the edge.
-GEODISK_CONST uint kBorder = 0x80000000u;
+// Flags in a half-edge's origin word, above the vertex.
+GEODISK_CONST uint kOriginBends = 0x80000000u; // kFanBends of the vertex
+GEODISK_CONST uint kManyFaces = 0x40000000u;   // three or more faces share the edge
+GEODISK_CONST uint kVertexMask = 0x3fffffffu;
 
 GEODISK_CONST uint kNoHalfEdge = 0xffffffffu;
 GEODISK_CONST uint kWholeFan = 0xffffffffu;
 
-// Rows of a slot record and of a window.
-GEODISK_CONST uint kSlotRows = 9u;
+// The loops of detect: most iterations of each in one trip of the main loop, and in one dispatch.
+GEODISK_CONST uint kMostProbes = 16u;      // rows of the vertex table looked at
+GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
+GEODISK_CONST uint kRowsPerTrip = 8u;      // of cells
+GEODISK_CONST uint kScanPerRow = 16u;      // candidates
+GEODISK_CONST uint kClearPerDispatch = 4096u; // rows of the vertex table
+GEODISK_CONST uint kBlockPerDispatch = 1024u; // active conflicts
+// Together: an event taken and two vertices reached, two children left and pushed.
+GEODISK_CONST uint kIterationsPerTrip =
+    1u + kCornersPerTrip + 3u * kMostProbes + 6u + kRowsPerTrip * (1u + kScanPerRow);
+GEODISK_CONST uint kIterationsPerDispatch = kClearPerDispatch + kBlockPerDispatch + 1u;
+
+// Rows of a face, of a slot record and of a window.
+GEODISK_CONST uint kFaceRows = 4u;
+GEODISK_CONST uint kSlotRows = 10u;
 GEODISK_CONST uint kWindowRows = 2u;
 
 // Specialization constants.

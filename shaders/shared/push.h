@@ -19,7 +19,7 @@ struct Push {
     float slack;          // by how much an interval is widened for hits
     uint splits_once;     // 1 unless an edge has three faces, see lib/propagate.glsl
     uint slots;           // most candidates active at a time
-    uint window_capacity; // windows in the heap of one slot
+    uint window_capacity; // windows on the stack of one slot, and events in its ring, a power of two
     uint table_capacity;  // vertex table of one slot, a power of two
     uint list_capacity;   // conflicts one slot can list
     uint slice_rows;      // rows of four words per slot

@@ -8,10 +8,14 @@
 
 GEODISK_BEGIN_SHARED
 
-// A half-edge in units of the minimum distance.
+// A half-edge in units of the minimum distance, with the angle of its face at its origin.
 struct HalfEdgeRec {
-    float length; float apex_x; float apex_y; uint origin;
-    float cosine; float sine; uint around; uint fan_angles;
+    float length; float cosine; float sine; uint origin;
+};
+
+// Follows the three half-edges of a face: what they are linked to, and the face's word of cells.
+struct FaceLinksRec {
+    uint around0; uint around1; uint around2; uint cells;
 };
 
 struct FanRec {
@@ -22,29 +26,31 @@ struct AliasRec {
     uint threshold; uint alias;
 };
 
-// A candidate. The weights of the face's second and third corner are multiples of 2^-24 and that of
-// the first is exactly one minus both.
+// A candidate: the weights of the face's second and third corner in units of 2^-24, shifted up by
+// kWeightShift. The low bits of `first` are its state.
 struct PointRec {
-    float weight1; float weight2; uint rank; uint face;
+    uint first; uint second;
 };
 
-// An accepted candidate; the weights as in PointRec.
+// An accepted candidate. The weights are multiples of 2^-24 and that of the first corner is exactly
+// one minus both.
 struct SampleRec {
     uint rank; uint face; float weight1; float weight2;
 };
 
 // One active candidate and where its disk stands, so that detect can stop at any trip and go on.
 struct SlotRec {
-    uint place; uint phase; uint conflicts; uint resolved;
-    uint heap_size; uint high_water; uint vertices; uint rank;
+    uint place; uint phase; uint idle_conflicts; uint active_conflicts;
+    uint rank; uint face; float weight1; float weight2;
+    uint windows; uint event_head; uint event_tail; uint resolved;
     // The operation in flight: what spreads, in the frame of half_edge.
     uint half_edge; uint mode; float x; float y;
     float b0; float b1; float sigma; uint chain;
-    uint window_edge; uint cursor; uint cursor_end; uint entered_by;
+    uint known; uint cursor; uint cursor_end; uint corner_ahead;
     uint scan_place; uint scan_end; uint scan_row; uint scan_row_end;
-    uint scan_column; uint scan_columns; uint tested; uint face;
-    uint windows; uint peak; uint longest_chain; uint root;
-    uint pending_key; uint pending_window; uint open_window; uint spare;
+    uint scan_columns; uint scan_stride; uint tested; uint pushed;
+    uint most_waiting; uint longest_chain; uint vertices; uint spare;
+    uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
 };
 
 // The run as a whole. The three leading words are the indirect size of detect and resolve.
@@ -65,7 +71,7 @@ struct ControlRec {
     uint windows_high;
     uint tested_low;       // candidates tested in completed disks, 64 bits
     uint tested_high;
-    uint largest_heap;
+    uint most_waiting;
     uint longest_chain;    // of accepted candidates
     uint most_vertices;
     uint most_conflicts;
@@ -76,12 +82,13 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(HalfEdgeRec) == 32 && offsetof(HalfEdgeRec, fan_angles) == 28);
+static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, origin) == 12);
+static_assert(sizeof(FaceLinksRec) == 16 && offsetof(FaceLinksRec, cells) == 12);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
-static_assert(sizeof(PointRec) == 16 && offsetof(PointRec, face) == 12);
+static_assert(sizeof(PointRec) == 8 && offsetof(PointRec, second) == 4);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
-static_assert(sizeof(SlotRec) == 144 && offsetof(SlotRec, spare) == 140);
+static_assert(sizeof(SlotRec) == 160 && offsetof(SlotRec, fan_flags) == 156);
 static_assert(sizeof(ControlRec) == 88 && offsetof(ControlRec, most_conflicts) == 84);
 } // namespace geodisk::gpu
 #endif

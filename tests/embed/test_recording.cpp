@@ -22,8 +22,7 @@
 namespace geodisk::test {
 namespace {
 
-constexpr BufferRole kUploaded[] = {BufferRole::half_edges, BufferRole::fans, BufferRole::alias,
-                                    BufferRole::cells};
+constexpr BufferRole kUploaded[] = {BufferRole::faces, BufferRole::fans, BufferRole::alias};
 
 struct Task {
     PreparedMesh mesh;
@@ -298,9 +297,8 @@ TEST_SUITE("workspaces") {
             const EngineJob good(workshop, sampler, knot);
             const WorkspaceNeeds needs =
                 expect(sampler.workspace_needs(knot.mesh, knot.params, good.plan()));
-            const char* names[] = {"half_edges", "fans",   "alias",  "cells", "points",
-                                   "states",     "places", "slots",  "pool",  "control",
-                                   "marks",      "sums",   "samples"};
+            const char* names[] = {"faces", "fans", "alias",   "cells", "points", "places",
+                                   "slots", "pool", "control", "marks", "sums",   "samples"};
             for (std::size_t i = 0; i < kBufferRoles; ++i) {
                 CAPTURE(names[i]);
                 const auto check = [&](const BufferRange& range, Status status, const char* part) {

@@ -39,8 +39,7 @@ DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const
                                                   kWorkspaceUsage, MemoryKind::host));
         workspace[i] = {buffers_[i].handle(), 0, buffers_[i].size()};
     }
-    for (const BufferRole role :
-         {BufferRole::half_edges, BufferRole::fans, BufferRole::alias, BufferRole::cells}) {
+    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::alias}) {
         const auto bytes = buffers_[static_cast<std::size_t>(role)].bytes();
         expect(sampler_->mesh_bytes(mesh, params, role,
                                     bytes.first(sampler_->mesh_bytes_size(mesh, role))));

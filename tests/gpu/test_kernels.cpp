@@ -24,7 +24,6 @@ struct Twin {
     ref::Bins<float> bins;
     ref::Detector<float> detector;
     std::vector<std::uint8_t> states;
-    std::vector<std::uint32_t> places; ///< In `bins`, by rank.
 
     Twin(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain)
         : surface(mesh, params.min_distance),
@@ -33,24 +32,39 @@ struct Twin {
           bins(surface, points),
           detector(surface, bins, tolerances_for(mesh, params.min_distance, chain),
                    tolerances_for(mesh, params.min_distance, chain).limit),
-          states(points.size(), gpu::kIdle), places(points.size()) {
-        for (std::uint32_t place = 0; place < bins.order.size(); ++place) {
-            places[bins.order[place]] = place;
-        }
-    }
+          states(points.size(), gpu::kIdle) {}
 
     ref::DiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts) {
         const auto count = detector.run(
             points[rank],
             [&](std::uint32_t q) {
                 const std::uint32_t other = bins.order[q];
-                return other > rank && states[other] <= gpu::kActive;
+                return other != rank && states[other] <= gpu::kActive;
             },
-            [&](std::uint32_t q, float) { conflicts.push_back(bins.order[q]); });
+            [&](std::uint32_t q, float) {
+                // What an active one of lower rank decides about this one is for that one to say.
+                if (bins.order[q] > rank) {
+                    conflicts.push_back(bins.order[q]);
+                }
+            });
         std::sort(conflicts.begin(), conflicts.end());
         return count;
     }
 };
+
+/// Which rank lies at each place.
+std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run) {
+    const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
+    std::vector<std::uint32_t> ranks(places.size());
+    for (std::uint32_t rank = 0; rank < places.size(); ++rank) {
+        ranks[places[rank]] = rank;
+    }
+    return ranks;
+}
+
+float weight(std::uint32_t word) {
+    return static_cast<float>(word >> gpu::kWeightShift) * 0x1p-24f;
+}
 
 void compare_candidates(const DeviceRun& run, const Twin& twin) {
     const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
@@ -60,27 +74,22 @@ void compare_candidates(const DeviceRun& run, const Twin& twin) {
     for (std::uint32_t rank = 0; rank < points.size(); ++rank) {
         const gpu::PointRec& p = points[places[rank]];
         const ref::FacePoint<float>& want = twin.points[rank];
-        wrong += p.rank != rank || p.face != want.face ||
-                 std::bit_cast<std::uint32_t>(p.weight1) !=
-                     std::bit_cast<std::uint32_t>(want.weight1) ||
-                 std::bit_cast<std::uint32_t>(p.weight2) !=
-                     std::bit_cast<std::uint32_t>(want.weight2);
+        wrong += weight(p.first) != want.weight1 || weight(p.second) != want.weight2 ||
+                 (p.first & gpu::kStateMask) != gpu::kIdle;
     }
     CHECK(wrong == 0);
 }
 
 void compare_bins(const DeviceRun& run, const Twin& twin) {
-    const std::size_t faces = twin.surface.face_count();
-    const auto starts =
-        run.read<std::uint32_t>(BufferRole::cells, twin.bins.starts.size(), faces * 4);
+    const auto starts = run.read<std::uint32_t>(BufferRole::cells, twin.bins.starts.size());
     CHECK(starts == twin.bins.starts);
     // Within a cell the order is that of atomics, so cells are compared as sets.
-    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
+    const auto by_place = ranks_by_place(run);
     std::uint32_t wrong = 0;
     for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
         std::vector<std::uint32_t> ranks;
         for (std::uint32_t place = starts[c]; place < starts[c + 1]; ++place) {
-            ranks.push_back(points[place].rank);
+            ranks.push_back(by_place[place]);
         }
         std::sort(ranks.begin(), ranks.end());
         wrong += !std::equal(ranks.begin(), ranks.end(),
@@ -89,16 +98,21 @@ void compare_bins(const DeviceRun& run, const Twin& twin) {
     CHECK(wrong == 0);
 }
 
-/// The conflicts a slot lists, by rank, once each.
+/// The conflicts of higher rank that a slot lists.
 std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
-                                  const std::vector<gpu::PointRec>& points) {
+                                  const std::vector<std::uint32_t>& by_place) {
     const RunPlan& plan = run.plan();
-    const std::size_t row = index * plan.slice_rows() + plan.window_capacity / 2 + 2 +
-                            gpu::kWindowRows * plan.window_capacity + plan.table_capacity;
+    const std::size_t row = (index + 1) * plan.slice_rows() - plan.list_capacity / 4;
+    const auto list = run.read<std::uint32_t>(BufferRole::pool, plan.list_capacity, row * 16);
     std::vector<std::uint32_t> ranks;
-    for (const std::uint32_t place :
-         run.read<std::uint32_t>(BufferRole::pool, slot.conflicts, row * 16)) {
-        ranks.push_back(points[place].rank);
+    for (std::uint32_t i = 0; i < slot.idle_conflicts; ++i) {
+        ranks.push_back(by_place[list[i]]);
+    }
+    for (std::uint32_t i = 0; i < slot.active_conflicts; ++i) {
+        const std::uint32_t rank = by_place[list[plan.list_capacity - 1 - i]];
+        if (rank > slot.rank) {
+            ranks.push_back(rank);
+        }
     }
     std::sort(ranks.begin(), ranks.end());
     return ranks;
@@ -106,7 +120,7 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot
 
 /// What the disks of one batch took and found, slot by slot.
 void compare_batch(const DeviceRun& run, Twin& twin,
-                   const std::vector<gpu::PointRec>& points) {
+                   const std::vector<std::uint32_t>& by_place) {
     const gpu::ControlRec control = run.control();
     const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
     const auto batch = ref::select_idle(twin.states, control.batch_rank, run.plan().slots);
@@ -125,21 +139,21 @@ void compare_batch(const DeviceRun& run, Twin& twin,
         const auto at = static_cast<std::size_t>(
             std::lower_bound(batch.begin(), batch.end(), slots[i].rank) - batch.begin());
         const ref::DiskCount want = twin.disk(batch[at], conflicts[at]);
-        wrong += slots[i].windows != want.windows || slots[i].peak != want.peak ||
+        wrong += slots[i].pushed != want.windows || slots[i].most_waiting != want.most_waiting ||
                  slots[i].longest_chain != want.chain || slots[i].vertices != want.vertices ||
                  slots[i].tested != want.tested;
-        wrong += listed(run, slots[i], i, points) != conflicts[at];
+        wrong += listed(run, slots[i], i, by_place) != conflicts[at];
     }
     CHECK(wrong == 0);
     ref::resolve_batch(batch, conflicts, twin.states);
 }
 
 void compare_states(const DeviceRun& run, const Twin& twin,
-                    const std::vector<gpu::PointRec>& points) {
-    const auto states = run.read<std::uint32_t>(BufferRole::states, run.candidates());
+                    const std::vector<std::uint32_t>& by_place) {
+    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
     std::uint32_t wrong = 0;
-    for (std::uint32_t place = 0; place < states.size(); ++place) {
-        wrong += (states[place] & gpu::kStateMask) != twin.states[points[place].rank];
+    for (std::uint32_t place = 0; place < points.size(); ++place) {
+        wrong += (points[place].first & gpu::kStateMask) != twin.states[by_place[place]];
     }
     CHECK(wrong == 0);
 }
@@ -169,7 +183,7 @@ void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
     // Budgets and capacities so large that each round completes a batch.
     RunPlan plan;
     plan.slots = slots;
-    plan.window_capacity = 8192;
+    plan.window_capacity = 4096;
     plan.table_capacity = 8192;
     plan.list_capacity = 1024;
     SamplerOptions options;
@@ -179,7 +193,7 @@ void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
     run.begin();
     compare_candidates(run, twin);
     compare_bins(run, twin);
-    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
+    const auto by_place = ranks_by_place(run);
     while (true) {
         run.rounds(1);
         gpu::ControlRec control = run.control();
@@ -191,8 +205,8 @@ void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
             run.rounds(1);
             control = run.control();
         }
-        compare_batch(run, twin, points);
-        compare_states(run, twin, points);
+        compare_batch(run, twin, by_place);
+        compare_states(run, twin, by_place);
     }
     run.finish();
     compare_samples(run, twin);

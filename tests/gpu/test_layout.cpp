@@ -68,7 +68,7 @@ const Offsets kControl{
     GEODISK_OFFSET(ControlRec, iterations),    GEODISK_OFFSET(ControlRec, disks),
     GEODISK_OFFSET(ControlRec, windows_low),   GEODISK_OFFSET(ControlRec, windows_high),
     GEODISK_OFFSET(ControlRec, tested_low),    GEODISK_OFFSET(ControlRec, tested_high),
-    GEODISK_OFFSET(ControlRec, largest_heap),  GEODISK_OFFSET(ControlRec, longest_chain),
+    GEODISK_OFFSET(ControlRec, most_waiting),  GEODISK_OFFSET(ControlRec, longest_chain),
     GEODISK_OFFSET(ControlRec, most_vertices), GEODISK_OFFSET(ControlRec, most_conflicts)};
 
 } // namespace

@@ -79,7 +79,7 @@ void run_case(Runner& runner, const std::string& name, const PreparedMesh& mesh,
                 name.c_str(), n, equal ? "equal" : "DIFF", median(device), median(reference),
                 median(device) / median(reference), n / median(device),
                 static_cast<double>(r.windows) / r.disks, r.disks / n, r.iterations,
-                r.largest_heap, r.regrown, static_cast<double>(r.device_bytes) / 1048576.0);
+                r.most_waiting, r.regrown, static_cast<double>(r.device_bytes) / 1048576.0);
     std::fflush(stdout);
     if (!equal) {
         throw tools::UserError(tools::ExitCode::internal, "the sets differ");

@@ -87,7 +87,7 @@ std::string json_text(const SampleReport& report) {
                         {"disks", run.disks},
                         {"windows", run.windows},
                         {"tested", run.tested},
-                        {"largest_heap", run.largest_heap},
+                        {"most_waiting", run.most_waiting},
                         {"longest_chain", run.longest_chain},
                         {"regrown", run.regrown},
                         {"guard", run.guard},

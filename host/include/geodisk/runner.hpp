@@ -31,7 +31,7 @@ struct RunReport {
     std::uint32_t regrown = 0;      ///< Times a batch was repeated with larger slices.
     std::uint64_t windows = 0;      ///< Windows and vertex events of all disks.
     std::uint64_t tested = 0;       ///< Candidate distances computed in all disks.
-    std::uint32_t largest_heap = 0; ///< Most windows in one heap.
+    std::uint32_t most_waiting = 0; ///< Most windows, or vertex events, waiting in one slot.
     std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
     std::uint32_t most_vertices = 0;  ///< Reached by one disk.
     std::uint32_t most_conflicts = 0; ///< Listed by one disk.

@@ -46,10 +46,9 @@ struct SamplerOptions {
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
 enum class BufferRole : std::uint32_t {
-    half_edges, fans, alias, cells, points, states, places, slots, pool, control, marks, sums,
-    samples,
+    faces, fans, alias, cells, points, places, slots, pool, control, marks, sums, samples,
 };
-inline constexpr std::size_t kBufferRoles = 13;
+inline constexpr std::size_t kBufferRoles = 12;
 
 /// Name of a role as spelled above, for messages.
 GEODISK_API const char* to_string(BufferRole role) noexcept;
@@ -79,7 +78,7 @@ struct WorkspaceNeeds {
 /// where a distance is within the guard of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time.
-    std::uint32_t window_capacity = 0; ///< Windows per slot, even.
+    std::uint32_t window_capacity = 0; ///< Windows per slot, and vertex events; a power of two.
     std::uint32_t table_capacity = 0;  ///< Vertices per slot, a power of two.
     std::uint32_t list_capacity = 0;   ///< Conflicts per slot, a multiple of 4.
     std::uint32_t trip_budget = 0;     ///< Loop iterations per invocation and dispatch.
@@ -127,9 +126,8 @@ class GEODISK_API Sampler {
     Result<WorkspaceNeeds> workspace_needs(const PreparedMesh& mesh, const SampleParams& params,
                                            const RunPlan& plan) const noexcept;
 
-    /// Writes the bytes of a mesh buffer (half_edges, fans, alias or cells) for the caller to
-    /// upload. `out` must hold exactly as many bytes as `mesh_bytes_size` tells; for cells that is
-    /// less than the buffer's size.
+    /// Writes the bytes of a mesh buffer (faces, fans or alias) for the caller to upload. `out` must
+    /// hold exactly as many bytes as `mesh_bytes_size` tells.
     Result<Done> mesh_bytes(const PreparedMesh& mesh, const SampleParams& params, BufferRole role,
                             std::span<std::byte> out) const noexcept;
     std::size_t mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept;

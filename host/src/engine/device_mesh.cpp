@@ -18,6 +18,8 @@ float scaled(double length, double unit) {
     return static_cast<float>(x < 0x1p-40 && x > -0x1p-40 ? 0.0 : x);
 }
 
+float direction(double cosine_or_sine) { return scaled(cosine_or_sine, 1); }
+
 constexpr std::uint64_t kTooMany = std::uint64_t{1} << 31;
 
 struct Grid {
@@ -25,7 +27,11 @@ struct Grid {
     std::uint32_t corner;
 };
 
-/// The same arithmetic as cell_count in shaders/lib/cells.glsl.
+float previous_length(const PreparedMesh& mesh, std::uint32_t h, double unit) {
+    return scaled(mesh.half_edges()[previous_in_face(h)].length, unit);
+}
+
+/// The same arithmetic as in shaders/lib: apex_of, then cell_count.
 std::uint64_t cell_count(float extent) {
     if (!(extent < 0x1p30f)) {
         return kTooMany;
@@ -41,8 +47,23 @@ Grid face_grid(const PreparedMesh& mesh, std::uint32_t face, double unit) {
                      ? k
                      : corner;
     }
-    return {cell_count(scaled(edges[corner].length, unit)),
-            cell_count(scaled(edges[corner].apex_y, unit)), corner};
+    const float height =
+        previous_length(mesh, 3 * face + corner, unit) * direction(edges[corner].sine);
+    return {cell_count(scaled(edges[corner].length, unit)), cell_count(height), corner};
+}
+
+/// Rows of the fans buffer: fans, pairs of corner and angles, angles by half-edge.
+struct FanRows {
+    std::size_t fans, corners, angles;
+    explicit FanRows(const PreparedMesh& mesh)
+        : fans(mesh.fans().size()), corners((mesh.half_edges().size() + 1) / 2),
+          angles((mesh.half_edges().size() + 3) / 4) {}
+    std::size_t bytes() const { return (fans + corners + angles) * 16; }
+};
+
+bool shared_by_many(const PreparedMesh& mesh, std::uint32_t h) {
+    const std::uint32_t next = around_half_edge(mesh.half_edges()[h].around);
+    return around_half_edge(mesh.half_edges()[next].around) != h;
 }
 
 template <class Record>
@@ -68,46 +89,61 @@ Result<std::uint32_t> count_cells(const PreparedMesh& mesh, double min_distance)
     return static_cast<std::uint32_t>(cells);
 }
 
-std::size_t half_edge_bytes(const PreparedMesh& mesh) {
-    return mesh.half_edges().size() * sizeof(gpu::HalfEdgeRec);
+std::size_t face_bytes(const PreparedMesh& mesh) {
+    return mesh.face_count() * (3 * sizeof(gpu::HalfEdgeRec) + sizeof(gpu::FaceLinksRec));
 }
 
 std::size_t fan_bytes(const PreparedMesh& mesh) {
-    // Corners follow the fans, in whole rows.
-    return mesh.fans().size() * sizeof(gpu::FanRec) + (mesh.corners().size() + 3) / 4 * 16;
+    return FanRows(mesh).bytes();
 }
 
 std::size_t alias_bytes(const PreparedMesh& mesh) {
     return mesh.alias_columns().size() * sizeof(gpu::AliasRec);
 }
 
-std::size_t face_word_bytes(const PreparedMesh& mesh) {
-    return std::size_t{mesh.face_count()} * sizeof(std::uint32_t);
-}
-
-void write_half_edges(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out) {
+void write_faces(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out) {
     const double unit = working_distance(mesh, min_distance);
-    for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
-        const HalfEdge& e = mesh.half_edges()[h];
-        const bool border = around_half_edge(e.around) == h;
-        store(out, h,
-              gpu::HalfEdgeRec{scaled(e.length, unit), scaled(e.apex_x, unit), scaled(e.apex_y, unit),
-                               e.origin | (border ? gpu::kBorder : 0u),
-                               static_cast<float>(e.cosine), static_cast<float>(e.sine), e.around,
-                               e.fan_angles});
+    std::uint32_t first_cell = 0;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t h = 3 * f + k;
+            const HalfEdge& e = mesh.half_edges()[h];
+            const bool bends = (mesh.fans()[e.origin].flags & gpu::kFanBends) != 0;
+            store(out, gpu::kFaceRows * f + k,
+                  gpu::HalfEdgeRec{scaled(e.length, unit), direction(e.cosine), direction(e.sine),
+                                   e.origin | (bends ? gpu::kOriginBends : 0u) |
+                                       (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u)});
+        }
+        const Grid grid = face_grid(mesh, f, unit);
+        const bool single = grid.columns * grid.rows == 1;
+        const auto edges = mesh.half_edges().subspan(std::size_t{3} * f, 3);
+        store(out, gpu::kFaceRows * f + 3,
+              gpu::FaceLinksRec{edges[0].around, edges[1].around, edges[2].around,
+                                first_cell | (single ? gpu::kSingleCell : grid.corner)
+                                                 << gpu::kFaceCornerShift});
+        first_cell += static_cast<std::uint32_t>(grid.columns * grid.rows);
     }
 }
 
 void write_fans(const PreparedMesh& mesh, std::span<std::byte> out) {
+    const FanRows rows(mesh);
     std::memset(out.data(), 0, out.size());
     for (std::size_t v = 0; v < mesh.fans().size(); ++v) {
         const VertexFan& fan = mesh.fans()[v];
         store(out, v,
               gpu::FanRec{fan.first_corner, fan.corner_count, fan.total_angle, fan.flags});
     }
-    if (!mesh.corners().empty()) {
-        std::memcpy(out.data() + mesh.fans().size() * sizeof(gpu::FanRec), mesh.corners().data(),
-                    mesh.corners().size_bytes());
+    struct CornerRec {
+        std::uint32_t half_edge, angles;
+    };
+    const auto corners = out.subspan(rows.fans * 16);
+    for (std::size_t i = 0; i < mesh.corners().size(); ++i) {
+        const std::uint32_t h = mesh.corners()[i];
+        store(corners, i, CornerRec{h, mesh.half_edges()[h].fan_angles});
+    }
+    const auto angles = corners.subspan(rows.corners * 16);
+    for (std::size_t h = 0; h < mesh.half_edges().size(); ++h) {
+        store(angles, h, mesh.half_edges()[h].fan_angles);
     }
 }
 
@@ -115,17 +151,6 @@ void write_alias(const PreparedMesh& mesh, std::span<std::byte> out) {
     for (std::size_t f = 0; f < mesh.alias_columns().size(); ++f) {
         const AliasColumn& column = mesh.alias_columns()[f];
         store(out, f, gpu::AliasRec{column.threshold, column.alias});
-    }
-}
-
-void write_face_words(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out) {
-    const double unit = working_distance(mesh, min_distance);
-    std::uint32_t first = 0;
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const Grid grid = face_grid(mesh, f, unit);
-        const bool single = grid.columns * grid.rows == 1;
-        store(out, f, first | (single ? gpu::kSingleCell : grid.corner) << gpu::kFaceCornerShift);
-        first += static_cast<std::uint32_t>(grid.columns * grid.rows);
     }
 }
 

@@ -13,15 +13,13 @@ namespace geodisk {
 /// Cells of all faces together; more than 2^30 is an error naming the face.
 Result<std::uint32_t> count_cells(const PreparedMesh& mesh, double min_distance);
 
-std::size_t half_edge_bytes(const PreparedMesh& mesh);
+std::size_t face_bytes(const PreparedMesh& mesh);
 std::size_t fan_bytes(const PreparedMesh& mesh);
 std::size_t alias_bytes(const PreparedMesh& mesh);
-std::size_t face_word_bytes(const PreparedMesh& mesh);
 
 // Each fills exactly its number of bytes.
-void write_half_edges(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out);
+void write_faces(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out);
 void write_fans(const PreparedMesh& mesh, std::span<std::byte> out);
 void write_alias(const PreparedMesh& mesh, std::span<std::byte> out);
-void write_face_words(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out);
 
 } // namespace geodisk

@@ -69,7 +69,7 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 Result<Done> check_plan(const RunPlan& plan) {
     constexpr std::uint32_t kMost = 1u << 26;
     const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
-                      plan.window_capacity % 2 == 0 && std::has_single_bit(plan.table_capacity) &&
+                      std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
                       plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 &&
                       plan.trip_budget >= 1 && plan.slots <= kMost &&
                       plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
@@ -77,7 +77,7 @@ Result<Done> check_plan(const RunPlan& plan) {
     if (!fine) {
         return Error{Status::invalid_argument,
                      "the plan is not as RunPlan asks: slots and trip_budget at least 1, "
-                     "window_capacity even, table_capacity a power of two, list_capacity a "
+                     "window_capacity and table_capacity powers of two, list_capacity a "
                      "multiple of 4, none of them 0 or more than 2^26"};
     }
     return Done{};

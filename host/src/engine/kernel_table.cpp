@@ -20,33 +20,34 @@ namespace {
 
 using namespace gpu;
 
-constexpr std::uint32_t kCandidates[] = {kBindHalfEdges, kBindAlias, kBindCells, kBindPlaces};
+constexpr std::uint32_t kCandidates[] = {kBindFaces, kBindAlias, kBindCells, kBindPlaces};
 constexpr std::uint32_t kScanData[] = {kBindMarks, kBindSums};
 constexpr std::uint32_t kScanSums[] = {kBindSums};
 constexpr std::uint32_t kBinFill[] = {kBindAlias, kBindCells, kBindPoints, kBindPlaces};
-constexpr std::uint32_t kSelect[] = {kBindStates, kBindPlaces, kBindSlots, kBindControl};
-constexpr std::uint32_t kDetect[] = {kBindHalfEdges, kBindFans,  kBindCells, kBindPoints,
-                                     kBindStates,    kBindSlots, kBindPool,  kBindControl};
-constexpr std::uint32_t kResolve[] = {kBindStates, kBindSlots, kBindPool, kBindControl};
-constexpr std::uint32_t kRewind[] = {kBindStates, kBindSlots, kBindControl};
-constexpr std::uint32_t kCompactMark[] = {kBindStates, kBindPlaces, kBindMarks};
-constexpr std::uint32_t kCompactGather[] = {kBindPoints, kBindStates, kBindPlaces, kBindMarks,
+constexpr std::uint32_t kSelect[] = {kBindAlias, kBindPoints,  kBindPlaces,
+                                     kBindSlots, kBindControl, kBindMarks};
+constexpr std::uint32_t kDetect[] = {kBindFaces, kBindFans, kBindCells,   kBindPoints,
+                                     kBindSlots, kBindPool, kBindControl, kBindMarks};
+constexpr std::uint32_t kResolve[] = {kBindPoints, kBindSlots, kBindPool, kBindControl, kBindMarks};
+constexpr std::uint32_t kRewind[] = {kBindPoints, kBindSlots, kBindControl};
+constexpr std::uint32_t kCompactMark[] = {kBindPoints, kBindPlaces, kBindMarks};
+constexpr std::uint32_t kCompactGather[] = {kBindAlias, kBindPoints, kBindPlaces, kBindMarks,
                                             kBindSamples};
 constexpr std::uint32_t kSelfTest[] = {kBindSums};
 
 const std::array<KernelInfo, kKernels> kTable{{
-    {"candidates", k_candidates_spirv, kCandidates},
-    {"scan_blocks", k_scan_blocks_spirv, kScanData},
-    {"scan_sums", k_scan_sums_spirv, kScanSums},
-    {"scan_add", k_scan_add_spirv, kScanData},
-    {"bin_fill", k_bin_fill_spirv, kBinFill},
-    {"select", k_select_spirv, kSelect},
-    {"detect", k_detect_spirv, kDetect},
-    {"resolve", k_resolve_spirv, kResolve},
-    {"rewind", k_rewind_spirv, kRewind},
-    {"compact_mark", k_compact_mark_spirv, kCompactMark},
-    {"compact_gather", k_compact_gather_spirv, kCompactGather},
-    {"self_test", k_self_test_spirv, kSelfTest},
+    {"candidates", k_candidates_spirv, kCandidates, false},
+    {"scan_blocks", k_scan_blocks_spirv, kScanData, false},
+    {"scan_sums", k_scan_sums_spirv, kScanSums, false},
+    {"scan_add", k_scan_add_spirv, kScanData, false},
+    {"bin_fill", k_bin_fill_spirv, kBinFill, false},
+    {"select", k_select_spirv, kSelect, true},
+    {"detect", k_detect_spirv, kDetect, true},
+    {"resolve", k_resolve_spirv, kResolve, true},
+    {"rewind", k_rewind_spirv, kRewind, true},
+    {"compact_mark", k_compact_mark_spirv, kCompactMark, false},
+    {"compact_gather", k_compact_gather_spirv, kCompactGather, false},
+    {"self_test", k_self_test_spirv, kSelfTest, false},
 }};
 
 } // namespace

@@ -9,8 +9,7 @@
 namespace geodisk {
 
 enum class Kernel : std::uint32_t {
-    candidates, scan_blocks, scan_sums, scan_add, bin_fill, select, detect, resolve, rewind,
-    compact_mark, compact_gather, self_test,
+    candidates, scan_blocks, scan_sums, scan_add, bin_fill, select, detect, resolve, rewind, compact_mark, compact_gather, self_test,
 };
 inline constexpr std::size_t kKernels = 12;
 
@@ -18,6 +17,7 @@ struct KernelInfo {
     const char* name;
     std::span<const std::uint32_t> spirv;
     std::span<const std::uint32_t> bindings; ///< Binding numbers, ascending; at most eight.
+    bool per_slot; ///< One invocation per slot, else per candidate or as the kernel says.
 };
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept;

@@ -14,11 +14,17 @@ const double kTwoRootThree = 2 * std::sqrt(3.0);
 constexpr double kMinimumPool = 64;
 // Ranks share words with flags.
 constexpr double kMaximumPool = 0x1p30;
-constexpr double kBytesPerCandidate = 28;
+constexpr double kBytesPerCandidate = 16;
 // Edges longer than this many distances would need a guard of a percent.
 constexpr double kLongestEdge = 4000;
 constexpr std::uint32_t kMinimumChain = 64;
 constexpr std::uint32_t kMaximumChain = 1u << 16;
+
+/// One disk covers about 2 F / N faces.
+double faces_per_disk(const PreparedMesh& mesh, double min_distance) {
+    return 2.0 * mesh.face_count() /
+           std::max(1.0, expected_count(mesh.statistics().area, min_distance));
+}
 
 /// A large number for a message, three digits, the same in every locale.
 std::string number(double value) {
@@ -81,9 +87,8 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
 }
 
 std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept {
-    const double disks = std::max(1.0, expected_count(mesh.statistics().area, min_distance));
-    // One disk covers about 2 F / N faces; a straight path crosses about their square root.
-    const double guess = 8 + 4 * std::sqrt(2.0 * mesh.face_count() / disks);
+    // A straight path crosses about the square root of the faces.
+    const double guess = 8 + 4 * std::sqrt(faces_per_disk(mesh, min_distance));
     return static_cast<std::uint32_t>(
         std::clamp<double>(guess, kMinimumChain, kMaximumChain));
 }

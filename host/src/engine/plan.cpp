@@ -16,12 +16,11 @@
 namespace geodisk {
 namespace {
 
-// llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently. The group
-// has at most 16 lanes, whose iterations add up in the worst case, and the last trip of detect's
-// main loop may overshoot the budget by less than 1,024.
-constexpr std::uint32_t kLlvmpipeTrips = 65535 / 16 - 1024;
+// llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently.
+constexpr std::uint32_t kLlvmpipeTrips =
+    (65535 - gpu::kIterationsPerDispatch) / gpu::kIterationsPerTrip;
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
-constexpr std::uint32_t kDefaultTrips = 8192;
+constexpr std::uint32_t kDefaultTrips = 1024;
 constexpr std::uint32_t kMostSlots = 1u << 16;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
 
@@ -58,8 +57,8 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
 
 const char* to_string(BufferRole role) noexcept {
     constexpr const char* kNames[kBufferRoles] = {
-        "half_edges", "fans", "alias",   "cells", "points", "states", "places",
-        "slots",      "pool", "control", "marks", "sums",   "samples"};
+        "faces", "fans",    "alias", "cells", "points", "places", "slots",
+        "pool",  "control", "marks", "sums",  "samples"};
     return kNames[static_cast<std::size_t>(role)];
 }
 
@@ -77,8 +76,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
 }
 
 std::uint32_t RunPlan::slice_rows() const noexcept {
-    return window_capacity / 2 + 2 + gpu::kWindowRows * window_capacity + table_capacity +
-           list_capacity / 4;
+    return (gpu::kWindowRows + 1) * window_capacity + table_capacity + list_capacity / 4;
 }
 
 std::uint64_t RunPlan::pool_bytes() const noexcept {
@@ -105,8 +103,8 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
         plan.slots = wanted_slots(disks, report.type == VK_PHYSICAL_DEVICE_TYPE_CPU);
-        plan.window_capacity = pow2_at_least(32 + 4 * faces_per_disk);
-        plan.table_capacity = pow2_at_least(32 + 2 * faces_per_disk);
+        plan.window_capacity = pow2_at_least(64 + faces_per_disk);
+        plan.table_capacity = pow2_at_least(32 + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.trip_budget = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips
                                                                           : kDefaultTrips;
@@ -154,12 +152,11 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
         const std::uint64_t count = *candidates;
         const std::uint64_t scanned = std::max<std::uint64_t>(count, std::uint64_t{*cells} + 1);
         WorkspaceNeeds needs;
-        needs.bytes = {half_edge_bytes(mesh),
+        needs.bytes = {face_bytes(mesh),
                        fan_bytes(mesh),
                        alias_bytes(mesh),
-                       face_word_bytes(mesh) + (std::uint64_t{*cells} + 1) * 4,
+                       (std::uint64_t{*cells} + 1) * 4,
                        count * sizeof(gpu::PointRec),
-                       count * 4,
                        count * 4,
                        plan.slots * sizeof(gpu::SlotRec),
                        plan.pool_bytes(),

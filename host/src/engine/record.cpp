@@ -48,9 +48,9 @@ class Recorder {
         dispatch(Kernel::scan_add, blocks, push, role);
     }
 
-    void fill(BufferRole role, VkDeviceSize skip, VkDeviceSize size) const {
+    void fill(BufferRole role, VkDeviceSize size) const {
         const BufferRange& target = range(role);
-        sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset + skip, size, 0);
+        sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset, size, 0);
     }
 
   private:
@@ -78,15 +78,12 @@ class Recorder {
 void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    const VkDeviceSize face_words = VkDeviceSize{push.faces} * 4;
     const std::uint32_t starts = push.cells + 1;
-    recorder.fill(BufferRole::cells, face_words, VkDeviceSize{starts} * 4);
-    recorder.fill(BufferRole::states, 0, VkDeviceSize{push.candidates} * 4);
-    recorder.fill(BufferRole::control, 0,
-                  sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
+    recorder.fill(BufferRole::cells, VkDeviceSize{starts} * 4);
+    recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch_per_candidate(Kernel::candidates);
-    recorder.scan(push.faces, starts, SetRole::cell_scan);
+    recorder.scan(0, starts, SetRole::cell_scan);
     recorder.dispatch_per_candidate(Kernel::bin_fill);
 }
 

@@ -178,8 +178,7 @@ Result<Done> Run::upload_buffer(BufferRole role) {
 }
 
 Result<Done> Run::upload() {
-    for (const BufferRole role :
-         {BufferRole::half_edges, BufferRole::fans, BufferRole::alias, BufferRole::cells}) {
+    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::alias}) {
         if (auto done = upload_buffer(role); !done) {
             return done.error();
         }
@@ -326,7 +325,7 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
     report_.disks = control_.disks;
     report_.windows = std::uint64_t{control_.windows_high} << 32 | control_.windows_low;
     report_.tested = std::uint64_t{control_.tested_high} << 32 | control_.tested_low;
-    report_.largest_heap = control_.largest_heap;
+    report_.most_waiting = control_.most_waiting;
     report_.longest_chain = control_.longest_chain;
     report_.most_vertices = control_.most_vertices;
     report_.most_conflicts = control_.most_conflicts;

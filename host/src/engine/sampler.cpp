@@ -148,13 +148,12 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateShaderModule", result);
     }
-    const bool per_slot = kernel == Kernel::select || kernel == Kernel::detect ||
-                          kernel == Kernel::resolve || kernel == Kernel::rewind;
-    const std::array<std::uint32_t, 2> constants{per_slot ? slot_local_size : local_size,
+    constexpr std::uint32_t kWord = sizeof(std::uint32_t);
+    const std::array<std::uint32_t, 2> constants{info.per_slot ? slot_local_size : local_size,
                                                  native_rounding ? VK_TRUE : VK_FALSE};
     const std::array<VkSpecializationMapEntry, 2> entries{{
-        {gpu::kSpecLocalSize, 0, sizeof(std::uint32_t)},
-        {gpu::kSpecNativeRounding, sizeof(std::uint32_t), sizeof(std::uint32_t)},
+        {gpu::kSpecLocalSize, 0, kWord},
+        {gpu::kSpecNativeRounding, kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};
@@ -181,10 +180,9 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
 
 std::size_t Sampler::mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept {
     switch (role) {
-    case BufferRole::half_edges: return half_edge_bytes(mesh);
+    case BufferRole::faces: return face_bytes(mesh);
     case BufferRole::fans: return fan_bytes(mesh);
     case BufferRole::alias: return alias_bytes(mesh);
-    case BufferRole::cells: return face_word_bytes(mesh);
     default: return 0;
     }
 }
@@ -196,10 +194,9 @@ Result<Done> Sampler::mesh_bytes(const PreparedMesh& mesh, const SampleParams& p
             return Error{Status::invalid_argument, "not a mesh buffer, or not of its size"};
         }
         switch (role) {
-        case BufferRole::half_edges: write_half_edges(mesh, params.min_distance, out); break;
+        case BufferRole::faces: write_faces(mesh, params.min_distance, out); break;
         case BufferRole::fans: write_fans(mesh, out); break;
-        case BufferRole::alias: write_alias(mesh, out); break;
-        default: write_face_words(mesh, params.min_distance, out); break;
+        default: write_alias(mesh, out); break;
         }
         return Done{};
     });

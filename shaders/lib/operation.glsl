@@ -1,0 +1,59 @@
+// The operation in flight: what spreads over which face. It is set up in registers and kept in
+// SlotRec between dispatches.
+#ifndef GEODISK_OPERATION_GLSL
+#define GEODISK_OPERATION_GLSL
+
+uint phase;
+uint half_edge;     // the face is seen from here
+uint mode;          // kMode*
+float x;            // source, in the frame of half_edge, or of the window's own edge
+float y;
+float b0;           // lit interval of a window
+float b1;
+float sigma;        // distance of the source
+uint chain;         // crossings so far
+uint known;         // of a window: what was known of its edge's ends, see leave()
+uint longest_chain;
+
+// The face, seen from half_edge.
+Edge edge;
+Edge right;         // starts where edge ends
+Edge left;          // ends where edge starts
+vec2 apex;          // in the frame of edge
+uint edge_around;
+uint right_around;
+uint left_around;
+uint cell_word;
+
+void load_face() {
+    uint face = half_edge / 3u;
+    uint corner = half_edge - 3u * face;
+    edge = load_edge(face, corner);
+    right = load_edge(face, next_corner(corner));
+    left = load_edge(face, previous_corner(corner));
+    apex = apex_of(edge, left);
+    uvec4 links = load_links(face);
+    edge_around = corner == 0u ? links.x : (corner == 1u ? links.y : links.z);
+    right_around = corner == 0u ? links.y : (corner == 1u ? links.z : links.x);
+    left_around = corner == 0u ? links.z : (corner == 1u ? links.x : links.y);
+    cell_word = links.w;
+}
+
+// A window enters the face of half_edge with its source at (entry_x, -y) in that frame.
+float entry_x() {
+    precise float mirrored = edge.len - x;
+    return mode == kModeOpposite ? mirrored : x;
+}
+
+vec2 entry_interval() {
+    precise float low = edge.len - b1;
+    precise float high = edge.len - b0;
+    return mode == kModeOpposite ? vec2(low, high) : vec2(b0, b1);
+}
+
+float squared(float dx, float dy) {
+    precise float square = dx * dx + dy * dy;
+    return square;
+}
+
+#endif
