@@ -11,7 +11,9 @@ uint vertices;    // rows in use
 uint find_vertex(uint vertex, out uvec4 row) {
     uint mask = P.table_capacity - 1u;
     uint at = (vertex * 2654435769u) >> 7 & mask;
-    for (uint probe = 0u; probe < kMostProbes; ++probe) {
+    // A bound that is not constant keeps compilers from unrolling what mostly ends at once.
+    uint most = min(kMostProbes, P.table_capacity);
+    for (uint probe = 0u; probe < most; ++probe) {
         row = pool[table_first + at];
         if (row.x == vertex + 1u || row.x == 0u) {
             return at;

@@ -103,8 +103,8 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
         plan.slots = wanted_slots(disks, report.type == VK_PHYSICAL_DEVICE_TYPE_CPU);
-        plan.window_capacity = pow2_at_least(64 + faces_per_disk);
-        plan.table_capacity = pow2_at_least(32 + 4 * faces_per_disk);
+        plan.window_capacity = pow2_at_least(16 + faces_per_disk);
+        plan.table_capacity = pow2_at_least(16 + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.trip_budget = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips
                                                                           : kDefaultTrips;
