@@ -21,7 +21,7 @@ GEODISK_CONST uint kBindControl = 8u;    // ControlRec, then a blocker word per 
 GEODISK_CONST uint kBindMarks = 9u;      // a word per candidate. In the rounds: the slot of an active
                                          // one, by place; in the end: 1 where accepted, then its
                                          // output place, by rank
-GEODISK_CONST uint kBindSums = 10u;      // block sums of the scans
+GEODISK_CONST uint kBindSums = 10u;      // block sums of the scans; in the rounds: idle ranks as bits
 GEODISK_CONST uint kBindSamples = 11u;   // SampleRec per accepted candidate, in rank order
 GEODISK_CONST uint kBindCount = 12u;
 

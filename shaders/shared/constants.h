@@ -54,6 +54,7 @@ GEODISK_CONST uint kPhaseCross = 4u;   // carries a window into the next face of
 GEODISK_CONST uint kPhaseBlock = 5u;   // counts itself among the blockers of active conflicts
 GEODISK_CONST uint kPhaseDone = 6u;    // the disk is complete
 GEODISK_CONST uint kPhaseStuck = 7u;   // the slice overflowed
+GEODISK_CONST uint kPhaseSelected = 8u; // has a rank and nothing else
 
 // How the operation in flight lies in the frame of its half-edge.
 GEODISK_CONST uint kModeInside = 0u;   // the source is in the face, all of it is lit
@@ -88,6 +89,10 @@ GEODISK_CONST uint kWindowRows = 2u;
 // Specialization constants.
 GEODISK_CONST uint kSpecLocalSize = 0u;
 GEODISK_CONST uint kSpecNativeRounding = 1u;
+
+// Lanes of a work group of find_idle, each with 32 ranks, and the most groups of one dispatch.
+GEODISK_CONST uint kFindLanes = 64u;
+GEODISK_CONST uint kFindMostGroups = 256u;
 
 // Elements one work group of the scan covers, and with them the limit of what can be scanned:
 // kScanBlock squared.

@@ -53,9 +53,11 @@ struct SlotRec {
     uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
 };
 
-// The run as a whole. The three leading words are the indirect size of detect and resolve.
+// The run as a whole. The leading words are the indirect sizes of the kernels per slot, and of
+// find_idle.
 struct ControlRec {
     uint groups_x; uint groups_y; uint groups_z;
+    uint find_x; uint find_y; uint find_z;
     uint abi;
     uint next_rank;        // every lower rank is decided or active
     uint batch_rank;       // next_rank before the active batch was selected
@@ -89,7 +91,7 @@ static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
 static_assert(sizeof(PointRec) == 8 && offsetof(PointRec, second) == 4);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 160 && offsetof(SlotRec, fan_flags) == 156);
-static_assert(sizeof(ControlRec) == 88 && offsetof(ControlRec, most_conflicts) == 84);
+static_assert(sizeof(ControlRec) == 100 && offsetof(ControlRec, most_conflicts) == 96);
 } // namespace geodisk::gpu
 #endif
 

@@ -123,7 +123,9 @@ void compare_batch(const DeviceRun& run, Twin& twin,
                    const std::vector<std::uint32_t>& by_place) {
     const gpu::ControlRec control = run.control();
     const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
-    const auto batch = ref::select_idle(twin.states, control.batch_rank, run.plan().slots);
+    // A batch may be shorter than there are slots, but never skips a rank.
+    REQUIRE(control.slots_used <= run.plan().slots);
+    const auto batch = ref::select_idle(twin.states, control.batch_rank, control.slots_used);
     std::vector<std::uint32_t> selected;
     for (const gpu::SlotRec& slot : slots) {
         selected.push_back(slot.rank);

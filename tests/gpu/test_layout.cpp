@@ -60,7 +60,9 @@ const Offsets kPush{
 
 const Offsets kControl{
     GEODISK_OFFSET(ControlRec, groups_x),      GEODISK_OFFSET(ControlRec, groups_y),
-    GEODISK_OFFSET(ControlRec, groups_z),      GEODISK_OFFSET(ControlRec, abi),
+    GEODISK_OFFSET(ControlRec, groups_z),      GEODISK_OFFSET(ControlRec, find_x),
+    GEODISK_OFFSET(ControlRec, find_y),        GEODISK_OFFSET(ControlRec, find_z),
+    GEODISK_OFFSET(ControlRec, abi),
     GEODISK_OFFSET(ControlRec, next_rank),     GEODISK_OFFSET(ControlRec, batch_rank),
     GEODISK_OFFSET(ControlRec, slots_used),    GEODISK_OFFSET(ControlRec, unfinished),
     GEODISK_OFFSET(ControlRec, undecided),     GEODISK_OFFSET(ControlRec, overflow),
@@ -89,7 +91,7 @@ TEST_SUITE("layout") {
                 CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
             }
         }
-        CHECK(controls == 4);
+        CHECK(controls == 6);
     }
 
     TEST_CASE("no kernel binds more than eight buffers") {

@@ -2,6 +2,7 @@
 // and waits; for full control over those, use Sampler.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,6 +23,22 @@ struct Sample {
     float weights[3];        ///< Of the triangle's corners in order; they sum to exactly 1.
 };
 
+/// The parts of a run on the device.
+enum class Stage : std::uint32_t {
+    draw,    ///< Candidates, and how many lie in each cell.
+    bin,     ///< Sorts them by cell.
+    select,  ///< Finds the next batch.
+    detect,  ///< Geodesic disks.
+    resolve, ///< Decides the batch.
+    gather,  ///< Collects the samples.
+};
+inline constexpr std::size_t kStages = 6;
+/// By Stage.
+using StageSeconds = std::array<double, kStages>;
+
+/// Name of a stage as spelled above.
+GEODISK_API const char* to_string(Stage stage) noexcept;
+
 /// How a run went. Seconds are wall time.
 struct RunReport {
     std::uint32_t candidates = 0;
@@ -41,6 +58,7 @@ struct RunReport {
     struct {
         double upload = 0, sample = 0, readback = 0;
     } seconds;
+    StageSeconds stages{}; ///< Device time, if RunnerOptions::time_stages.
 };
 
 struct SampleSet {
@@ -62,6 +80,8 @@ struct RunnerOptions {
     /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice changes
     /// the samples, but `chain`, which widens or narrows the guard and with it the ties.
     RunPlan plan;
+    /// Measures the device time of each stage by timestamps, where the queue has them.
+    bool time_stages = false;
     /// A submission that takes longer counts as hung.
     std::uint32_t stall_seconds = 120;
 };

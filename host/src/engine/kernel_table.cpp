@@ -5,11 +5,13 @@
 namespace geodisk {
 namespace {
 
+#include "activate.spv.inc"
 #include "bin_fill.spv.inc"
 #include "candidates.spv.inc"
 #include "compact_gather.spv.inc"
 #include "compact_mark.spv.inc"
 #include "detect.spv.inc"
+#include "find_idle.spv.inc"
 #include "resolve.spv.inc"
 #include "rewind.spv.inc"
 #include "scan_add.spv.inc"
@@ -24,8 +26,10 @@ constexpr std::uint32_t kCandidates[] = {kBindFaces, kBindAlias, kBindCells, kBi
 constexpr std::uint32_t kScanData[] = {kBindMarks, kBindSums};
 constexpr std::uint32_t kScanSums[] = {kBindSums};
 constexpr std::uint32_t kBinFill[] = {kBindAlias, kBindCells, kBindPoints, kBindPlaces};
-constexpr std::uint32_t kSelect[] = {kBindAlias, kBindPoints,  kBindPlaces,
-                                     kBindSlots, kBindControl, kBindMarks};
+constexpr std::uint32_t kFindIdle[] = {kBindPoints, kBindPlaces, kBindControl, kBindSums};
+constexpr std::uint32_t kSelect[] = {kBindSlots, kBindControl, kBindSums};
+constexpr std::uint32_t kActivate[] = {kBindAlias, kBindPoints,  kBindPlaces,
+                                       kBindSlots, kBindControl, kBindMarks};
 constexpr std::uint32_t kDetect[] = {kBindFaces, kBindFans, kBindCells,   kBindPoints,
                                      kBindSlots, kBindPool, kBindControl, kBindMarks};
 constexpr std::uint32_t kResolve[] = {kBindPoints, kBindSlots, kBindPool, kBindControl, kBindMarks};
@@ -41,7 +45,9 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"scan_sums", k_scan_sums_spirv, kScanSums, false},
     {"scan_add", k_scan_add_spirv, kScanData, false},
     {"bin_fill", k_bin_fill_spirv, kBinFill, false},
+    {"find_idle", k_find_idle_spirv, kFindIdle, false},
     {"select", k_select_spirv, kSelect, true},
+    {"activate", k_activate_spirv, kActivate, true},
     {"detect", k_detect_spirv, kDetect, true},
     {"resolve", k_resolve_spirv, kResolve, true},
     {"rewind", k_rewind_spirv, kRewind, true},

@@ -22,6 +22,7 @@ constexpr std::uint32_t kLlvmpipeTrips =
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
 constexpr std::uint32_t kDefaultTrips = 1024;
 constexpr std::uint32_t kMostSlots = 1u << 16;
+constexpr std::uint64_t kIdleBytes = std::uint64_t{gpu::kFindMostGroups} * gpu::kFindLanes * 4;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
 
 std::uint32_t pow2_at_least(double x) {
@@ -162,7 +163,7 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
                        plan.pool_bytes(),
                        sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * 4,
                        count * 4,
-                       blocks_of(scanned) * 4,
+                       std::max(blocks_of(scanned) * 4, kIdleBytes),
                        count * sizeof(gpu::SampleRec)};
         const std::uint64_t limit = impl_->report.limits.max_storage_buffer_range;
         for (std::size_t i = 0; i < kBufferRoles; ++i) {

@@ -1,8 +1,11 @@
 // What a job records. Every step depends on the one before it, so one barrier serves them all.
+#include <cstddef>
+
 #include <geodisk/sampler.hpp>
 
 #include "constants.h"
 #include "engine/sampler_impl.hpp"
+#include "engine/stage_clock.hpp"
 #include "records.h"
 #include "vk/barriers.hpp"
 
@@ -29,12 +32,23 @@ class Recorder {
         dispatch(kernel, groups_for(job_.push.candidates, sampler_.local_size), job_.push);
     }
 
-    /// The size is what `select` left at the head of the control buffer.
-    void dispatch_per_slot(Kernel kernel) const {
+    /// The size is what `select` left at this offset of the control record.
+    void dispatch_indirect(Kernel kernel, VkDeviceSize offset) const {
         bind(kernel, job_.push, SetRole::workspace);
         const BufferRange& control = range(BufferRole::control);
-        sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset);
+        sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset + offset);
         barrier_compute_to_compute(sampler_.vk, commands_);
+    }
+
+    void dispatch_per_slot(Kernel kernel) const {
+        dispatch_indirect(kernel, offsetof(gpu::ControlRec, groups_x));
+    }
+
+    /// What was recorded since the last mark belongs to this stage.
+    void mark(Stage stage) const {
+        if (job_.clock != nullptr) {
+            job_.clock->mark(commands_, stage);
+        }
     }
 
     /// Exclusive scan of `count` words from `base` on.
@@ -83,19 +97,26 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch_per_candidate(Kernel::candidates);
+    recorder.mark(Stage::draw);
     recorder.scan(0, starts, SetRole::cell_scan);
     recorder.dispatch_per_candidate(Kernel::bin_fill);
+    recorder.mark(Stage::bin);
 }
 
 void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
                             std::uint32_t rounds) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
     for (std::uint32_t round = 0; round < rounds; ++round) {
+        recorder.dispatch_indirect(Kernel::find_idle, offsetof(gpu::ControlRec, find_x));
         recorder.dispatch(Kernel::select, {1, 1}, job.impl_->push);
+        recorder.dispatch_per_slot(Kernel::activate);
+        recorder.mark(Stage::select);
         recorder.dispatch_per_slot(Kernel::detect);
+        recorder.mark(Stage::detect);
         for (std::uint32_t pass = 0; pass < kResolvePasses; ++pass) {
             recorder.dispatch_per_slot(Kernel::resolve);
         }
+        recorder.mark(Stage::resolve);
     }
 }
 
@@ -113,6 +134,7 @@ void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noex
     recorder.dispatch_per_candidate(Kernel::compact_mark);
     recorder.scan(0, job.impl_->push.candidates, SetRole::workspace);
     recorder.dispatch_per_candidate(Kernel::compact_gather);
+    recorder.mark(Stage::gather);
 }
 
 } // namespace geodisk

@@ -21,8 +21,8 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Recorded dispatches per round: select, detect and two passes of resolve.
-constexpr std::uint32_t kDispatchesPerRound = 4;
+// Recorded dispatches per round: find_idle, select, activate, detect and two passes of resolve.
+constexpr std::uint32_t kDispatchesPerRound = 6;
 constexpr std::uint32_t kDispatchesToBegin = 5;
 constexpr std::uint32_t kDispatchesToFinish = 5;
 // Submissions start small and grow towards this time, so that no watchdog bites and progress and
@@ -60,7 +60,7 @@ void RunMemory::abandon() noexcept {
 
 namespace {
 
-Result<Done> check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device,
+Result<VkQueueFamilyProperties> check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device,
                          const QueueRef& queue) {
     if (queue.queue == VK_NULL_HANDLE) {
         return Error{Status::invalid_argument, "QueueRef::queue is null"};
@@ -78,7 +78,7 @@ Result<Done> check_queue(const InstanceTable& vk, VkPhysicalDevice physical_devi
                                                    std::to_string(queue.family) +
                                                    ", which is no family with compute"};
     }
-    return Done{};
+    return families[queue.family];
 }
 
 /// One run: its memory, its job and what the device reported last.
@@ -147,6 +147,10 @@ Result<Done> Run::prepare(std::uint32_t chain) {
         return job.error();
     }
     job_.emplace(std::move(*job));
+    if (runner_.clock) {
+        Job::Impl::of(*job_).clock = &*runner_.clock;
+        runner_.clock->reset();
+    }
     slots_ = plan->slots;
     report_.candidates = job_->candidates();
     report_.guard = tolerances_for(mesh_, params_.min_distance, plan->chain).guard;
@@ -188,7 +192,7 @@ Result<Done> Run::upload() {
 
 Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
     const DeviceTable& vk = runner_.engine().vk;
-    auto done = runner_.submitter->run([&](VkCommandBuffer commands) {
+    auto done = runner_.run_timed([&](VkCommandBuffer commands) {
         if (report_.dispatches == 0) {
             runner_.sampler.record_begin(commands, *job_);
             report_.dispatches += kDispatchesToBegin;
@@ -267,7 +271,7 @@ Result<Done> Run::sample(const ProgressCallback& progress) {
     }
     const DeviceTable& vk = runner_.engine().vk;
     report_.dispatches += kDispatchesToFinish;
-    return runner_.submitter->run([&](VkCommandBuffer commands) {
+    return runner_.run_timed([&](VkCommandBuffer commands) {
         runner_.sampler.record_finish(commands, *job_);
         barrier_compute_to_transfer(vk, commands);
     });
@@ -331,6 +335,9 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
     report_.most_conflicts = control_.most_conflicts;
     report_.device_bytes = memory_.bytes();
     report_.plan = job_->plan();
+    if (runner_.clock) {
+        report_.stages = runner_.clock->seconds();
+    }
     return SampleSet{std::move(*samples), report_};
 }
 
@@ -348,6 +355,17 @@ Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFla
     return DeviceBuffer::create(engine().device, engine().vk, memory, bytes, usage, kind);
 }
 
+Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>& record) {
+    if (!clock) {
+        return submitter->run(record);
+    }
+    auto done = submitter->run([&](VkCommandBuffer commands) {
+        clock->begin(commands);
+        record(commands);
+    });
+    return done ? clock->collect() : done;
+}
+
 Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
                               const RunnerOptions& options) noexcept {
     return guarded([&]() -> Result<Runner> {
@@ -359,8 +377,9 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
         if (!instance) {
             return instance.error();
         }
-        if (auto checked = check_queue(*instance, device.physical_device, queue); !checked) {
-            return checked.error();
+        const auto family = check_queue(*instance, device.physical_device, queue);
+        if (!family) {
+            return family.error();
         }
         auto impl = std::make_unique<Impl>(std::move(*sampler));
         impl->options = options;
@@ -371,6 +390,15 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
             return submitter.error();
         }
         impl->submitter.emplace(std::move(*submitter));
+        if (options.time_stages && family->timestampValidBits != 0) {
+            auto clock = StageClock::create(impl->engine().device, impl->engine().vk,
+                                            impl->sampler.report().limits.timestamp_period,
+                                            family->timestampValidBits);
+            if (!clock) {
+                return clock.error();
+            }
+            impl->clock.emplace(std::move(*clock));
+        }
         if (auto checked = impl->check_rounding(); !checked) {
             return checked.error();
         }

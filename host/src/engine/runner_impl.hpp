@@ -6,6 +6,7 @@
 #include <geodisk/runner.hpp>
 
 #include "engine/sampler_impl.hpp"
+#include "engine/stage_clock.hpp"
 #include "engine/submitter.hpp"
 #include "records.h"
 #include "vk/buffer.hpp"
@@ -17,6 +18,7 @@ struct Runner::Impl {
     RunnerOptions options;
     VkPhysicalDeviceMemoryProperties memory{};
     std::optional<Submitter> submitter;
+    std::optional<StageClock> clock;
 
     explicit Impl(Sampler s) : sampler(std::move(s)) {}
     ~Impl() { settle(); }
@@ -26,10 +28,15 @@ struct Runner::Impl {
     void settle() noexcept {
         if (submitter && submitter->abandoned()) {
             sampler.impl_->abandoned = true;
+            if (clock) {
+                clock->abandon();
+            }
         }
     }
 
     const Sampler::Impl& engine() const { return *sampler.impl_; }
+    /// As Submitter::run, for what a job records.
+    Result<Done> run_timed(const std::function<void(VkCommandBuffer)>& record);
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind) const;
 

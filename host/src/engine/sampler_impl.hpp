@@ -34,8 +34,11 @@ struct Sampler::Impl {
 enum class SetRole : std::uint32_t { workspace, cell_scan };
 inline constexpr std::size_t kSetRoles = 2;
 
+class StageClock;
+
 struct Job::Impl {
     const Sampler::Impl* sampler = nullptr;
+    StageClock* clock = nullptr; ///< Where recording marks the stages, if anywhere.
     VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
     std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
     Workspace workspace{};
@@ -43,6 +46,7 @@ struct Job::Impl {
     RunPlan plan;
     gpu::Push push{};
 
+    static Impl& of(Job& job) { return *job.impl_; }
     ~Impl();
     Result<Done> write_sets();
     void write_binding(SetRole role, std::uint32_t binding) const;

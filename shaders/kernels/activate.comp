@@ -1,0 +1,35 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Readies the slots that select has filled with ranks. One invocation per slot.
+// reads: alias columns, places   writes: points, slots, marks, blockers   spec: local size, rounding
+
+#include "../lib/prelude.glsl"
+#include "../lib/candidate.glsl"
+
+layout(local_size_x_id = 0) in;
+
+GEODISK_BUFFER(kBindPoints, , uvec2, points);
+GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
+GEODISK_BUFFER(kBindSlots, , uvec4, slots);
+GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
+GEODISK_CONTROL;
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    uint row = slot * kSlotRows;
+    if (slot >= control.slots_used || slots[row].y != kPhaseSelected) {
+        return;
+    }
+    uint rank = slots[row + 1u].x;
+    uint place = places[rank];
+    Candidate c = draw_candidate(rank);
+    slots[row] = uvec4(place, kPhaseClear, 0u, 0u);
+    slots[row + 1u] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
+                            floatBitsToUint(weight_of(c.weight2)));
+    for (uint i = 2u; i < kSlotRows; ++i) {
+        slots[row + i] = uvec4(0u);
+    }
+    blockers[slot] = 0u;
+    marks[place] = slot;
+    points[place].x |= kActive;
+}
