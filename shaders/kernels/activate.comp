@@ -1,14 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Readies the slots that select has filled with ranks. One invocation per slot.
-// reads: alias columns, places   writes: points, slots, marks, blockers   spec: local size, rounding
+// reads: alias columns, places   writes: states, slots, marks, blockers   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindPoints, , uvec2, points);
+GEODISK_BUFFER(kBindStates, , uint, states);
 GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
 GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
@@ -31,5 +31,5 @@ void main() {
     }
     blockers[slot] = 0u;
     marks[place] = slot;
-    points[place].x |= kActive;
+    states[place] |= kActive;
 }

@@ -3,7 +3,7 @@
 // Sorts the candidates by cell, after the scan turned counts into starts. The count of cell c went
 // into word c + 1, so the scan leaves c's start there, and filling moves it on to c's end, which is
 // where cell c + 1 starts. One invocation per candidate.
-// reads: alias columns   writes: starts, points, places   spec: local size, rounding
+// reads: alias columns   writes: starts, states, weights, places   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"
@@ -12,7 +12,8 @@ layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 GEODISK_BUFFER(kBindPlaces, , uint, places);
-GEODISK_BUFFER(kBindPoints, writeonly, uvec2, points);
+GEODISK_BUFFER(kBindStates, writeonly, uint, states);
+GEODISK_BUFFER(kBindWeights, writeonly, uint, weights);
 
 void main() {
     uint rank = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
@@ -23,5 +24,6 @@ void main() {
     Candidate c = draw_candidate(rank);
     uint place = atomicAdd(cells[places[rank] + 1u], 1u);
     places[rank] = place;
-    points[place] = uvec2(c.weight1 << kWeightShift | kIdle, c.weight2 << kWeightShift);
+    states[place] = c.weight1 << kWeightShift | kIdle;
+    weights[place] = c.weight2;
 }

@@ -2,14 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 // Marks the accepted candidates by rank; the scan turns marks into output places. One invocation
 // per candidate.
-// reads: places, points   writes: marks   spec: local size
+// reads: places, states   writes: marks   spec: local size
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
-GEODISK_BUFFER(kBindPoints, readonly, uvec2, points);
+GEODISK_BUFFER(kBindStates, readonly, uint, states);
 GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
 
 void main() {
@@ -18,5 +18,5 @@ void main() {
     if (rank >= push.candidates) {
         return;
     }
-    marks[rank] = (points[places[rank]].x & kStateMask) == kAccepted ? 1u : 0u;
+    marks[rank] = (states[places[rank]] & kStateMask) == kAccepted ? 1u : 0u;
 }

@@ -4,7 +4,7 @@
 // DetectCollision, sections 3.4 and 3.5). One invocation per slot. It stops after push.trip_budget
 // trips and goes on in the next dispatch: some drivers end long loops, lavapipe silently. The number
 // of iterations one trip can take is bounded, see kIterationsPerTrip.
-// reads: faces, fans, cells, points, marks   writes: pool slice, slots, control, blockers
+// reads: faces, fans, cells, states, weights   writes: pool slice, slots, control
 // spec: local size, rounding
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
@@ -20,8 +20,8 @@ layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindFans, readonly, uvec4, fans);
 GEODISK_BUFFER(kBindCells, readonly, uint, cells);
-GEODISK_BUFFER(kBindPoints, readonly, uvec2, points);
-GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
+GEODISK_BUFFER(kBindStates, readonly, uint, states);
+GEODISK_BUFFER(kBindWeights, readonly, uint, weights);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
 GEODISK_BUFFER(kBindPool, , uvec4, pool);
 GEODISK_CONTROL;
@@ -35,7 +35,7 @@ Push P;
 #include "../lib/propagate.glsl"
 #include "../lib/scan.glsl"
 
-uint cursor;        // clear: next table row; source: next edge; fan: next corner; block: next conflict
+uint cursor;        // clear: next table row; source: next edge; fan: next corner
 uint cursor_end;
 uint own_rank;
 uint own_face;
@@ -272,35 +272,6 @@ void trip() {
     }
 }
 
-// Counts the slot among the blockers of the active candidates of higher rank that it conflicts with.
-void block_active(uint slot) {
-    uint end = min(cursor + kBlockPerDispatch, active_conflicts);
-    for (; cursor < end; ++cursor) {
-        uint at = active_entry(cursor);
-        uint other = marks[pool[list_first + (at >> 2)][at & 3u]];
-        if (other > slot) {
-            atomicAdd(blockers[other], 1u);
-        }
-    }
-    phase = cursor == active_conflicts ? kPhaseDone : kPhaseBlock;
-}
-
-void count_disk() {
-    atomicAdd(control.unfinished, 0xffffffffu);
-    atomicAdd(control.disks, 1u);
-    uint low = atomicAdd(control.windows_low, pushed);
-    if (low + pushed < low) {
-        atomicAdd(control.windows_high, 1u);
-    }
-    low = atomicAdd(control.tested_low, tested);
-    if (low + tested < low) {
-        atomicAdd(control.tested_high, 1u);
-    }
-    atomicMax(control.most_waiting, most_waiting);
-    atomicMax(control.most_vertices, vertices);
-    atomicMax(control.most_conflicts, idle_conflicts + active_conflicts);
-}
-
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     P = push;
@@ -308,7 +279,7 @@ void main() {
         return;
     }
     uint stored = slots[slot * kSlotRows].y;
-    if (stored >= kPhaseDone) {
+    if (stored >= kPhaseBlock) {
         return;
     }
     load_slot(slot);
@@ -323,11 +294,6 @@ void main() {
     if (overflow != 0u) {
         phase = kPhaseStuck;
         atomicOr(control.overflow, overflow);
-    } else if (phase == kPhaseBlock) {
-        block_active(slot);
-        if (phase == kPhaseDone) {
-            count_disk();
-        }
     }
     save_slot(slot);
 }

@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // Finds the idle candidates among the next ranks, as bits, for select. One invocation per 32 ranks;
 // how many, select foresees in the round before.
-// reads: places, points, control   writes: sums
+// reads: places, states, control   writes: sums
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x = 64) in;
 
-GEODISK_BUFFER(kBindPoints, readonly, uvec2, points);
+GEODISK_BUFFER(kBindStates, readonly, uint, states);
 GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
 GEODISK_BUFFER(kBindSums, writeonly, uint, idle);
 GEODISK_CONTROL;
@@ -22,7 +22,7 @@ void main() {
     uint end = min(begin + 32u, push.candidates);
     uint bits = 0u;
     for (uint rank = begin; rank < end; ++rank) {
-        uint state = points[places[rank]].x & kStateMask;
+        uint state = states[places[rank]] & kStateMask;
         bits |= (state == kIdle ? 1u : 0u) << (rank - begin);
     }
     idle[word] = bits;

@@ -4,13 +4,13 @@
 // one of lower rank blocks is accepted and rejects what its disk holds; a rejected one lifts its
 // blocks. Blocks only fall and rejections only come, so every order of events ends the same.
 // One invocation per slot; resumable, since lists may be long.
-// reads: pool lists, slots, marks   writes: points, slots, control, blockers   spec: local size
+// reads: pool lists, slots, marks   writes: states, slots, control, blockers   spec: local size
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindPoints, coherent, uvec2, points);
+GEODISK_BUFFER(kBindStates, coherent, uint, states);
 GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
 GEODISK_BUFFER(kBindPool, readonly, uvec4, pool);
@@ -25,7 +25,7 @@ void main() {
     }
     uvec4 head = slots[slot * kSlotRows];
     uint place = head.x;
-    if ((points[place].x & kStateMask) != kActive) {
+    if ((states[place] & kStateMask) != kActive) {
         return;
     }
     uint blocks = atomicOr(blockers[slot], 0u);
@@ -36,13 +36,13 @@ void main() {
     // Active conflicts first; only an accepted candidate goes on to the idle ones.
     uint resolved = slots[slot * kSlotRows + 2u].w;
     uint total = head.w + (rejected ? 0u : head.z);
-    uint end = min(total, resolved + push.trip_budget);
+    uint end = min(total, resolved + kListPerDispatch);
     for (; resolved < end; ++resolved) {
         bool is_active = resolved < head.w;
         uint at = is_active ? active_entry(resolved) : resolved - head.w;
         uint other = pool[list_row(slot) + (at >> 2)][at & 3u];
         if (!is_active) {
-            atomicOr(points[other].x, kRejected);
+            atomicOr(states[other], kRejected);
             continue;
         }
         uint other_slot = marks[other];
@@ -56,7 +56,7 @@ void main() {
     }
     slots[slot * kSlotRows + 2u].w = resolved;
     if (resolved == total) {
-        atomicXor(points[place].x, kActive ^ (rejected ? kRejected : kAccepted));
+        atomicXor(states[place], kActive ^ (rejected ? kRejected : kAccepted));
         atomicAdd(control.undecided, 0xffffffffu);
         if (!rejected) {
             atomicAdd(control.accepted, 1u);

@@ -2,20 +2,20 @@
 #extension GL_GOOGLE_include_directive : require
 // Forgets the active batch, whose slices overflowed: its candidates are idle again and will be
 // selected with larger slices. Nothing was decided. One invocation per slot.
-// reads: slots   writes: points, control   spec: local size
+// reads: slots   writes: states, control   spec: local size
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindPoints, , uvec2, points);
+GEODISK_BUFFER(kBindStates, , uint, states);
 GEODISK_BUFFER(kBindSlots, readonly, uvec4, slots);
 GEODISK_CONTROL;
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot < control.slots_used) {
-        points[slots[slot * kSlotRows].x].x &= ~kStateMask;
+        states[slots[slot * kSlotRows].x] &= ~kStateMask;
     }
     if (slot == 0u) {
         control.next_rank = control.batch_rank;

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Third step: every word gains the sum of the blocks before its own.
-// reads: sums   writes: marks[scan_base ..] (any buffer bound there)
+// reads: sums   writes: marks (any buffer bound there)
 
 #include "../lib/prelude.glsl"
 
@@ -18,6 +18,6 @@ void main() {
     uint before = sums[block];
     uint end = min((block + 1u) * kScanBlock, push.scan_count);
     for (uint i = block * kScanBlock + gl_LocalInvocationID.x; i < end; i += kScanLanes) {
-        words[push.scan_base + i] += before;
+        words[i] += before;
     }
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // First step of an exclusive scan in place: each work group scans one block of kScanBlock words and
 // leaves its sum.
-// reads, writes: marks[scan_base ..] (any buffer bound there), sums
+// reads, writes: marks (any buffer bound there), sums
 
 #include "../lib/prelude.glsl"
 #include "../lib/group_scan.glsl"
@@ -19,13 +19,13 @@ void main() {
     uint end = min(begin + kScanPerLane, push.scan_count);
     uint own = 0u;
     for (uint i = begin; i < end; ++i) {
-        own += words[push.scan_base + i];
+        own += words[i];
     }
     uint total;
     uint before = group_exclusive_scan(lane, own, total);
     for (uint i = begin; i < end; ++i) {
-        uint word = words[push.scan_base + i];
-        words[push.scan_base + i] = before;
+        uint word = words[i];
+        words[i] = before;
         before += word;
     }
     if (lane == 0u && block * kScanBlock < push.scan_count) {

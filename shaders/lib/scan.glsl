@@ -84,14 +84,14 @@ void scan_some() {
         for (uint k = 0u; k < kScanPerRow && scan_place < scan_end; ++k) {
             uint place = scan_place;
             ++scan_place;
-            uvec2 point = points[place];
-            uint state = point.x & kStateMask;
+            uint word = states[place];
+            uint state = word & kStateMask;
             if (state > kActive || place == own_place) {
                 continue;
             }
             ++tested;
-            vec2 q = position_in(corner, edge.len, apex, weight_of(point.x >> kWeightShift),
-                                 weight_of(point.y >> kWeightShift));
+            vec2 q = position_in(corner, edge.len, apex, weight_of(word >> kWeightShift),
+                                 weight_of(weights[place]));
             precise float dx = q.x - sx;
             precise float dy = q.y - sy;
             precise float at = dx * y;

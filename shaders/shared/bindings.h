@@ -13,17 +13,19 @@ GEODISK_CONST uint kBindFans = 1u;       // a row of FanRec per vertex; then the
 GEODISK_CONST uint kBindAlias = 2u;      // AliasRec per face
 GEODISK_CONST uint kBindCells = 3u;      // the place where each cell's candidates start, and one past
                                          // the last
-GEODISK_CONST uint kBindPoints = 4u;     // PointRec per candidate, sorted by cell
-GEODISK_CONST uint kBindPlaces = 5u;     // rank -> place in the sorted order
-GEODISK_CONST uint kBindSlots = 6u;      // SlotRec per slot of an active candidate
-GEODISK_CONST uint kBindPool = 7u;       // one slice of rows per slot: heap, windows, table, list
-GEODISK_CONST uint kBindControl = 8u;    // ControlRec, then a blocker word per slot
-GEODISK_CONST uint kBindMarks = 9u;      // a word per candidate. In the rounds: the slot of an active
+GEODISK_CONST uint kBindStates = 4u;     // a word per candidate, sorted by cell: its state and the
+                                         // weight of its face's second corner
+GEODISK_CONST uint kBindWeights = 5u;    // likewise the weight of the third corner, in units of 2^-24
+GEODISK_CONST uint kBindPlaces = 6u;     // rank -> place in the sorted order
+GEODISK_CONST uint kBindSlots = 7u;      // SlotRec per slot of an active candidate
+GEODISK_CONST uint kBindPool = 8u;       // one slice of rows per slot: windows, events, table, list
+GEODISK_CONST uint kBindControl = 9u;    // ControlRec, then a blocker word per slot
+GEODISK_CONST uint kBindMarks = 10u;     // a word per candidate. In the rounds: the slot of an active
                                          // one, by place; in the end: 1 where accepted, then its
                                          // output place, by rank
-GEODISK_CONST uint kBindSums = 10u;      // block sums of the scans; in the rounds: idle ranks as bits
-GEODISK_CONST uint kBindSamples = 11u;   // SampleRec per accepted candidate, in rank order
-GEODISK_CONST uint kBindCount = 12u;
+GEODISK_CONST uint kBindSums = 11u;      // block sums of the scans; in the rounds: idle ranks as bits
+GEODISK_CONST uint kBindSamples = 12u;   // SampleRec per accepted candidate, in rank order
+GEODISK_CONST uint kBindCount = 13u;
 
 GEODISK_END_SHARED
 

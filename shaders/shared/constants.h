@@ -6,13 +6,13 @@
 
 GEODISK_BEGIN_SHARED
 
-// State of a candidate: the two low bits of PointRec::first.
+// State of a candidate: the two low bits of its state word.
 GEODISK_CONST uint kIdle = 0u;
 GEODISK_CONST uint kActive = 1u;
 GEODISK_CONST uint kAccepted = 2u;
 GEODISK_CONST uint kRejected = 3u;
 GEODISK_CONST uint kStateMask = 3u;
-// A weight sits above this many bits of its word, in units of 2^-24.
+// The first weight sits above this many bits of the state word, in units of 2^-24.
 GEODISK_CONST uint kWeightShift = 8u;
 
 // Angles around a vertex are integers in units of 2^-13 radian, so that comparing them is exact
@@ -42,6 +42,8 @@ GEODISK_CONST uint kOverflowConflicts = 4u;
 GEODISK_CONST uint kOverflowChain = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
 
+// Nor this: the samples' buffer is too small, the set itself is complete.
+GEODISK_CONST uint kOverflowSamples = 16u;
 // Set in a blocker word once an accepted candidate of lower rank conflicts.
 GEODISK_CONST uint kBlockedForGood = 0x80000000u;
 
@@ -51,8 +53,8 @@ GEODISK_CONST uint kPhaseSource = 1u;  // spreads over the three edges of the ca
 GEODISK_CONST uint kPhasePop = 2u;     // takes the next window or event
 GEODISK_CONST uint kPhaseFan = 3u;     // spreads over the corners of a vertex
 GEODISK_CONST uint kPhaseCross = 4u;   // carries a window into the next face of its edge
-GEODISK_CONST uint kPhaseBlock = 5u;   // counts itself among the blockers of active conflicts
-GEODISK_CONST uint kPhaseDone = 6u;    // the disk is complete
+GEODISK_CONST uint kPhaseBlock = 5u;   // the disk is complete, but not yet in the blockers of others
+GEODISK_CONST uint kPhaseDone = 6u;    // ready to be resolved
 GEODISK_CONST uint kPhaseStuck = 7u;   // the slice overflowed
 GEODISK_CONST uint kPhaseSelected = 8u; // has a rank and nothing else
 
@@ -75,11 +77,12 @@ GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
 GEODISK_CONST uint kRowsPerTrip = 8u;      // of cells
 GEODISK_CONST uint kScanPerRow = 16u;      // candidates
 GEODISK_CONST uint kClearPerDispatch = 4096u; // rows of the vertex table
-GEODISK_CONST uint kBlockPerDispatch = 1024u; // active conflicts
 // Together: an event taken and two vertices reached, two children left and pushed.
 GEODISK_CONST uint kIterationsPerTrip =
     1u + kCornersPerTrip + 3u * kMostProbes + 6u + kRowsPerTrip * (1u + kScanPerRow);
-GEODISK_CONST uint kIterationsPerDispatch = kClearPerDispatch + kBlockPerDispatch + 1u;
+GEODISK_CONST uint kIterationsPerDispatch = kClearPerDispatch + 1u;
+// List entries that block and resolve go through in one dispatch.
+GEODISK_CONST uint kListPerDispatch = 4096u;
 
 // Rows of a face, of a slot record and of a window.
 GEODISK_CONST uint kFaceRows = 4u;

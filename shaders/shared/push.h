@@ -23,9 +23,9 @@ struct Push {
     uint table_capacity;  // vertex table of one slot, a power of two
     uint list_capacity;   // conflicts one slot can list
     uint slice_rows;      // rows of four words per slot
-    uint trip_budget;     // loop iterations an invocation may start per dispatch
-    uint scan_count;      // scans: words to scan, and where they start
-    uint scan_base;
+    uint trip_budget;     // trips of the main loop of detect per dispatch
+    uint scan_count;      // scans: words to scan
+    uint sample_capacity; // samples the buffer holds
 };
 
 GEODISK_END_SHARED
@@ -33,7 +33,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 72 && offsetof(Push, scan_base) == 68);
+static_assert(sizeof(Push) == 72 && offsetof(Push, sample_capacity) == 68);
 }
 #endif
 

@@ -26,12 +26,6 @@ struct AliasRec {
     uint threshold; uint alias;
 };
 
-// A candidate: the weights of the face's second and third corner in units of 2^-24, shifted up by
-// kWeightShift. The low bits of `first` are its state.
-struct PointRec {
-    uint first; uint second;
-};
-
 // An accepted candidate. The weights are multiples of 2^-24 and that of the first corner is exactly
 // one minus both.
 struct SampleRec {
@@ -88,7 +82,6 @@ static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, origin) == 12);
 static_assert(sizeof(FaceLinksRec) == 16 && offsetof(FaceLinksRec, cells) == 12);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
-static_assert(sizeof(PointRec) == 8 && offsetof(PointRec, second) == 4);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 160 && offsetof(SlotRec, fan_flags) == 156);
 static_assert(sizeof(ControlRec) == 100 && offsetof(ControlRec, most_conflicts) == 96);

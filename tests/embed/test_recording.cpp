@@ -297,8 +297,9 @@ TEST_SUITE("workspaces") {
             const EngineJob good(workshop, sampler, knot);
             const WorkspaceNeeds needs =
                 expect(sampler.workspace_needs(knot.mesh, knot.params, good.plan()));
-            const char* names[] = {"faces", "fans", "alias",   "cells", "points", "places",
-                                   "slots", "pool", "control", "marks", "sums",   "samples"};
+            const char* names[] = {"faces",  "fans",  "alias", "cells",   "states", "weights",
+                                   "places", "slots", "pool",  "control", "marks",  "sums",
+                                   "samples"};
             for (std::size_t i = 0; i < kBufferRoles; ++i) {
                 CAPTURE(names[i]);
                 const auto check = [&](const BufferRange& range, Status status, const char* part) {

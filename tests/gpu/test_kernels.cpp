@@ -62,20 +62,22 @@ std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run) {
     return ranks;
 }
 
-float weight(std::uint32_t word) {
-    return static_cast<float>(word >> gpu::kWeightShift) * 0x1p-24f;
+float weight(std::uint32_t steps) {
+    return static_cast<float>(steps) * 0x1p-24f;
 }
 
 void compare_candidates(const DeviceRun& run, const Twin& twin) {
-    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
+    const auto states = run.read<std::uint32_t>(BufferRole::states, run.candidates());
+    const auto weights = run.read<std::uint32_t>(BufferRole::weights, run.candidates());
     const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
-    REQUIRE(points.size() == twin.points.size());
+    REQUIRE(states.size() == twin.points.size());
     std::uint32_t wrong = 0;
-    for (std::uint32_t rank = 0; rank < points.size(); ++rank) {
-        const gpu::PointRec& p = points[places[rank]];
+    for (std::uint32_t rank = 0; rank < states.size(); ++rank) {
+        const std::uint32_t state = states[places[rank]];
         const ref::FacePoint<float>& want = twin.points[rank];
-        wrong += weight(p.first) != want.weight1 || weight(p.second) != want.weight2 ||
-                 (p.first & gpu::kStateMask) != gpu::kIdle;
+        wrong += weight(state >> gpu::kWeightShift) != want.weight1 ||
+                 weight(weights[places[rank]]) != want.weight2 ||
+                 (state & gpu::kStateMask) != gpu::kIdle;
     }
     CHECK(wrong == 0);
 }
@@ -152,10 +154,10 @@ void compare_batch(const DeviceRun& run, Twin& twin,
 
 void compare_states(const DeviceRun& run, const Twin& twin,
                     const std::vector<std::uint32_t>& by_place) {
-    const auto points = run.read<gpu::PointRec>(BufferRole::points, run.candidates());
+    const auto states = run.read<std::uint32_t>(BufferRole::states, run.candidates());
     std::uint32_t wrong = 0;
-    for (std::uint32_t place = 0; place < points.size(); ++place) {
-        wrong += (points[place].first & gpu::kStateMask) != twin.states[by_place[place]];
+    for (std::uint32_t place = 0; place < states.size(); ++place) {
+        wrong += (states[place] & gpu::kStateMask) != twin.states[by_place[place]];
     }
     CHECK(wrong == 0);
 }

@@ -56,7 +56,7 @@ const Offsets kPush{
     GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
     GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, slice_rows),
     GEODISK_OFFSET(Push, trip_budget),     GEODISK_OFFSET(Push, scan_count),
-    GEODISK_OFFSET(Push, scan_base)};
+    GEODISK_OFFSET(Push, sample_capacity)};
 
 const Offsets kControl{
     GEODISK_OFFSET(ControlRec, groups_x),      GEODISK_OFFSET(ControlRec, groups_y),
@@ -91,7 +91,7 @@ TEST_SUITE("layout") {
                 CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
             }
         }
-        CHECK(controls == 6);
+        CHECK(controls == 8);
     }
 
     TEST_CASE("no kernel binds more than eight buffers") {

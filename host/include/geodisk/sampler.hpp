@@ -11,7 +11,9 @@
 //                           read gpu::ControlRec from the control buffer, and record more until
 //                           `done`. With `overflow` set nothing was decided since; grow_plan, set it
 //                           on the job and record_rewind first.
-//   7. record_finish        gpu::SampleRec per accepted candidate, in rank order
+//   7. record_finish        gpu::SampleRec per accepted candidate, in rank order; if ControlRec tells
+//                           that more were accepted than the plan's sample_capacity, give the job a
+//                           larger buffer first (set_samples)
 #pragma once
 
 #include <array>
@@ -46,9 +48,9 @@ struct SamplerOptions {
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
 enum class BufferRole : std::uint32_t {
-    faces, fans, alias, cells, points, places, slots, pool, control, marks, sums, samples,
+    faces, fans, alias, cells, states, weights, places, slots, pool, control, marks, sums, samples,
 };
-inline constexpr std::size_t kBufferRoles = 12;
+inline constexpr std::size_t kBufferRoles = 13;
 
 /// Name of a role as spelled above, for messages.
 GEODISK_API const char* to_string(BufferRole role) noexcept;
@@ -81,7 +83,8 @@ struct RunPlan {
     std::uint32_t window_capacity = 0; ///< Windows per slot, and vertex events; a power of two.
     std::uint32_t table_capacity = 0;  ///< Vertices per slot, a power of two.
     std::uint32_t list_capacity = 0;   ///< Conflicts per slot, a multiple of 4.
-    std::uint32_t trip_budget = 0;     ///< Loop iterations per invocation and dispatch.
+    std::uint32_t trip_budget = 0;     ///< Windows an invocation spreads per dispatch, about.
+    std::uint32_t sample_capacity = 0; ///< Samples the buffer holds.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
 
     GEODISK_API std::uint32_t slice_rows() const noexcept; ///< Of 16 bytes, per slot.
@@ -174,6 +177,9 @@ class GEODISK_API Job {
     /// The same with another pool. No command buffer of the job may be pending.
     Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;
     std::uint32_t candidates() const noexcept;
+    /// Another buffer for the samples, where more were accepted than RunPlan::sample_capacity. No
+    /// command buffer of the job may be pending.
+    Result<Done> set_samples(const BufferRange& samples) noexcept;
 
     struct Impl; ///< Internal.
 

@@ -7,6 +7,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "bindings.h"
+#include "records.h"
 #include "engine/device_mesh.hpp"
 #include "engine/sampler_impl.hpp"
 #include "support/guard.hpp"
@@ -71,12 +72,12 @@ Result<Done> check_plan(const RunPlan& plan) {
     const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
                       std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
                       plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 &&
-                      plan.trip_budget >= 1 && plan.slots <= kMost &&
+                      plan.trip_budget >= 1 && plan.sample_capacity >= 1 && plan.slots <= kMost &&
                       plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
                       plan.list_capacity <= kMost;
     if (!fine) {
         return Error{Status::invalid_argument,
-                     "the plan is not as RunPlan asks: slots and trip_budget at least 1, "
+                     "the plan is not as RunPlan asks: slots, trip_budget and sample_capacity at least 1, "
                      "window_capacity and table_capacity powers of two, list_capacity a "
                      "multiple of 4, none of them 0 or more than 2^26"};
     }
@@ -112,6 +113,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.list_capacity = plan.list_capacity;
     push.slice_rows = plan.slice_rows();
     push.trip_budget = plan.trip_budget;
+    push.sample_capacity = plan.sample_capacity;
 }
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
@@ -149,6 +151,22 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
             impl_->write_binding(static_cast<SetRole>(role), gpu::kBindPool);
         }
         return done;
+    });
+}
+
+Result<Done> Job::set_samples(const BufferRange& samples) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (auto checked = check_range(samples, gpu::kBindSamples, sizeof(gpu::SampleRec),
+                                       impl_->sampler->report.limits);
+            !checked) {
+            return checked;
+        }
+        impl_->workspace[gpu::kBindSamples] = samples;
+        impl_->plan.sample_capacity = static_cast<std::uint32_t>(std::min<VkDeviceSize>(
+            samples.size / sizeof(gpu::SampleRec), impl_->push.candidates));
+        impl_->push.sample_capacity = impl_->plan.sample_capacity;
+        impl_->write_binding(SetRole::workspace, gpu::kBindSamples);
+        return Done{};
     });
 }
 

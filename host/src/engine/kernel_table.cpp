@@ -7,6 +7,7 @@ namespace {
 
 #include "activate.spv.inc"
 #include "bin_fill.spv.inc"
+#include "block.spv.inc"
 #include "candidates.spv.inc"
 #include "compact_gather.spv.inc"
 #include "compact_mark.spv.inc"
@@ -25,18 +26,20 @@ using namespace gpu;
 constexpr std::uint32_t kCandidates[] = {kBindFaces, kBindAlias, kBindCells, kBindPlaces};
 constexpr std::uint32_t kScanData[] = {kBindMarks, kBindSums};
 constexpr std::uint32_t kScanSums[] = {kBindSums};
-constexpr std::uint32_t kBinFill[] = {kBindAlias, kBindCells, kBindPoints, kBindPlaces};
-constexpr std::uint32_t kFindIdle[] = {kBindPoints, kBindPlaces, kBindControl, kBindSums};
+constexpr std::uint32_t kBinFill[] = {kBindAlias, kBindCells, kBindStates, kBindWeights,
+                                      kBindPlaces};
+constexpr std::uint32_t kFindIdle[] = {kBindStates, kBindPlaces, kBindControl, kBindSums};
 constexpr std::uint32_t kSelect[] = {kBindSlots, kBindControl, kBindSums};
-constexpr std::uint32_t kActivate[] = {kBindAlias, kBindPoints,  kBindPlaces,
+constexpr std::uint32_t kActivate[] = {kBindAlias, kBindStates,  kBindPlaces,
                                        kBindSlots, kBindControl, kBindMarks};
-constexpr std::uint32_t kDetect[] = {kBindFaces, kBindFans, kBindCells,   kBindPoints,
-                                     kBindSlots, kBindPool, kBindControl, kBindMarks};
-constexpr std::uint32_t kResolve[] = {kBindPoints, kBindSlots, kBindPool, kBindControl, kBindMarks};
-constexpr std::uint32_t kRewind[] = {kBindPoints, kBindSlots, kBindControl};
-constexpr std::uint32_t kCompactMark[] = {kBindPoints, kBindPlaces, kBindMarks};
-constexpr std::uint32_t kCompactGather[] = {kBindAlias, kBindPoints, kBindPlaces, kBindMarks,
-                                            kBindSamples};
+constexpr std::uint32_t kDetect[] = {kBindFaces,   kBindFans,  kBindCells, kBindStates,
+                                     kBindWeights, kBindSlots, kBindPool,  kBindControl};
+constexpr std::uint32_t kBlock[] = {kBindSlots, kBindPool, kBindControl, kBindMarks};
+constexpr std::uint32_t kResolve[] = {kBindStates, kBindSlots, kBindPool, kBindControl, kBindMarks};
+constexpr std::uint32_t kRewind[] = {kBindStates, kBindSlots, kBindControl};
+constexpr std::uint32_t kCompactMark[] = {kBindStates, kBindPlaces, kBindMarks};
+constexpr std::uint32_t kCompactGather[] = {kBindAlias,   kBindStates, kBindPlaces,
+                                            kBindControl, kBindMarks,  kBindSamples};
 constexpr std::uint32_t kSelfTest[] = {kBindSums};
 
 const std::array<KernelInfo, kKernels> kTable{{
@@ -49,6 +52,7 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"select", k_select_spirv, kSelect, true},
     {"activate", k_activate_spirv, kActivate, true},
     {"detect", k_detect_spirv, kDetect, true},
+    {"block", k_block_spirv, kBlock, true},
     {"resolve", k_resolve_spirv, kResolve, true},
     {"rewind", k_rewind_spirv, kRewind, true},
     {"compact_mark", k_compact_mark_spirv, kCompactMark, false},

@@ -58,8 +58,8 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
 
 const char* to_string(BufferRole role) noexcept {
     constexpr const char* kNames[kBufferRoles] = {
-        "faces", "fans",    "alias", "cells", "points", "places", "slots",
-        "pool",  "control", "marks", "sums",  "samples"};
+        "faces", "fans", "alias",   "cells", "states", "weights", "places",
+        "slots", "pool", "control", "marks", "sums",   "samples"};
     return kNames[static_cast<std::size_t>(role)];
 }
 
@@ -72,6 +72,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.table_capacity, wanted.table_capacity);
     replace(plan.list_capacity, wanted.list_capacity);
     replace(plan.trip_budget, wanted.trip_budget);
+    replace(plan.sample_capacity, wanted.sample_capacity);
     replace(plan.chain, wanted.chain);
     return plan;
 }
@@ -109,6 +110,9 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.trip_budget = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips
                                                                           : kDefaultTrips;
+        // Borders, creases and thin parts hold more samples than their area tells.
+        plan.sample_capacity = static_cast<std::uint32_t>(
+            std::min<double>(*candidates, std::ceil(1.5 * disks) + 64));
         plan.chain = provided_chain(mesh, params.min_distance);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
         plan.slots = fitting_slots(plan, pool_bytes);
@@ -157,14 +161,15 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
                        fan_bytes(mesh),
                        alias_bytes(mesh),
                        (std::uint64_t{*cells} + 1) * 4,
-                       count * sizeof(gpu::PointRec),
+                       count * 4,
+                       count * 4,
                        count * 4,
                        plan.slots * sizeof(gpu::SlotRec),
                        plan.pool_bytes(),
                        sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * 4,
                        count * 4,
                        std::max(blocks_of(scanned) * 4, kIdleBytes),
-                       count * sizeof(gpu::SampleRec)};
+                       std::uint64_t{plan.sample_capacity} * sizeof(gpu::SampleRec)};
         const std::uint64_t limit = impl_->report.limits.max_storage_buffer_range;
         for (std::size_t i = 0; i < kBufferRoles; ++i) {
             if (needs.bytes[i] > limit) {

@@ -51,10 +51,9 @@ class Recorder {
         }
     }
 
-    /// Exclusive scan of `count` words from `base` on.
-    void scan(std::uint32_t base, std::uint32_t count, SetRole role) const {
+    /// Exclusive scan of `count` words.
+    void scan(std::uint32_t count, SetRole role) const {
         gpu::Push push = job_.push;
-        push.scan_base = base;
         push.scan_count = count;
         const Groups blocks = groups_for(count, gpu::kScanBlock);
         dispatch(Kernel::scan_blocks, blocks, push, role);
@@ -98,7 +97,7 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch_per_candidate(Kernel::candidates);
     recorder.mark(Stage::draw);
-    recorder.scan(0, starts, SetRole::cell_scan);
+    recorder.scan(starts, SetRole::cell_scan);
     recorder.dispatch_per_candidate(Kernel::bin_fill);
     recorder.mark(Stage::bin);
 }
@@ -113,6 +112,7 @@ void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
         recorder.mark(Stage::select);
         recorder.dispatch_per_slot(Kernel::detect);
         recorder.mark(Stage::detect);
+        recorder.dispatch_per_slot(Kernel::block);
         for (std::uint32_t pass = 0; pass < kResolvePasses; ++pass) {
             recorder.dispatch_per_slot(Kernel::resolve);
         }
@@ -132,7 +132,7 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
 void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
     recorder.dispatch_per_candidate(Kernel::compact_mark);
-    recorder.scan(0, job.impl_->push.candidates, SetRole::workspace);
+    recorder.scan(job.impl_->push.candidates, SetRole::workspace);
     recorder.dispatch_per_candidate(Kernel::compact_gather);
     recorder.mark(Stage::gather);
 }

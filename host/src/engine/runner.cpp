@@ -21,8 +21,9 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Recorded dispatches per round: find_idle, select, activate, detect and two passes of resolve.
-constexpr std::uint32_t kDispatchesPerRound = 6;
+// Recorded dispatches per round: find_idle, select, activate, detect, block and two passes of
+// resolve.
+constexpr std::uint32_t kDispatchesPerRound = 7;
 constexpr std::uint32_t kDispatchesToBegin = 5;
 constexpr std::uint32_t kDispatchesToFinish = 5;
 // Submissions start small and grow towards this time, so that no watchdog bites and progress and
@@ -104,6 +105,7 @@ class Run {
     Result<Done> sample(const ProgressCallback& progress);
     Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
     Result<Done> grow();
+    Result<Done> enlarge_samples();
     Result<std::vector<Sample>> read_samples();
 
     Runner::Impl& runner_;
@@ -246,6 +248,25 @@ Result<Done> Run::grow() {
     return job_->set_plan(*grown, {pool.handle(), 0, pool.size()});
 }
 
+Result<Done> Run::enlarge_samples() {
+    const VkDeviceSize bytes = VkDeviceSize{control_.accepted} * sizeof(gpu::SampleRec);
+    if (bytes > runner_.sampler.report().limits.max_storage_buffer_range) {
+        return Error{Status::device_lacks,
+                     "the " + std::to_string(control_.accepted) + " samples take " +
+                         std::to_string(bytes) + " bytes, but " + runner_.sampler.report().name +
+                         " binds at most " +
+                         std::to_string(runner_.sampler.report().limits.max_storage_buffer_range) +
+                         "; raise the minimum distance"};
+    }
+    auto larger = runner_.allocate(bytes, kWorkspaceUsage, MemoryKind::device);
+    if (!larger) {
+        return larger.error();
+    }
+    DeviceBuffer& samples = memory_.buffers[index_of(BufferRole::samples)];
+    samples = std::move(*larger);
+    return job_->set_samples({samples.handle(), 0, samples.size()});
+}
+
 Result<Done> Run::sample(const ProgressCallback& progress) {
     std::uint32_t rounds = 1;
     bool rewind = false;
@@ -267,6 +288,11 @@ Result<Done> Run::sample(const ProgressCallback& progress) {
         if (progress &&
             !progress({control_.next_rank, report_.candidates, control_.accepted})) {
             return Error{Status::cancelled, "cancelled"};
+        }
+    }
+    if (control_.accepted > job_->plan().sample_capacity) {
+        if (auto enlarged = enlarge_samples(); !enlarged) {
+            return enlarged;
         }
     }
     const DeviceTable& vk = runner_.engine().vk;

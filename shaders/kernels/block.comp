@@ -1,0 +1,58 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// A slot whose disk is complete counts itself among the blockers of the active candidates of higher
+// rank in it, and its disk into the run's totals. One invocation per slot; resumable.
+// reads: pool lists, marks   writes: slots, control, blockers   spec: local size
+
+#include "../lib/prelude.glsl"
+
+layout(local_size_x_id = 0) in;
+
+GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
+GEODISK_BUFFER(kBindSlots, , uvec4, slots);
+GEODISK_BUFFER(kBindPool, readonly, uvec4, pool);
+GEODISK_CONTROL;
+
+#include "../lib/slice.glsl"
+
+void count_disk(uint row, uint conflicts) {
+    uint tested = slots[row + 7u].z;
+    uint pushed = slots[row + 7u].w;
+    uvec4 most = slots[row + 8u];
+    atomicAdd(control.unfinished, 0xffffffffu);
+    atomicAdd(control.disks, 1u);
+    uint low = atomicAdd(control.windows_low, pushed);
+    if (low + pushed < low) {
+        atomicAdd(control.windows_high, 1u);
+    }
+    low = atomicAdd(control.tested_low, tested);
+    if (low + tested < low) {
+        atomicAdd(control.tested_high, 1u);
+    }
+    atomicMax(control.most_waiting, most.x);
+    atomicMax(control.most_vertices, most.z);
+    atomicMax(control.most_conflicts, conflicts);
+}
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    uint row = slot * kSlotRows;
+    if (slot >= control.slots_used || control.unfinished == 0u || slots[row].y != kPhaseBlock) {
+        return;
+    }
+    uvec4 head = slots[row];
+    uint cursor = slots[row + 5u].y;
+    uint end = min(cursor + kListPerDispatch, head.w);
+    for (; cursor < end; ++cursor) {
+        uint at = active_entry(cursor);
+        uint other = marks[pool[list_row(slot) + (at >> 2)][at & 3u]];
+        if (other > slot) {
+            atomicAdd(blockers[other], 1u);
+        }
+    }
+    slots[row + 5u].y = cursor;
+    if (cursor == head.w) {
+        slots[row].y = kPhaseDone;
+        count_disk(row, head.z + head.w);
+    }
+}
