@@ -49,7 +49,7 @@ Channel open_channel(bool is_terminal) {
 /// In the child: never returns.
 [[noreturn]] void execute(const TemporaryFolder& folder, std::vector<std::string> arguments,
                           const Setting& setting, int out, int err) {
-    arguments.insert(arguments.begin(), GEODISK_COMMAND);
+    arguments.insert(arguments.begin(), setting.program);
     std::vector<char*> pointers;
     for (std::string& argument : arguments) {
         pointers.push_back(argument.data());
@@ -67,7 +67,7 @@ Channel open_channel(bool is_terminal) {
     }
     if (chdir((folder / "").c_str()) == 0 && dup2(out, STDOUT_FILENO) >= 0 &&
         dup2(err, STDERR_FILENO) >= 0) {
-        execv(GEODISK_COMMAND, pointers.data());
+        execv(setting.program.c_str(), pointers.data());
     }
     _exit(127);
 }
@@ -144,7 +144,8 @@ std::vector<std::string> files_in(const TemporaryFolder& folder) {
 
 void check_fails(const TemporaryFolder& folder, int status, const std::string& part,
                  const std::vector<std::string>& arguments, const Setting& setting) {
-    std::string command = "geodisk";
+    const std::string name = std::filesystem::path(setting.program).filename().string();
+    std::string command = name;
     for (const std::string& argument : arguments) {
         command += " " + argument;
     }
@@ -154,7 +155,7 @@ void check_fails(const TemporaryFolder& folder, int status, const std::string& p
     INFO(outcome.err);
     CHECK(outcome.status == status);
     CHECK(contains(outcome.err, part));
-    CHECK(outcome.err.starts_with("geodisk: "));
+    CHECK(outcome.err.starts_with(name + ": "));
     CHECK(lines_of(outcome.err).size() == 1);
     CHECK(outcome.out.empty());
     CHECK(files_in(folder) == before);

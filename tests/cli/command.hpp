@@ -1,4 +1,4 @@
-// Runs the program `geodisk` and catches what it says.
+// Runs the programs and catches what they say.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,7 @@ struct Outcome {
 
 /// Circumstances of a run beyond its arguments.
 struct Setting {
+    std::string program = GEODISK_COMMAND;
     std::vector<std::pair<std::string, std::string>> environment; ///< Added to that of the tests.
     std::optional<std::size_t> file_size_limit;
     std::string stdout_path; ///< A file for standard output instead of a pipe.
@@ -34,7 +35,8 @@ struct Setting {
     int signal = 0;
 };
 
-/// Runs the program in `folder` with the given arguments.
+/// Runs the program, `geodisk` unless `setting` names another, in `folder` with the given
+/// arguments.
 Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
             const Setting& setting = {});
 

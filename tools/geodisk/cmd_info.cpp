@@ -18,8 +18,8 @@
 #include <geodisk/version.hpp>
 
 #include "common/user_error.hpp"
-#include "geodisk/failure.hpp"
-#include "geodisk/human_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {

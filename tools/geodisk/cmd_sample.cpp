@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,13 +16,14 @@
 
 #include "common/atomic_file.hpp"
 #include "common/sample_file.hpp"
-#include "geodisk/arguments.hpp"
-#include "geodisk/failure.hpp"
-#include "geodisk/human_text.hpp"
-#include "geodisk/interrupt.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/progress.hpp"
 #include "geodisk/sample_report.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+#include "program/output_path.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -89,18 +88,6 @@ SampleRequest parse_request(const SampleOptions& options) {
     return request;
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(a, b, ignored)) {
-        return true;
-    }
-    // Paths of files that do not exist yet stay relative unless made absolute first.
-    const auto canonical = [&](const std::string& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
-    };
-    return !canonical(a).empty() && canonical(a) == canonical(b);
-}
-
 /// Finds out before the work that it would be in vain.
 void check_outputs(const SampleOptions& options) {
     const bool has_json_file = !options.json.empty() && options.json != "-";
@@ -115,7 +102,7 @@ void check_outputs(const SampleOptions& options) {
     }
     check_output_path(options.output);
     if (has_json_file) {
-        const AtomicFile probe(options.json); // Creates and removes the temporary file.
+        check_writable(options.json);
     }
 }
 

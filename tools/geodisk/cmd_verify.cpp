@@ -16,11 +16,11 @@
 #include "common/sample_file.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
-#include "geodisk/arguments.hpp"
-#include "geodisk/human_text.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/progress.hpp"
 #include "geodisk/spacing_check.hpp"
+#include "program/arguments.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {

@@ -4,10 +4,10 @@
 #include <iostream>
 #include <utility>
 
-#include "geodisk/failure.hpp"
-#include "geodisk/human_text.hpp"
-#include "geodisk/interrupt.hpp"
 #include "geodisk/progress.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
 
 namespace geodisk::tools {
 namespace {

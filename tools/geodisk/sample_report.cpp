@@ -7,7 +7,7 @@
 #include <geodisk/version.hpp>
 
 #include "common/text.hpp"
-#include "geodisk/human_text.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "constants.h"
-#include "geodisk/human_text.hpp"
-#include "geodisk/interrupt.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"
 #include "lib/surface.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
 
 namespace geodisk::tools {
 namespace {

@@ -1,17 +1,58 @@
-// Which half-edges share an undirected edge, and which vertices a path can join.
+// Which half-edges share an undirected edge, which corners a vertex has, and which vertices a path
+// can join.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "geodisk/mesh.hpp"
 
 namespace geodisk {
 
-/// Fills `HalfEdge::around` from the origins and counts border edges, non-manifold edges and
-/// components. Half-edges of a face that names a vertex twice stay alone.
-void link_edges(std::span<HalfEdge> half_edges, MeshStatistics& statistics);
+/// A half-edge while the mesh is being connected. Connecting reads and writes in the order of the
+/// vertices, which may be any, so this is kept apart from the large HalfEdge.
+struct Link {
+    std::uint32_t origin; ///< As in HalfEdge, like `around`.
+    std::uint32_t around;
+    std::uint32_t angle; ///< pack_corner_angle(); once its fan is measured, HalfEdge::fan_angles.
+};
 
-/// Whether the face of half-edge h takes part in the surface (names three different vertices).
-bool takes_part(std::span<const HalfEdge> half_edges, std::uint32_t h);
+/// `HalfEdge::around` of a half-edge that shares its edge with no other.
+constexpr std::uint32_t lone_half_edge(std::uint32_t h) {
+    return h << 1 | 1u;
+}
+
+/// Lists the corners of the faces that take part (name three different vertices) by vertex, each
+/// named by the half-edge that starts at it: fills `corners`, in ascending order for each vertex,
+/// and `first_corner` and `corner_count` of `fans`, one fan per vertex.
+void list_corners(std::span<const std::uint32_t> triangles, std::span<VertexFan> fans,
+                  std::vector<std::uint32_t>& corners);
+
+/// Joins the half-edges of one undirected edge into cycles (`Link::around`), vertex by vertex, and
+/// counts border edges, non-manifold edges and components.
+class EdgeLinker {
+  public:
+    /// All half-edges must be alone.
+    EdgeLinker(std::span<Link> links, std::uint32_t vertex_count);
+
+    /// Links the edges from vertex v to those of higher index, given all its corners (some). To be
+    /// called for all vertices that have corners in ascending order: then all edges at v are
+    /// linked.
+    void link_at(std::uint32_t v, std::span<const std::uint32_t> corners);
+
+    /// Fills in what all calls have counted.
+    void count(MeshStatistics& statistics) const;
+
+  private:
+    void link_cycle(std::span<const std::uint64_t> cycle);
+    std::uint32_t find_root(std::uint32_t v);
+    void join(std::uint32_t a, std::uint32_t b);
+
+    std::span<Link> links_;
+    std::vector<std::uint32_t> parents_; ///< A forest with one tree per component.
+    std::vector<std::uint64_t> entries_; ///< Of link_at(), kept for its memory.
+    std::uint64_t vertices_ = 0, joins_ = 0, boundary_edges_ = 0, nonmanifold_edges_ = 0;
+};
 
 } // namespace geodisk

@@ -1,4 +1,4 @@
-#include "geodisk/human_text.hpp"
+#include "program/human_text.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "geodisk/interrupt.hpp"
+#include "program/interrupt.hpp"
 
 #include <csignal>
 

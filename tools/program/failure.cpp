@@ -1,4 +1,4 @@
-#include "geodisk/failure.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

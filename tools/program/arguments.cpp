@@ -1,4 +1,4 @@
-#include "geodisk/arguments.hpp"
+#include "program/arguments.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,0 +1,137 @@
+#include "mesh/face_frames.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "mesh/vertex_fans.hpp"
+#include "support/prefetch.hpp"
+
+namespace geodisk {
+namespace {
+
+/// Zero beyond the mesh's dimension, which adds nothing to any sum.
+template <std::size_t kAxes>
+using Vertex = std::array<double, kAxes>;
+
+template <std::size_t kAxes>
+Vertex<kAxes> load(const MeshView& mesh, std::uint32_t v) {
+    Vertex<kAxes> vertex{};
+    const double* const from = mesh.positions.data() + std::size_t{v} * mesh.dimension;
+    if (mesh.dimension == kAxes) {
+        std::copy_n(from, kAxes, vertex.begin()); // A known number of axes takes no loop.
+    } else {
+        std::copy_n(from, mesh.dimension, vertex.begin());
+    }
+    return vertex;
+}
+
+template <std::size_t kAxes>
+double distance(const Vertex<kAxes>& a, const Vertex<kAxes>& b) {
+    double sum = 0;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+        const double d = b[axis] - a[axis];
+        sum += d * d;
+    }
+    return std::sqrt(sum);
+}
+
+/// The apex of a face in the frame of its edge from a to b. Rejection keeps the height of a needle,
+/// where Heron's formula would lose it.
+template <std::size_t kAxes>
+void place_apex(const Vertex<kAxes>& a, const Vertex<kAxes>& b, const Vertex<kAxes>& c,
+                HalfEdge& edge) {
+    if (edge.length == 0) {
+        edge.apex_x = 0;
+        edge.apex_y = distance(a, c);
+        return;
+    }
+    double dot = 0;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+        dot += (c[axis] - a[axis]) * (b[axis] - a[axis]);
+    }
+    edge.apex_x = dot / edge.length;
+    const double part = dot / (edge.length * edge.length);
+    double height2 = 0;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+        const double along = (b[axis] - a[axis]) * part;
+        const double d = c[axis] - a[axis] - along;
+        height2 += d * d;
+    }
+    edge.apex_y = std::sqrt(height2);
+}
+
+void place_angle(HalfEdge& edge) {
+    // Not std::hypot: its last bit differs between C libraries.
+    const double left = std::sqrt(edge.apex_x * edge.apex_x + edge.apex_y * edge.apex_y);
+    edge.cosine = left > 0 ? edge.apex_x / left : 1;
+    edge.sine = left > 0 ? edge.apex_y / left : 0;
+}
+
+template <std::size_t kAxes>
+void place_face(const MeshView& mesh, std::span<const std::uint32_t> face, HalfEdge (&edges)[3]) {
+    const Vertex<kAxes> corners[3] = {load<kAxes>(mesh, face[0]), load<kAxes>(mesh, face[1]),
+                                      load<kAxes>(mesh, face[2])};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const Vertex<kAxes>& a = corners[k];
+        const Vertex<kAxes>& b = corners[(k + 1) % 3];
+        edges[k].length = distance(a, b);
+        place_apex(a, b, corners[(k + 2) % 3], edges[k]);
+        place_angle(edges[k]);
+    }
+}
+
+bool repeats_vertex(std::span<const std::uint32_t> face) {
+    return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+}
+
+template <std::size_t kAxes>
+std::vector<double> place_all(const MeshView& mesh, std::vector<HalfEdge>& half_edges,
+                              std::vector<Link>& links, MeshStatistics& statistics) {
+    const std::size_t faces = mesh.triangles.size() / 3;
+    std::vector<double> areas(faces);
+    constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
+    for (std::size_t f = 0; f < faces; ++f) {
+        const auto face = mesh.triangles.subspan(3 * f, 3);
+        if (f + kAhead < faces) {
+            for (const std::uint32_t v : mesh.triangles.subspan(3 * (f + kAhead), 3)) {
+                prefetch(&mesh.positions[std::size_t{v} * mesh.dimension]);
+            }
+        }
+        HalfEdge edges[3]{};
+        std::uint32_t angles[3]{};
+        if (repeats_vertex(face)) {
+            ++statistics.repeated_index_faces;
+        } else {
+            place_face<kAxes>(mesh, face, edges);
+            areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
+            statistics.area += areas[f];
+            statistics.zero_area_faces += areas[f] == 0;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                statistics.longest_edge = std::max(statistics.longest_edge, edges[k].length);
+                angles[k] = pack_corner_angle(edges[k], edges[previous_in_face(k)]);
+            }
+        }
+        const auto first = static_cast<std::uint32_t>(3 * f);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            edges[k].origin = face[k];
+            links.push_back({face[k], lone_half_edge(first + k), angles[k]});
+        }
+        half_edges.insert(half_edges.end(), edges, edges + 3);
+    }
+    return areas;
+}
+
+} // namespace
+
+std::vector<double> place_faces(const MeshView& mesh, std::vector<HalfEdge>& half_edges,
+                                std::vector<Link>& links, MeshStatistics& statistics) {
+    // Reserved and appended to rather than resized: memory is touched once instead of twice.
+    half_edges.reserve(half_edges.size() + mesh.triangles.size());
+    links.reserve(links.size() + mesh.triangles.size());
+    return mesh.dimension <= 3 ? place_all<3>(mesh, half_edges, links, statistics)
+                               : place_all<8>(mesh, half_edges, links, statistics);
+}
+
+} // namespace geodisk

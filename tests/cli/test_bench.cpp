@@ -1,0 +1,145 @@
+// The benchmark: its files and failures. What its times are is nothing a test could know.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Setting bench() {
+    Setting setting;
+    setting.program = GEODISK_BENCH;
+    return setting;
+}
+
+void check_row(const Json& row) {
+    for (const char* const key :
+         {"triangles", "samples", "candidates", "disks", "windows", "tested", "iterations",
+          "dispatches", "regrown", "most_waiting", "longest_chain", "device_bytes"}) {
+        INFO(key);
+        CHECK(row[key].is_number_unsigned());
+    }
+    for (const char* const key :
+         {"prepare_seconds", "upload_seconds", "device_seconds", "readback_seconds",
+          "reference_seconds", "device_per_reference", "device_samples_per_second",
+          "reference_samples_per_second", "min_distance", "disks_per_sample", "windows_per_disk",
+          "tested_per_disk", "bytes_per_candidate"}) {
+        INFO(key);
+        CHECK(row[key].is_number_float());
+        CHECK(row[key] >= 0.0);
+    }
+    CHECK(row["samples"] > 0u);
+    CHECK(row["disks_per_sample"] >= 1.0);
+}
+
+} // namespace
+
+TEST_CASE("the benchmark tells its results and circumstances") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(
+        folder,
+        {"builtin:cube", "-n", "50,2e2", "--repeats", "2", "--json", "a.json", "--csv", "a.csv"},
+        bench());
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK(contains(outcome.out, "builtin:cube"));
+
+    const Json report = Json::parse(bytes_of(folder / "a.json"));
+    const Json& circumstances = report["circumstances"];
+    for (const char* const key : {"version", "commit", "build_type", "compiler", "device", "driver",
+                                  "device_type", "cpu", "date"}) {
+        INFO(key);
+        CHECK_FALSE(circumstances[key].get<std::string>().empty());
+    }
+    CHECK(circumstances["dirty"].is_boolean());
+    CHECK(circumstances["cores"].is_number_unsigned());
+    CHECK(circumstances["repeats"] == 2);
+    CHECK(circumstances["warm_ups"] == 1);
+    REQUIRE(report["rows"].size() == 2);
+    for (const Json& row : report["rows"]) {
+        CHECK(row["sweep"] == "listed");
+        CHECK(row["mesh"] == "builtin:cube");
+        CHECK(row["triangles"] == 12);
+        check_row(row);
+    }
+    CHECK(report["rows"][1]["count"] == 200);
+    CHECK(report["growth"].empty());
+
+    std::vector<std::string> lines = lines_of(bytes_of(folder / "a.csv"));
+    const auto is_comment = [](const std::string& line) { return line.starts_with("# "); };
+    CHECK(std::count_if(lines.begin(), lines.end(), is_comment) ==
+          static_cast<std::ptrdiff_t>(circumstances.size()));
+    std::erase_if(lines, is_comment);
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[0].starts_with("sweep,mesh,triangles,count,samples,"));
+    for (const std::string& line : lines) {
+        CHECK(std::count(line.begin(), line.end(), ',') + 1 ==
+              static_cast<std::ptrdiff_t>(report["rows"][0].size()));
+    }
+}
+
+TEST_CASE("the benchmark sweeps samples and triangles") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder,
+                                {"builtin:cube", "--scaling", "--scaling-counts", "20,60",
+                                 "--scaling-samples", "50", "--scaling-faces", "200", "--repeats",
+                                 "1", "--warm-ups", "0", "--json", "a.json", "--plot", "plot"},
+                                bench());
+    REQUIRE(outcome.status == 0);
+    CHECK(files_in(folder) == std::vector<std::string>{"a.json", "plot-memory-n.svg",
+                                                       "plot-time-faces.svg", "plot-time-n.svg"});
+    const Json report = Json::parse(bytes_of(folder / "a.json"));
+    std::vector<std::uint64_t> faces;
+    for (const Json& row : report["rows"]) {
+        check_row(row);
+        if (row["sweep"] == "triangles") {
+            CHECK(row["count"] == 50);
+            faces.push_back(row["triangles"]);
+        }
+    }
+    CHECK(report["rows"].size() == faces.size() + 2);
+    CHECK(faces == std::vector<std::uint64_t>{12, 48, 108, 192});
+    std::set<std::string> fitted;
+    for (const Json& growth : report["growth"]) {
+        CHECK(growth["exponent"].is_number_float());
+        CHECK(growth["points"] == (growth["sweep"] == "samples" ? 2u : faces.size()));
+        fitted.insert(growth["sweep"].get<std::string>() + ' ' +
+                      growth["quantity"].get<std::string>());
+    }
+    CHECK(fitted == std::set<std::string>{"samples device_seconds", "samples reference_seconds",
+                                          "triangles device_seconds", "triangles prepare_seconds",
+                                          "triangles reference_seconds"});
+    for (const char* const plot : {"plot-time-n.svg", "plot-time-faces.svg", "plot-memory-n.svg"}) {
+        const std::string text = bytes_of(folder / plot);
+        CHECK(text.starts_with("<svg "));
+        CHECK(contains(text, "builtin:cube"));
+    }
+}
+
+TEST_CASE("the benchmark explains its failures") {
+    const TemporaryFolder folder;
+    folder.write("broken.obj", "f 1 2 3\n");
+    check_fails(folder, 2, "MESH is required (see geodisk_bench --help)", {}, bench());
+    check_fails(folder, 2, "--count", {"builtin:cube", "-n", "few"}, bench());
+    check_fails(folder, 2, "--repeats", {"builtin:cube", "--repeats", "0"}, bench());
+    check_fails(folder, 2, "needs --scaling", {"builtin:cube", "--plot", "p"}, bench());
+    check_fails(folder, 2, "need --scaling", {"builtin:cube", "--scaling-faces", "9"}, bench());
+    check_fails(folder, 2, "contradict", {"builtin:cube", "-n", "9", "--scaling"}, bench());
+    check_fails(folder, 2, "would replace", {"builtin:cube", "--json", "a.txt", "--csv", "./a.txt"},
+                bench());
+    check_fails(folder, 2, "would replace broken.obj", {"broken.obj", "--json", "broken.obj"},
+                bench());
+    check_fails(folder, 3, "missing.obj", {"builtin:cube", "missing.obj"}, bench());
+    check_fails(folder, 3, "broken.obj", {"broken.obj"}, bench());
+    check_fails(folder, 4, "cannot write", {"builtin:cube", "--json", "none/a.json"}, bench());
+    check_fails(folder, 5, "none of them", {"builtin:cube", "--device", "none of them"}, bench());
+}
+
+} // namespace geodisk::test

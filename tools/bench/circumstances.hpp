@@ -1,0 +1,30 @@
+// Where, when and with what a benchmark ran.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/device.hpp>
+
+#include "bench/options.hpp"
+
+namespace geodisk::bench {
+
+/// Everything as text or numbers that mean something without this machine.
+struct Circumstances {
+    std::string version;   ///< "geodisk 0.1.0".
+    std::string commit;    ///< Hexadecimal, or "unknown" when not built from a checkout.
+    bool is_dirty = false; ///< The checkout had changes that the commit lacks.
+    std::string build_type, compiler;
+    std::string device, driver, device_type;
+    std::string cpu;    ///< Model name, or "unknown".
+    unsigned cores = 0; ///< That this process may be scheduled on; 0 if unknown.
+    std::string date;   ///< UTC, ISO 8601.
+    int repeats = 0, warm_ups = 0;
+    std::uint32_t slots = 0, trips = 0, local_size = 0; ///< As asked for; 0 for the default.
+};
+
+Circumstances find_circumstances(const DeviceReport& device, const Options& options);
+
+} // namespace geodisk::bench

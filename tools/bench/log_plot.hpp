@@ -1,0 +1,34 @@
+// Line plots with logarithmic axes, as SVG.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/statistics.hpp"
+
+namespace geodisk::bench {
+
+struct LogPlot {
+    struct Line {
+        std::string label;
+        /// Lines of one group share a colour and, where colours run out, differ from other groups
+        /// by their markers.
+        std::size_t group = 0;
+        bool is_dashed = false;
+        std::vector<Point> points; ///< Those without positive coordinates are left out.
+    };
+
+    std::string title;
+    std::string x_label, y_label;
+    std::string x_unit, y_unit; ///< Follow each tick's number, like "s"; may be empty.
+    std::vector<Line> lines;
+};
+
+/// A document of its own. Colours follow the reader's preference for light or dark.
+std::string svg_text(const LogPlot& plot);
+
+/// A number with at most three digits and a prefix from n to T: "300", "1k", "2 m" with unit "" or
+/// "s" following: "3 ms".
+std::string tick_text(double value, const std::string& unit);
+
+} // namespace geodisk::bench

@@ -1,0 +1,75 @@
+// The command `geodisk_bench`: the sampler beside the sequential reference, on the same meshes in
+// the same run. It compares their sets before it times anything.
+#include <iostream>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <geodisk/context.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/version.hpp>
+
+#include "bench/circumstances.hpp"
+#include "bench/options.hpp"
+#include "bench/outputs.hpp"
+#include "bench/sweep.hpp"
+#include "bench/table.hpp"
+#include "common/user_error.hpp"
+#include "program/failure.hpp"
+#include "program/interrupt.hpp"
+#include "program/program.hpp"
+
+namespace {
+
+using namespace geodisk;
+
+constexpr const char* kFooter =
+    R"(Times are wall time in seconds: prepare is the host's work on a mesh; upload, device and
+readback are those of a run; reference is the same work as device, done sequentially in double
+precision on one core. Both start from the candidates' numbers and end with the finished set.
+
+Examples:
+  geodisk_bench builtin:showpiece bunny.ply
+  geodisk_bench builtin:cube -n 1e4,1e5 --repeats 9 --json bench.json
+  geodisk_bench builtin:showpiece --scaling --json scaling.json --plot scaling
+
+Exit status:
+  0    success
+  2    wrong usage: an unknown option, a value out of range, options that contradict
+  3    a mesh is missing, unreadable or malformed
+  4    an output cannot be written
+  5    no Vulkan device that can run geodisk
+  6    the work does not fit into the memory of the host or the device
+  7    device and reference differ, the device was lost, or an error inside geodisk or the driver
+  130  interrupted (SIGINT)
+  143  terminated (SIGTERM)
+Whenever the status is not 0, no output file is written or replaced.)";
+
+void run(const bench::Options& options) {
+    bench::check_outputs(options);
+    const std::vector<bench::NamedMesh> meshes = bench::read_meshes(options.meshes);
+    const Context context =
+        tools::take(Context::create({options.device, /* validation */ false, {}}));
+    Runner runner = tools::take(Runner::create(context.device(), context.queue(), options.runner));
+    const bench::Circumstances circumstances = bench::find_circumstances(context.report(), options);
+    bench::print_heading(circumstances);
+    const std::vector<bench::Series> series =
+        bench::run_all(runner, options, meshes, {bench::print_row, bench::print_growth});
+    bench::write_outputs(options, circumstances, series);
+    if (!std::cout) {
+        throw tools::UserError(tools::ExitCode::bad_output,
+                               "the table cannot be written to standard output");
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    tools::install_signal_handlers();
+    CLI::App app("Times the sampler beside a sequential reference that returns the same samples",
+                 "geodisk_bench");
+    app.set_version_flag("--version", "geodisk_bench " GEODISK_VERSION_STRING);
+    app.footer(kFooter);
+    bench::add_options(app, run);
+    return tools::run_program(app, argc, argv);
+}

@@ -1,0 +1,36 @@
+// Timing the sampler beside the sequential reference.
+#pragma once
+
+#include <string>
+
+#include <geodisk/runner.hpp>
+
+#include "bench/measurement.hpp"
+#include "common/mesh_file.hpp"
+
+namespace geodisk::bench {
+
+/// A mesh ready to be sampled, and how long that took.
+struct BenchMesh {
+    std::string name;
+    PreparedMesh prepared;
+    double prepare_seconds = 0; ///< Median.
+};
+
+/// Prepares `mesh` `repeats` times. Throws UserError(bad_input) if it is rejected.
+BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int repeats);
+
+struct Repetition {
+    int warm_ups = 1;
+    int repeats = 5;
+};
+
+/// Samples `mesh` on the device and by the float reference and compares the sets, warms up, then
+/// times the device and the reference in double precision in turn.
+///
+/// Throws UserError: `internal` if the sets differ, `out_of_memory` if the job does not fit, or
+/// when interrupted.
+Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
+                    const Repetition& repetition);
+
+} // namespace geodisk::bench

@@ -1,0 +1,133 @@
+#include "bench/options.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "common/user_error.hpp"
+#include "program/arguments.hpp"
+
+namespace geodisk::bench {
+namespace {
+
+using tools::ExitCode;
+using tools::UserError;
+
+/// As given: counts like 1e5 are read later.
+struct RawOptions {
+    Options options;
+    std::vector<std::string> counts{"1000", "10000", "100000"};
+    std::vector<std::string> scaling_counts{"100",   "300",   "1000",   "3000",
+                                            "10000", "30000", "100000", "300000"};
+    std::string scaling_samples = "10000";
+    std::string scaling_faces = "1000000";
+    bool has_counts = false, has_sweep = false;
+};
+
+std::vector<double> parse_counts(const std::string& option, const std::vector<std::string>& texts) {
+    std::vector<double> counts;
+    for (const std::string& text : texts) {
+        counts.push_back(tools::parse_count(option, text));
+    }
+    return counts;
+}
+
+Options checked(const RawOptions& raw) {
+    Options options = raw.options;
+    if (options.scaling && raw.has_counts) {
+        throw UserError(ExitCode::usage, "--count and --scaling contradict each other; a sweep "
+                                         "takes its counts from --scaling-counts");
+    }
+    if (!options.scaling && raw.has_sweep) {
+        throw UserError(ExitCode::usage,
+                        "options that begin with --scaling- need --scaling as well");
+    }
+    if (!options.scaling && !options.plot.empty()) {
+        throw UserError(ExitCode::usage, "--plot draws sweeps, so it needs --scaling");
+    }
+    options.counts = options.scaling ? parse_counts("--scaling-counts", raw.scaling_counts)
+                                     : parse_counts("--count", raw.counts);
+    options.face_sweep_count = tools::parse_count("--scaling-samples", raw.scaling_samples);
+    options.most_faces =
+        static_cast<std::uint64_t>(tools::parse_count("--scaling-faces", raw.scaling_faces));
+    return options;
+}
+
+void add_scaling(CLI::App& app, RawOptions& raw) {
+    const char* const group = "Scaling";
+    app.add_flag("--scaling", raw.options.scaling,
+                 "Vary samples, then triangles, on each mesh, and fit\n"
+                 "the exponents of time by least squares")
+        ->group(group);
+    app.add_option("--scaling-counts", raw.scaling_counts, "Sample counts of the first sweep")
+        ->type_name("N,...")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--scaling-samples", raw.scaling_samples,
+                   "Sample count of the second sweep, which cuts each\n"
+                   "triangle into 1, 4, 9, ... of the same surface")
+        ->type_name("N")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--scaling-faces", raw.scaling_faces, "Most triangles of the second sweep")
+        ->type_name("F")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--plot", raw.options.plot,
+                   "Draw the sweeps: PREFIX-time-n.svg,\n"
+                   "PREFIX-time-faces.svg and PREFIX-memory-n.svg")
+        ->type_name("PREFIX")
+        ->group(group);
+}
+
+void add_tuning(CLI::App& app, RunnerOptions& runner) {
+    const char* const group = "Tuning, does not change the samples";
+    app.add_option("--slots", runner.plan.slots, "Candidates active at a time")
+        ->type_name("K")
+        ->group(group);
+    app.add_option("--trips", runner.plan.trip_budget, "Loop iterations per dispatch")
+        ->type_name("K")
+        ->group(group);
+    app.add_option("--local-size", runner.sampler.local_size,
+                   "Invocations per work group, a power of two")
+        ->type_name("K")
+        ->group(group);
+}
+
+} // namespace
+
+void add_options(CLI::App& app, void (*run)(const Options&)) {
+    const auto raw = std::make_shared<RawOptions>();
+    Options& options = raw->options;
+    app.add_option("MESH", options.meshes, "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
+        ->type_name("")
+        ->required();
+    app.add_option("-n,--count", raw->counts, "Sample counts to aim at")
+        ->type_name("N,...")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_option("--repeats", options.repeats, "Runs to take the median of, 1 to 1000")
+        ->type_name("K")
+        ->check(CLI::Range(1, 1000).description(""))
+        ->capture_default_str();
+    app.add_option("--warm-ups", options.warm_ups, "Runs before those, 0 to 1000")
+        ->type_name("K")
+        ->check(CLI::Range(0, 1000).description(""))
+        ->capture_default_str();
+    app.add_option("--device", options.device, "Device by name, index or UUID (geodisk info)")
+        ->type_name("NAME|INDEX");
+    app.add_option("--json", options.json, "Write rows, fits and circumstances as JSON")
+        ->type_name("FILE");
+    app.add_option("--csv", options.csv, "Write rows and circumstances as CSV")->type_name("FILE");
+    add_scaling(app, *raw);
+    add_tuning(app, options.runner);
+    app.callback([&app, raw, run] {
+        raw->has_counts = app.count("--count") > 0;
+        raw->has_sweep = app.count("--scaling-counts") + app.count("--scaling-samples") +
+                             app.count("--scaling-faces") >
+                         0;
+        run(checked(*raw));
+    });
+}
+
+} // namespace geodisk::bench

@@ -1,0 +1,35 @@
+// What a benchmark run is asked to do.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <geodisk/runner.hpp>
+
+namespace geodisk::bench {
+
+/// The command line, checked as far as that is possible without meshes and device.
+struct Options {
+    std::vector<std::string> meshes;
+    std::vector<double> counts; ///< Samples to aim at; those of the sweep if `scaling`.
+    int repeats = 5;
+    int warm_ups = 1;
+    std::string device;
+    RunnerOptions runner;
+
+    bool scaling = false;
+    double face_sweep_count = 0;  ///< Samples to aim at while triangles vary.
+    std::uint64_t most_faces = 0; ///< Where the sweep of triangles ends.
+
+    std::string json, csv; ///< Files to write; empty for none.
+    std::string plot;      ///< Prefix of the plots' files; empty for none.
+};
+
+/// Adds all options to `app`, and `run` as what to do with them once parsed. Values out of range
+/// and contradictions throw UserError(usage) before `run` is called.
+void add_options(CLI::App& app, void (*run)(const Options&));
+
+} // namespace geodisk::bench

@@ -1,0 +1,133 @@
+#include "bench/table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <iterator>
+#include <string>
+
+#include "program/human_text.hpp"
+
+namespace geodisk::bench {
+namespace {
+
+struct Column {
+    const char* above;
+    const char* name;
+    std::size_t width;
+    std::string (*text)(const Measurement& row);
+};
+
+std::string fixed(double value, int decimals) {
+    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
+    const auto end =
+        std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, decimals);
+    return {digits, end.ptr};
+}
+
+std::string whole(double value) {
+    return fixed(value, 0);
+}
+
+std::string seconds(double value) {
+    return fixed(value, value < 100 ? 4 : 1);
+}
+
+/// Three significant digits, but never fewer than those before the point.
+std::string three_digits(double value) {
+    return fixed(value, value < 1 ? 3 : value < 10 ? 2 : value < 100 ? 1 : 0);
+}
+
+constexpr std::size_t kNameWidth = 20;
+constexpr Column kColumns[] = {
+    {"", "faces", 8, [](const Measurement& r) { return std::to_string(r.triangles); }},
+    {"", "samples", 8, [](const Measurement& r) { return std::to_string(r.samples); }},
+    {"prepare", "s", 8, [](const Measurement& r) { return seconds(r.seconds.prepare); }},
+    {"upload", "s", 8, [](const Measurement& r) { return seconds(r.seconds.upload); }},
+    {"device", "s", 8, [](const Measurement& r) { return seconds(r.seconds.device); }},
+    {"readback", "s", 8, [](const Measurement& r) { return seconds(r.seconds.readback); }},
+    {"reference", "s", 9, [](const Measurement& r) { return seconds(r.seconds.reference); }},
+    {"device", "/ref", 6,
+     [](const Measurement& r) { return three_digits(r.seconds.device / r.seconds.reference); }},
+    {"device", "sample/s", 8,
+     [](const Measurement& r) { return whole(static_cast<double>(r.samples) / r.seconds.device); }},
+    {"reference", "sample/s", 9,
+     [](const Measurement& r) {
+         return whole(static_cast<double>(r.samples) / r.seconds.reference);
+     }},
+    {"disk", "/sample", 7,
+     [](const Measurement& r) { return three_digits(r.per_sample(r.run.disks)); }},
+    {"window", "/disk", 7,
+     [](const Measurement& r) {
+         return three_digits(r.per_disk(static_cast<double>(r.run.windows)));
+     }},
+    {"tested", "/disk", 6,
+     [](const Measurement& r) {
+         return three_digits(r.per_disk(static_cast<double>(r.run.tested)));
+     }},
+    {"", "batches", 7, [](const Measurement& r) { return std::to_string(r.run.iterations); }},
+    {"", "waiting", 7, [](const Measurement& r) { return std::to_string(r.run.most_waiting); }},
+    {"", "grown", 5, [](const Measurement& r) { return std::to_string(r.run.regrown); }},
+    {"device", "MiB", 7,
+     [](const Measurement& r) {
+         return fixed(static_cast<double>(r.run.device_bytes) / 1048576.0, 1);
+     }},
+    {"byte/", "candid.", 7, [](const Measurement& r) {
+         return three_digits(static_cast<double>(r.run.device_bytes) / r.run.candidates);
+     }}};
+
+void append_right(std::string& line, const std::string& text, std::size_t width) {
+    line.append(1 + width - std::min(width, text.size()), ' ');
+    line += text;
+}
+
+void append_left(std::string& line, const std::string& text, std::size_t width) {
+    line += text;
+    line.append(width - std::min(width, text.size()), ' ');
+}
+
+} // namespace
+
+void print_heading(const Circumstances& run) {
+    std::string upper(kNameWidth, ' ');
+    std::string lower;
+    append_left(lower, "mesh", kNameWidth);
+    for (const Column& column : kColumns) {
+        append_right(upper, column.above, column.width);
+        append_right(lower, column.name, column.width);
+    }
+    std::cout << "device     " << tools::one_line(run.device) << ", " << tools::one_line(run.driver)
+              << "\nreference  sequential, double precision, on " << tools::one_line(run.cpu)
+              << ", " << run.cores << " cores\nbuild      " << run.version << ", commit "
+              << run.commit.substr(0, 12) << (run.is_dirty ? " with changes" : "") << ", "
+              << run.build_type << ", " << run.compiler << "\nseconds    medians of " << run.repeats
+              << " runs after " << run.warm_ups << " to warm up; the sets were equal\n\n"
+              << upper << '\n'
+              << lower << '\n'
+              << std::flush;
+}
+
+void print_row(const Measurement& row) {
+    std::string line;
+    append_left(line, tools::one_line(row.mesh), kNameWidth);
+    for (const Column& column : kColumns) {
+        append_right(line, column.text(row), column.width);
+    }
+    std::cout << line << '\n' << std::flush;
+}
+
+void print_growth(const Series& series) {
+    for (const Growth& growth : series.growth) {
+        std::cout << "  " << growth.quantity << " time of " << tools::one_line(series.mesh);
+        if (growth.law) {
+            std::cout << " ~ " << to_string(series.sweep) << "^" << fixed(growth.law->exponent, 3)
+                      << "  (R2 " << fixed(growth.law->r_squared, 3) << ", " << growth.law->points
+                      << " points)\n";
+        } else {
+            std::cout << ": too few steps to fit an exponent\n";
+        }
+    }
+    std::cout << std::flush;
+}
+
+} // namespace geodisk::bench

@@ -1,0 +1,64 @@
+#include "program/program.hpp"
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "common/user_error.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+int fail(const CLI::App& app, ExitCode code, const std::string& message) {
+    std::cout.flush();
+    std::cerr << app.get_name() << ": " << one_line(message) << '\n';
+    return static_cast<int>(code);
+}
+
+/// Where the user finds the right usage.
+std::string hint(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    return " (see " + app.get_name() + " " +
+           (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help)";
+}
+
+/// CLI11 counts values; people want to know what they did.
+std::string usage_message(const CLI::ParseError& error) {
+    const std::string message = error.what();
+    const std::string option = message.substr(0, message.find(':'));
+    if (message.find("At Most 1 required") != std::string::npos) {
+        return option + " is given more than once";
+    }
+    if (message.find("1 required") != std::string::npos) {
+        return option + " needs a value";
+    }
+    return message;
+}
+
+} // namespace
+
+int run_program(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+        return 0;
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help(); // Of the subcommand if one is chosen.
+        return 0;
+    } catch (const CLI::CallForVersion& version) {
+        std::cout << version.what() << '\n';
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        return fail(app, ExitCode::usage, usage_message(error) + hint(app));
+    } catch (const UserError& error) {
+        const bool is_usage = error.code() == ExitCode::usage;
+        return fail(app, error.code(), error.what() + (is_usage ? hint(app) : ""));
+    } catch (const std::bad_alloc&) {
+        return fail(app, ExitCode::out_of_memory, "the memory of this machine does not suffice");
+    } catch (const std::exception& error) {
+        return fail(app, ExitCode::internal, error.what());
+    }
+}
+
+} // namespace geodisk::tools
