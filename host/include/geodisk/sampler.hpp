@@ -84,6 +84,7 @@ struct RunPlan {
     std::uint32_t table_capacity = 0;  ///< Vertices per slot, a power of two.
     std::uint32_t list_capacity = 0;   ///< Conflicts per slot, a multiple of 4.
     std::uint32_t trip_budget = 0;     ///< Windows an invocation spreads per dispatch, about.
+    std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
     std::uint32_t sample_capacity = 0; ///< Samples the buffer holds.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
 

@@ -72,12 +72,14 @@ Result<Done> check_plan(const RunPlan& plan) {
     const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
                       std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
                       plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 &&
-                      plan.trip_budget >= 1 && plan.sample_capacity >= 1 && plan.slots <= kMost &&
+                      plan.trip_budget >= 1 && plan.detect_passes >= 1 &&
+                      plan.detect_passes <= 4096 && plan.sample_capacity >= 1 && plan.slots <= kMost &&
                       plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
                       plan.list_capacity <= kMost;
     if (!fine) {
         return Error{Status::invalid_argument,
-                     "the plan is not as RunPlan asks: slots, trip_budget and sample_capacity at least 1, "
+                     "the plan is not as RunPlan asks: slots, trip_budget, detect_passes and "
+                     "sample_capacity at least 1, "
                      "window_capacity and table_capacity powers of two, list_capacity a "
                      "multiple of 4, none of them 0 or more than 2^26"};
     }

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <string>
+#include <thread>
 
 #include <geodisk/sampler.hpp>
 
@@ -22,6 +23,7 @@ constexpr std::uint32_t kLlvmpipeTrips =
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
 constexpr std::uint32_t kDefaultTrips = 1024;
 constexpr std::uint32_t kMostSlots = 1u << 16;
+constexpr double kMostPasses = 32;
 constexpr std::uint64_t kIdleBytes = std::uint64_t{gpu::kFindMostGroups} * gpu::kFindLanes * 4;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
 
@@ -35,8 +37,11 @@ std::uint64_t blocks_of(std::uint64_t words) {
 
 /// Few enough that most active candidates are accepted (paper Table 1), and enough to fill the
 /// device; where that cannot be had, a CPU rather waits than computes disks for losers.
-std::uint32_t wanted_slots(double disks, bool cpu) {
-    const double least = cpu ? std::clamp(disks / 8, 8.0, 32.0) : 64.0;
+std::uint32_t wanted_slots(double disks, const DeviceReport& report) {
+    const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const double lanes = std::max(1u, std::thread::hardware_concurrency()) *
+                         std::max(1u, report.limits.subgroup_size);
+    const double least = cpu ? std::clamp(disks / 8, 8.0, lanes) : 64.0;
     return static_cast<std::uint32_t>(
         std::clamp(disks / (cpu ? 24 : 8), least, double{kMostSlots}));
 }
@@ -72,6 +77,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.table_capacity, wanted.table_capacity);
     replace(plan.list_capacity, wanted.list_capacity);
     replace(plan.trip_budget, wanted.trip_budget);
+    replace(plan.detect_passes, wanted.detect_passes);
     replace(plan.sample_capacity, wanted.sample_capacity);
     replace(plan.chain, wanted.chain);
     return plan;
@@ -104,12 +110,16 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double disks = *candidates / params.pool_ratio;
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
-        plan.slots = wanted_slots(disks, report.type == VK_PHYSICAL_DEVICE_TYPE_CPU);
+        plan.slots = wanted_slots(disks, report);
         plan.window_capacity = pow2_at_least(16 + faces_per_disk);
         plan.table_capacity = pow2_at_least(16 + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.trip_budget = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips
                                                                           : kDefaultTrips;
+        // The trips a disk takes grow a little slower than this, by measurement.
+        const double trips = 0.4 * faces_per_disk * std::sqrt(faces_per_disk);
+        plan.detect_passes = static_cast<std::uint32_t>(
+            std::clamp(trips / plan.trip_budget + 1, 1.0, kMostPasses));
         // Borders, creases and thin parts hold more samples than their area tells.
         plan.sample_capacity = static_cast<std::uint32_t>(
             std::min<double>(*candidates, std::ceil(1.5 * disks) + 64));

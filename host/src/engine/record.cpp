@@ -110,7 +110,9 @@ void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
         recorder.dispatch(Kernel::select, {1, 1}, job.impl_->push);
         recorder.dispatch_per_slot(Kernel::activate);
         recorder.mark(Stage::select);
-        recorder.dispatch_per_slot(Kernel::detect);
+        for (std::uint32_t pass = 0; pass < job.impl_->plan.detect_passes; ++pass) {
+            recorder.dispatch_per_slot(Kernel::detect);
+        }
         recorder.mark(Stage::detect);
         recorder.dispatch_per_slot(Kernel::block);
         for (std::uint32_t pass = 0; pass < kResolvePasses; ++pass) {

@@ -21,9 +21,9 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Recorded dispatches per round: find_idle, select, activate, detect, block and two passes of
-// resolve.
-constexpr std::uint32_t kDispatchesPerRound = 7;
+// Recorded dispatches per round: find_idle, select, activate, block and two passes of resolve; and
+// those of detect.
+constexpr std::uint32_t kDispatchesPerRound = 6;
 constexpr std::uint32_t kDispatchesToBegin = 5;
 constexpr std::uint32_t kDispatchesToFinish = 5;
 // Submissions start small and grow towards this time, so that no watchdog bites and progress and
@@ -204,7 +204,7 @@ Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
             ++report_.dispatches;
         }
         runner_.sampler.record_rounds(commands, *job_, rounds);
-        report_.dispatches += rounds * kDispatchesPerRound;
+        report_.dispatches += rounds * (kDispatchesPerRound + job_->plan().detect_passes);
         barrier_compute_to_transfer(vk, commands);
         const VkBufferCopy copy{0, 0, sizeof control_};
         vk.vkCmdCopyBuffer(commands, memory_.buffers[index_of(BufferRole::control)].handle(),
