@@ -17,18 +17,17 @@ GEODISK_CONTROL;
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     uint row = slot * kSlotRows;
-    if (slot >= control.slots_used || slots[row].y != kPhaseSelected) {
+    if (slot >= control.slots_used || slots[row].y != kSlotSelected) {
         return;
     }
     uint rank = slots[row + 1u].x;
     uint place = places[rank];
     Candidate c = draw_candidate(rank);
-    slots[row] = uvec4(place, kPhaseClear, 0u, 0u);
+    slots[row] = uvec4(place, kSlotReady, 0u, 0u);
     slots[row + 1u] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
                             floatBitsToUint(weight_of(c.weight2)));
-    for (uint i = 2u; i < kSlotRows; ++i) {
-        slots[row + i] = uvec4(0u);
-    }
+    slots[row + 2u] = uvec4(0u);
+    slots[row + 3u] = uvec4(0u);
     blockers[slot] = 0u;
     marks[place] = slot;
     states[place] |= kActive;

@@ -16,9 +16,9 @@ GEODISK_CONTROL;
 #include "../lib/slice.glsl"
 
 void count_disk(uint row, uint conflicts) {
-    uint tested = slots[row + 7u].z;
-    uint pushed = slots[row + 7u].w;
-    uvec4 most = slots[row + 8u];
+    uvec4 took = slots[row + 2u];
+    uint tested = took.x;
+    uint pushed = took.y;
     atomicAdd(control.unfinished, 0xffffffffu);
     atomicAdd(control.disks, 1u);
     uint low = atomicAdd(control.windows_low, pushed);
@@ -29,19 +29,19 @@ void count_disk(uint row, uint conflicts) {
     if (low + tested < low) {
         atomicAdd(control.tested_high, 1u);
     }
-    atomicMax(control.most_waiting, most.x);
-    atomicMax(control.most_vertices, most.z);
+    atomicMax(control.most_waiting, took.z);
+    atomicMax(control.most_vertices, took.w);
     atomicMax(control.most_conflicts, conflicts);
 }
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     uint row = slot * kSlotRows;
-    if (slot >= control.slots_used || control.unfinished == 0u || slots[row].y != kPhaseBlock) {
+    if (slot >= control.slots_used || control.unfinished == 0u || slots[row].y != kSlotListed) {
         return;
     }
     uvec4 head = slots[row];
-    uint cursor = slots[row + 5u].y;
+    uint cursor = slots[row + 3u].y;
     uint end = min(cursor + kListPerDispatch, head.w);
     for (; cursor < end; ++cursor) {
         uint at = active_entry(cursor);
@@ -50,9 +50,9 @@ void main() {
             atomicAdd(blockers[other], 1u);
         }
     }
-    slots[row + 5u].y = cursor;
+    slots[row + 3u].y = cursor;
     if (cursor == head.w) {
-        slots[row].y = kPhaseDone;
+        slots[row].y = kSlotBlocked;
         count_disk(row, head.z + head.w);
     }
 }

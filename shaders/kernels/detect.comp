@@ -1,10 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The exact geodesic disk of every active candidate, and the idle and active candidates in it (paper
-// DetectCollision, sections 3.4 and 3.5). One invocation per slot. It stops after push.trip_budget
-// trips and goes on in the next dispatch: some drivers end long loops, lavapipe silently. The number
-// of iterations one trip can take is bounded, see kIterationsPerTrip.
-// reads: faces, fans, cells, states, weights   writes: pool slice, slots, control
+// DetectCollision, sections 3.4 and 3.5). One invocation per lane: it takes one slot after the other,
+// so that a large disk holds up no small ones. It stops after push.step_budget steps and goes on in
+// the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
+// step is bounded, see kIterationsPerStep.
+// reads: faces, fans, cells, states, weights   writes: pool, slots, control
 // spec: local size, rounding
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
@@ -35,9 +36,9 @@ Push P;
 #include "../lib/propagate.glsl"
 #include "../lib/scan.glsl"
 
+uint slot;
 uint cursor;        // clear: next table row; source: next edge; fan: next corner
 uint cursor_end;
-uint own_rank;
 uint own_face;
 vec2 own_weights;
 
@@ -48,59 +49,101 @@ uint entry_angles;
 uint fan_angle;
 uint fan_flags;
 
-void load_slot(uint slot) {
+void load_candidate() {
     uint row = slot * kSlotRows;
-    uvec4 a = slots[row];
-    uvec4 b = slots[row + 1u];
-    uvec4 c = slots[row + 2u];
-    uvec4 d = slots[row + 3u];
-    uvec4 e = slots[row + 4u];
-    uvec4 f = slots[row + 5u];
-    uvec4 g = slots[row + 6u];
-    uvec4 h = slots[row + 7u];
-    uvec4 i = slots[row + 8u];
-    uvec4 j = slots[row + 9u];
-    own_place = a.x, phase = a.y, idle_conflicts = a.z, active_conflicts = a.w;
-    own_rank = b.x, own_face = b.y, own_weights = uintBitsToFloat(b.zw);
-    windows = c.x, event_head = c.y, event_tail = c.z;
-    half_edge = d.x, mode = d.y, x = uintBitsToFloat(d.z), y = uintBitsToFloat(d.w);
-    b0 = uintBitsToFloat(e.x), b1 = uintBitsToFloat(e.y), sigma = uintBitsToFloat(e.z), chain = e.w;
-    known = f.x, cursor = f.y, cursor_end = f.z, corner_ahead = f.w;
-    scan_place = g.x, scan_end = g.y, scan_row = g.z, scan_row_end = g.w;
-    scan_columns = h.x, scan_stride = h.y, tested = h.z, pushed = h.w;
-    most_waiting = i.x, longest_chain = i.y, vertices = i.z;
-    entered_by = j.x, entry_angles = j.y, fan_angle = j.z, fan_flags = j.w;
-    windows_first = slice_row(slot);
-    events_first = events_row(slot);
-    table_first = table_row(slot);
+    uvec4 candidate = slots[row + 1u];
+    own_place = slots[row].x;
+    own_face = candidate.y;
+    own_weights = uintBitsToFloat(candidate.zw);
     list_first = list_row(slot);
-    overflow = 0u;
 }
 
-void save_slot(uint slot) {
-    uint row = slot * kSlotRows;
-    slots[row] = uvec4(own_place, phase, idle_conflicts, active_conflicts);
-    slots[row + 1u] = uvec4(own_rank, own_face, floatBitsToUint(own_weights));
-    slots[row + 2u] = uvec4(windows, event_head, event_tail, 0u);
-    slots[row + 3u] = uvec4(half_edge, mode, floatBitsToUint(x), floatBitsToUint(y));
-    slots[row + 4u] =
+void load_lane(uint lane) {
+    uint row = lane_row(lane);
+    uvec4 a = pool[row];
+    uvec4 b = pool[row + 1u];
+    uvec4 c = pool[row + 2u];
+    uvec4 d = pool[row + 3u];
+    uvec4 e = pool[row + 4u];
+    uvec4 f = pool[row + 5u];
+    uvec4 g = pool[row + 6u];
+    uvec4 h = pool[row + 7u];
+    uvec4 i = pool[row + 8u];
+    slot = a.x, phase = a.y, idle_conflicts = a.z, active_conflicts = a.w;
+    windows = b.x, event_head = b.y, event_tail = b.z, generation = b.w;
+    half_edge = c.x, mode = c.y, x = uintBitsToFloat(c.z), y = uintBitsToFloat(c.w);
+    b0 = uintBitsToFloat(d.x), b1 = uintBitsToFloat(d.y), sigma = uintBitsToFloat(d.z), chain = d.w;
+    known = e.x, cursor = e.y, cursor_end = e.z, corner_ahead = e.w;
+    scan_place = f.x, scan_end = f.y, scan_row = f.z, scan_row_end = f.w;
+    scan_columns = g.x, scan_stride = g.y, tested = g.z, pushed = g.w;
+    most_waiting = h.x, longest_chain = h.y, vertices = h.z;
+    entered_by = i.x, entry_angles = i.y, fan_angle = i.z, fan_flags = i.w;
+    windows_first = windows_row(lane);
+    events_first = events_row(lane);
+    table_first = table_row(lane);
+    overflow = 0u;
+    load_candidate();
+    load_face();
+}
+
+void save_lane(uint lane) {
+    uint row = lane_row(lane);
+    pool[row] = uvec4(slot, phase, idle_conflicts, active_conflicts);
+    pool[row + 1u] = uvec4(windows, event_head, event_tail, generation);
+    pool[row + 2u] = uvec4(half_edge, mode, floatBitsToUint(x), floatBitsToUint(y));
+    pool[row + 3u] =
         uvec4(floatBitsToUint(b0), floatBitsToUint(b1), floatBitsToUint(sigma), chain);
-    slots[row + 5u] = uvec4(known, cursor, cursor_end, corner_ahead);
-    slots[row + 6u] = uvec4(scan_place, scan_end, scan_row, scan_row_end);
-    slots[row + 7u] = uvec4(scan_columns, scan_stride, tested, pushed);
-    slots[row + 8u] = uvec4(most_waiting, longest_chain, vertices, 0u);
-    slots[row + 9u] = uvec4(entered_by, entry_angles, fan_angle, fan_flags);
+    pool[row + 4u] = uvec4(known, cursor, cursor_end, corner_ahead);
+    pool[row + 5u] = uvec4(scan_place, scan_end, scan_row, scan_row_end);
+    pool[row + 6u] = uvec4(scan_columns, scan_stride, tested, pushed);
+    pool[row + 7u] = uvec4(most_waiting, longest_chain, vertices, 0u);
+    pool[row + 8u] = uvec4(entered_by, entry_angles, fan_angle, fan_flags);
+}
+
+void hand_in_slot() {
+    uint row = slot * kSlotRows;
+    slots[row] = uvec4(own_place, kSlotListed, idle_conflicts, active_conflicts);
+    slots[row + 2u] = uvec4(tested, pushed, most_waiting, vertices);
+    slots[row + 3u].x = longest_chain;
+    phase = kPhaseIdle;
+}
+
+void take_slot() {
+    uint next = atomicAdd(control.next_slot, 1u);
+    if (next >= control.slots_used) {
+        return;
+    }
+    slot = next;
+    load_candidate();
+    idle_conflicts = 0u;
+    active_conflicts = 0u;
+    windows = 0u;
+    event_head = 0u;
+    event_tail = 0u;
+    scan_place = 0u;
+    scan_end = 0u;
+    scan_row = 0u;
+    scan_row_end = 0u;
+    tested = 0u;
+    pushed = 0u;
+    most_waiting = 0u;
+    longest_chain = 0u;
+    vertices = 0u;
+    cursor = 0u;
+    mode = kModeInside;
+    bool wrapped = generation == kMostGenerations;
+    generation = wrapped ? 1u : generation + 1u;
+    phase = wrapped ? kPhaseClear : kPhaseSource;
 }
 
 void clear_table() {
-    uint end = min(cursor + kClearPerDispatch, P.table_capacity);
+    uint end = min(cursor + kClearPerStep, P.table_capacity);
     for (; cursor < end; ++cursor) {
         pool[table_first + cursor] = uvec4(0u);
     }
     if (cursor == P.table_capacity) {
         phase = kPhaseSource;
         cursor = 0u;
-        mode = kModeInside;
     }
 }
 
@@ -158,9 +201,7 @@ void take_event() {
     uvec4 row = pool[event_row(event_head)];
     ++event_head;
     uint vertex = row.x;
-    uvec4 note;
-    find_vertex(vertex, note);
-    if (known_distance(note) < uintBitsToFloat(row.y)) {
+    if (find_vertex(vertex).distance < uintBitsToFloat(row.y)) {
         return;
     }
     sigma = uintBitsToFloat(row.y);
@@ -206,8 +247,7 @@ bool next_operation() {
         } else if (event_head != event_tail) {
             take_event();
         } else {
-            phase = kPhaseBlock;
-            cursor = 0u;
+            phase = kPhaseComplete;
         }
     }
     if (phase == kPhaseFan) {
@@ -272,28 +312,41 @@ void trip() {
     }
 }
 
-void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    P = push;
-    if (slot >= control.slots_used || control.unfinished == 0u) {
-        return;
+bool running() { return phase > kPhaseClear && phase < kPhaseComplete && overflow == 0u; }
+
+void step() {
+    if (phase == kPhaseComplete) {
+        hand_in_slot();
     }
-    uint stored = slots[slot * kSlotRows].y;
-    if (stored >= kPhaseBlock) {
-        return;
+    if (phase == kPhaseIdle && control.next_slot < control.slots_used) {
+        take_slot();
     }
-    load_slot(slot);
-    load_face();
     if (phase == kPhaseClear) {
         clear_table();
     }
-    for (uint i = 0u; i < P.trip_budget && phase != kPhaseClear && phase < kPhaseBlock &&
-                      overflow == 0u; ++i) {
+    for (uint i = 0u; i < kTripsPerStep && running(); ++i) {
         trip();
     }
+}
+
+void main() {
+    uint lane = gl_GlobalInvocationID.x;
+    P = push;
+    if (lane >= P.lanes || control.unfinished == 0u || control.overflow != 0u) {
+        return;
+    }
+    load_lane(lane);
+    for (uint i = 0u; i < P.step_budget && overflow == 0u; ++i) {
+        step();
+        if (phase == kPhaseIdle) {
+            break;
+        }
+    }
     if (overflow != 0u) {
-        phase = kPhaseStuck;
         atomicOr(control.overflow, overflow);
     }
-    save_slot(slot);
+    if (phase == kPhaseComplete) {
+        hand_in_slot();
+    }
+    save_lane(lane);
 }

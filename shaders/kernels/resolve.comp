@@ -34,7 +34,7 @@ void main() {
         return;
     }
     // Active conflicts first; only an accepted candidate goes on to the idle ones.
-    uint resolved = slots[slot * kSlotRows + 2u].w;
+    uint resolved = slots[slot * kSlotRows + 3u].z;
     uint total = head.w + (rejected ? 0u : head.z);
     uint end = min(total, resolved + kListPerDispatch);
     for (; resolved < end; ++resolved) {
@@ -54,7 +54,7 @@ void main() {
             }
         }
     }
-    slots[slot * kSlotRows + 2u].w = resolved;
+    slots[slot * kSlotRows + 3u].z = resolved;
     if (resolved == total) {
         atomicXor(states[place], kActive ^ (rejected ? kRejected : kAccepted));
         atomicAdd(control.undecided, 0xffffffffu);
@@ -62,7 +62,7 @@ void main() {
             atomicAdd(control.accepted, 1u);
             // Of accepted candidates alone: which others get a disk depends on the slots, and the
             // guard must not.
-            atomicMax(control.longest_chain, slots[slot * kSlotRows + 8u].y);
+            atomicMax(control.longest_chain, slots[slot * kSlotRows + 3u].x);
         }
     }
 }

@@ -42,7 +42,7 @@ void main() {
                 atomicMin(first_left, rank);
                 break;
             }
-            slots[slot * kSlotRows].y = kPhaseSelected;
+            slots[slot * kSlotRows].y = kSlotSelected;
             slots[slot * kSlotRows + 1u].x = rank;
             ++slot;
             bits &= bits - 1u;
@@ -60,6 +60,7 @@ void main() {
         control.batch_rank = batch;
         control.next_rank = next;
         control.slots_used = taken;
+        control.next_slot = 0u;
         control.unfinished = taken;
         control.undecided = taken;
         control.iterations += taken > 0u ? 1u : 0u;

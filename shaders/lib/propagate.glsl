@@ -84,12 +84,12 @@ Meeting meet_apex(float sx, vec2 lit) {
 // One angle, one split: behind a shorter window through the same angle only the child on this
 // window's own side can matter. Rays that cross at one place within rounding do not tell which side
 // is whose.
-void split_once(inout Meeting m, uvec4 note) {
-    if (P.splits_once != 0u && m.sees_apex && m.to_left && m.to_right && note.x != 0u &&
-        note.z == half_edge) {
-        precise float beaten_from = uintBitsToFloat(note.y) + P.margin;
-        precise float left_of = uintBitsToFloat(note.w) - P.slack;
-        precise float right_of = uintBitsToFloat(note.w) + P.slack;
+void split_once(inout Meeting m, VertexRow row) {
+    if (P.splits_once != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
+        row.through == half_edge) {
+        precise float beaten_from = row.distance + P.margin;
+        precise float left_of = row.crossing - P.slack;
+        precise float right_of = row.crossing + P.slack;
         if (m.distance > beaten_from) {
             m.to_right = m.crossing >= left_of;
             m.to_left = m.crossing <= right_of;
@@ -112,15 +112,14 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
         float distance = i == 0u ? start_distance
                          : i == 1u ? (from_vertex ? end_distance : kFar)
                                    : (m.sees_apex ? m.distance : kFar);
-        uvec4 note;
-        uint at = find_vertex(vertex, note);
-        float best = known_distance(note);
+        VertexRow row = find_vertex(vertex);
+        float best = row.distance;
         if (i == 2u) {
-            split_once(m, note);
+            split_once(m, row);
         }
         if (distance < best && distance < P.limit) {
             best = distance;
-            note_vertex(at, note, vertex, distance, inside ? kNoHalfEdge : half_edge,
+            note_vertex(row, vertex, distance, inside ? kNoHalfEdge : half_edge,
                         inside ? 0.0 : m.crossing);
             bool whole_fan = phase == kPhaseSource && distance <= kNearVertex;
             if (whole_fan || (origin & kOriginBends) != 0u) {

@@ -1,41 +1,57 @@
-// The vertices a disk has reached: an open-addressed table of rows (vertex + 1, distance, half-edge
-// the best ray came through, where it crossed it). An empty row starts with 0.
+// The vertices a disk has reached: an open-addressed table of rows (vertex, distance, half-edge the
+// best ray came through, where it crossed it). The two top bits of the first two words tell the disk;
+// rows of another one count as empty.
 #ifndef GEODISK_VERTEX_TABLE_GLSL
 #define GEODISK_VERTEX_TABLE_GLSL
 
-uint table_first; // row of this slot's table
+uint table_first; // row of this lane's table
+uint generation;  // of this disk, 1 to kMostGenerations
 uint vertices;    // rows in use
 
-// Row of the vertex, or the empty row where it belongs; the table's size if neither was found. With
-// the table at most half full that is bad luck, which a larger table mends.
-uint find_vertex(uint vertex, out uvec4 row) {
+uint vertex_tag() { return generation << kTagShift; }
+uint distance_tag() { return (generation << (kTagShift - 2u)) & kTagMask; }
+
+struct VertexRow {
+    uint at;        // row, or where it belongs; the table's size if neither was found
+    bool found;
+    float distance; // kFar if not found
+    uint through;
+    float crossing;
+};
+
+// With the table at most half full not to find a place is bad luck, which a larger table mends.
+VertexRow find_vertex(uint vertex) {
     uint mask = P.table_capacity - 1u;
     uint at = (vertex * 2654435769u) >> 7 & mask;
+    uint place = P.table_capacity;
+    uvec4 row = uvec4(0u);
+    bool found = false;
     // A bound that is not constant keeps compilers from unrolling what mostly ends at once.
     uint most = min(kMostProbes, P.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
         row = pool[table_first + at];
-        if (row.x == vertex + 1u || row.x == 0u) {
-            return at;
+        bool empty = (row.x & kTagMask) != vertex_tag() || (row.y & kTagMask) != distance_tag();
+        found = !empty && (row.x & kVertexMask) == vertex;
+        if (empty || found) {
+            place = at;
+            break;
         }
         at = (at + 1u) & mask;
     }
-    row = uvec4(0u);
-    return P.table_capacity;
+    return VertexRow(place, found, found ? uintBitsToFloat(row.y & ~kTagMask) : kFar, row.z,
+                     uintBitsToFloat(row.w));
 }
 
-float known_distance(uvec4 row) { return row.x == 0u ? kFar : uintBitsToFloat(row.y); }
-
-// `at` and `found` are what find_vertex gave.
-void note_vertex(uint at, uvec4 found, uint vertex, float distance, uint through, float crossing) {
-    bool fresh = found.x == 0u;
-    if (at == P.table_capacity || (fresh && 2u * vertices >= P.table_capacity)) {
+// `row` is what find_vertex gave.
+void note_vertex(VertexRow row, uint vertex, float distance, uint through, float crossing) {
+    if (row.at == P.table_capacity || (!row.found && 2u * vertices >= P.table_capacity)) {
         overflow |= kOverflowVertices;
         return;
     }
-    vertices += fresh ? 1u : 0u;
-    pool[table_first + at] =
-        uvec4(vertex + 1u, floatBitsToUint(distance), through, floatBitsToUint(crossing));
+    vertices += row.found ? 0u : 1u;
+    pool[table_first + row.at] =
+        uvec4(vertex | vertex_tag(), floatBitsToUint(distance) | distance_tag(), through,
+              floatBitsToUint(crossing));
 }
 
 #endif

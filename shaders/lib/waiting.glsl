@@ -5,8 +5,8 @@
 #ifndef GEODISK_WAITING_GLSL
 #define GEODISK_WAITING_GLSL
 
-uint windows_first; // row of this slot's windows
-uint events_first;  // row of this slot's events
+uint windows_first; // row of this lane's windows
+uint events_first;  // row of this lane's events
 uint windows;       // on the stack
 uint event_head;    // events taken
 uint event_tail;    // events pushed

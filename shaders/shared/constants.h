@@ -47,16 +47,20 @@ GEODISK_CONST uint kOverflowSamples = 16u;
 // Set in a blocker word once an accepted candidate of lower rank conflicts.
 GEODISK_CONST uint kBlockedForGood = 0x80000000u;
 
+// Where a lane stands.
+GEODISK_CONST uint kPhaseIdle = 0u;     // has no slot
+GEODISK_CONST uint kPhaseClear = 1u;    // empties the vertex table; cursor is the next row
+GEODISK_CONST uint kPhaseSource = 2u;   // spreads over the three edges of the candidate's face
+GEODISK_CONST uint kPhasePop = 3u;      // takes the next window or event
+GEODISK_CONST uint kPhaseFan = 4u;      // spreads over the corners of a vertex
+GEODISK_CONST uint kPhaseCross = 5u;    // carries a window into the next face of its edge
+GEODISK_CONST uint kPhaseComplete = 6u; // the disk is complete
+
 // Where a slot stands.
-GEODISK_CONST uint kPhaseClear = 0u;   // empties the vertex table; cursor is the next row
-GEODISK_CONST uint kPhaseSource = 1u;  // spreads over the three edges of the candidate's face
-GEODISK_CONST uint kPhasePop = 2u;     // takes the next window or event
-GEODISK_CONST uint kPhaseFan = 3u;     // spreads over the corners of a vertex
-GEODISK_CONST uint kPhaseCross = 4u;   // carries a window into the next face of its edge
-GEODISK_CONST uint kPhaseBlock = 5u;   // the disk is complete, but not yet in the blockers of others
-GEODISK_CONST uint kPhaseDone = 6u;    // ready to be resolved
-GEODISK_CONST uint kPhaseStuck = 7u;   // the slice overflowed
-GEODISK_CONST uint kPhaseSelected = 8u; // has a rank and nothing else
+GEODISK_CONST uint kSlotSelected = 0u;  // has a rank and nothing else
+GEODISK_CONST uint kSlotReady = 1u;     // waits for its disk
+GEODISK_CONST uint kSlotListed = 2u;    // the disk is complete, but not yet in the blockers of others
+GEODISK_CONST uint kSlotBlocked = 3u;   // ready to be resolved
 
 // How the operation in flight lies in the frame of its half-edge.
 GEODISK_CONST uint kModeInside = 0u;   // the source is in the face, all of it is lit
@@ -69,24 +73,33 @@ GEODISK_CONST uint kManyFaces = 0x40000000u;   // three or more faces share the 
 GEODISK_CONST uint kVertexMask = 0x3fffffffu;
 
 GEODISK_CONST uint kNoHalfEdge = 0xffffffffu;
+
+// Rows of the vertex table carry the generation of the disk that wrote them, in the two top bits of
+// the vertex and of the distance, so that the table is emptied only once in so many disks.
+GEODISK_CONST uint kMostGenerations = 15u;
+GEODISK_CONST uint kTagShift = 30u;
+GEODISK_CONST uint kTagMask = 0xc0000000u;
 GEODISK_CONST uint kWholeFan = 0xffffffffu;
 
-// The loops of detect: most iterations of each in one trip of the main loop, and in one dispatch.
-GEODISK_CONST uint kMostProbes = 16u;      // rows of the vertex table looked at
+// The loops of detect: most iterations of each in one trip of the main loop.
+GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
 GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
-GEODISK_CONST uint kRowsPerTrip = 8u;      // of cells
-GEODISK_CONST uint kScanPerRow = 16u;      // candidates
-GEODISK_CONST uint kClearPerDispatch = 4096u; // rows of the vertex table
+GEODISK_CONST uint kRowsPerTrip = 6u;      // of cells
+GEODISK_CONST uint kScanPerRow = 12u;      // candidates
 // Together: an event taken and two vertices reached, two children left and pushed.
 GEODISK_CONST uint kIterationsPerTrip =
     1u + kCornersPerTrip + 3u * kMostProbes + 6u + kRowsPerTrip * (1u + kScanPerRow);
-GEODISK_CONST uint kIterationsPerDispatch = kClearPerDispatch + 1u;
+// A step: once every few trips a lane that is done takes its next slot.
+GEODISK_CONST uint kTripsPerStep = 8u;
+GEODISK_CONST uint kClearPerStep = 128u;   // rows of the vertex table
+GEODISK_CONST uint kIterationsPerStep = 1u + kClearPerStep + kTripsPerStep * kIterationsPerTrip;
 // List entries that block and resolve go through in one dispatch.
 GEODISK_CONST uint kListPerDispatch = 4096u;
 
 // Rows of a face, of a slot record and of a window.
 GEODISK_CONST uint kFaceRows = 4u;
-GEODISK_CONST uint kSlotRows = 10u;
+GEODISK_CONST uint kSlotRows = 4u;
+GEODISK_CONST uint kLaneRows = 9u;
 GEODISK_CONST uint kWindowRows = 2u;
 
 // Specialization constants.

@@ -19,11 +19,12 @@ struct Push {
     float slack;          // by how much an interval is widened for hits
     uint splits_once;     // 1 unless an edge has three faces, see lib/propagate.glsl
     uint slots;           // most candidates active at a time
-    uint window_capacity; // windows on the stack of one slot, and events in its ring, a power of two
-    uint table_capacity;  // vertex table of one slot, a power of two
+    uint lanes;           // invocations that compute their disks
+    uint window_capacity; // windows one lane can hold, and events; a power of two
+    uint table_capacity;  // vertex table of one lane, a power of two
     uint list_capacity;   // conflicts one slot can list
-    uint slice_rows;      // rows of four words per slot
-    uint trip_budget;     // trips of the main loop of detect per dispatch
+    uint lane_rows;       // rows of four words per lane
+    uint step_budget;     // steps of detect per dispatch
     uint scan_count;      // scans: words to scan
     uint sample_capacity; // samples the buffer holds
 };
@@ -33,7 +34,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 72 && offsetof(Push, sample_capacity) == 68);
+static_assert(sizeof(Push) == 76 && offsetof(Push, sample_capacity) == 72);
 }
 #endif
 

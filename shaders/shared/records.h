@@ -32,11 +32,19 @@ struct SampleRec {
     uint rank; uint face; float weight1; float weight2;
 };
 
-// One active candidate and where its disk stands, so that detect can stop at any trip and go on.
+// One active candidate, and what its disk took and found.
 struct SlotRec {
     uint place; uint phase; uint idle_conflicts; uint active_conflicts;
     uint rank; uint face; float weight1; float weight2;
-    uint windows; uint event_head; uint event_tail; uint resolved;
+    uint tested; uint pushed; uint most_waiting; uint vertices;
+    uint longest_chain; uint blocked; uint resolved; uint spare;
+};
+
+// Where a lane stands with the slot it works on, at the head of its slice, so that detect can stop at
+// any trip and go on.
+struct LaneRec {
+    uint slot; uint phase; uint idle_conflicts; uint active_conflicts;
+    uint windows; uint event_head; uint event_tail; uint generation;
     // The operation in flight: what spreads, in the frame of half_edge.
     uint half_edge; uint mode; float x; float y;
     float b0; float b1; float sigma; uint chain;
@@ -56,6 +64,7 @@ struct ControlRec {
     uint next_rank;        // every lower rank is decided or active
     uint batch_rank;       // next_rank before the active batch was selected
     uint slots_used;       // slots of the active batch
+    uint next_slot;        // the first that no lane has taken yet
     uint unfinished;       // slots whose disk is not complete
     uint undecided;        // slots neither accepted nor rejected
     uint overflow;         // kOverflow* bits
@@ -83,8 +92,9 @@ static_assert(sizeof(FaceLinksRec) == 16 && offsetof(FaceLinksRec, cells) == 12)
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
-static_assert(sizeof(SlotRec) == 160 && offsetof(SlotRec, fan_flags) == 156);
-static_assert(sizeof(ControlRec) == 100 && offsetof(ControlRec, most_conflicts) == 96);
+static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, spare) == 60);
+static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
+static_assert(sizeof(ControlRec) == 104 && offsetof(ControlRec, most_conflicts) == 100);
 } // namespace geodisk::gpu
 #endif
 

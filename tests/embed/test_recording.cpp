@@ -351,7 +351,7 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::table_capacity, 48);
         check(&RunPlan::list_capacity, 0);
         check(&RunPlan::list_capacity, 6);
-        check(&RunPlan::trip_budget, 0);
+        check(&RunPlan::step_budget, 0);
 
         RunPlan larger = good.plan();
         larger.window_capacity *= 2;

@@ -104,8 +104,9 @@ void compare_bins(const DeviceRun& run, const Twin& twin) {
 std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
                                   const std::vector<std::uint32_t>& by_place) {
     const RunPlan& plan = run.plan();
-    const std::size_t row = (index + 1) * plan.slice_rows() - plan.list_capacity / 4;
-    const auto list = run.read<std::uint32_t>(BufferRole::pool, plan.list_capacity, row * 16);
+    const std::size_t lists = std::size_t{plan.lanes} * plan.lane_rows() * 16;
+    const auto list = run.read<std::uint32_t>(BufferRole::pool, plan.list_capacity,
+                                              lists + index * plan.list_capacity * 4);
     std::vector<std::uint32_t> ranks;
     for (std::uint32_t i = 0; i < slot.idle_conflicts; ++i) {
         ranks.push_back(by_place[list[i]]);

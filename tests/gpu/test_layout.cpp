@@ -52,10 +52,10 @@ const Offsets kPush{
     GEODISK_OFFSET(Push, seed_low),        GEODISK_OFFSET(Push, seed_high),
     GEODISK_OFFSET(Push, limit),           GEODISK_OFFSET(Push, margin),
     GEODISK_OFFSET(Push, slack),           GEODISK_OFFSET(Push, splits_once),
-    GEODISK_OFFSET(Push, slots),
+    GEODISK_OFFSET(Push, slots),             GEODISK_OFFSET(Push, lanes),
     GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
-    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, slice_rows),
-    GEODISK_OFFSET(Push, trip_budget),     GEODISK_OFFSET(Push, scan_count),
+    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, lane_rows),
+    GEODISK_OFFSET(Push, step_budget),     GEODISK_OFFSET(Push, scan_count),
     GEODISK_OFFSET(Push, sample_capacity)};
 
 const Offsets kControl{
@@ -64,7 +64,7 @@ const Offsets kControl{
     GEODISK_OFFSET(ControlRec, find_y),        GEODISK_OFFSET(ControlRec, find_z),
     GEODISK_OFFSET(ControlRec, abi),
     GEODISK_OFFSET(ControlRec, next_rank),     GEODISK_OFFSET(ControlRec, batch_rank),
-    GEODISK_OFFSET(ControlRec, slots_used),    GEODISK_OFFSET(ControlRec, unfinished),
+    GEODISK_OFFSET(ControlRec, slots_used), GEODISK_OFFSET(ControlRec, next_slot),    GEODISK_OFFSET(ControlRec, unfinished),
     GEODISK_OFFSET(ControlRec, undecided),     GEODISK_OFFSET(ControlRec, overflow),
     GEODISK_OFFSET(ControlRec, done),          GEODISK_OFFSET(ControlRec, accepted),
     GEODISK_OFFSET(ControlRec, iterations),    GEODISK_OFFSET(ControlRec, disks),

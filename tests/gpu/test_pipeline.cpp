@@ -116,10 +116,16 @@ TEST_SUITE("invariance") {
             CAPTURE(local_size);
             CHECK(same(options));
         }
-        for (const std::uint32_t trips : {1u, 50u, 3000u}) {
+        for (const std::uint32_t lanes : {1u, 3u, 8u, 500u}) {
             RunnerOptions options;
-            options.plan.trip_budget = trips;
-            CAPTURE(trips);
+            options.plan.lanes = lanes;
+            CAPTURE(lanes);
+            CHECK(same(options));
+        }
+        for (const std::uint32_t steps : {1u, 7u, 1000000u}) {
+            RunnerOptions options;
+            options.plan.step_budget = steps;
+            CAPTURE(steps);
             CHECK(same(options));
         }
         RunnerOptions emulated;

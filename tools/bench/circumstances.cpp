@@ -50,7 +50,9 @@ Circumstances find_circumstances(const DeviceReport& device, const Options& opti
     result.repeats = options.repeats;
     result.warm_ups = options.warm_ups;
     result.slots = options.runner.plan.slots;
-    result.trips = options.runner.plan.trip_budget;
+    result.lanes = options.runner.plan.lanes;
+    result.passes = options.runner.plan.detect_passes;
+    result.steps = options.runner.plan.step_budget;
     result.local_size = options.runner.sampler.local_size;
     return result;
 }

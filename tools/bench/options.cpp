@@ -85,7 +85,13 @@ void add_tuning(CLI::App& app, RunnerOptions& runner) {
     app.add_option("--slots", runner.plan.slots, "Candidates active at a time")
         ->type_name("K")
         ->group(group);
-    app.add_option("--trips", runner.plan.trip_budget, "Loop iterations per dispatch")
+    app.add_option("--lanes", runner.plan.lanes, "Invocations that share the work on them")
+        ->type_name("K")
+        ->group(group);
+    app.add_option("--passes", runner.plan.detect_passes, "Dispatches of detect per round")
+        ->type_name("K")
+        ->group(group);
+    app.add_option("--steps", runner.plan.step_budget, "Steps of detect per dispatch")
         ->type_name("K")
         ->group(group);
     app.add_option("--local-size", runner.sampler.local_size,
@@ -116,6 +122,8 @@ void add_options(CLI::App& app, void (*run)(const Options&)) {
         ->capture_default_str();
     app.add_option("--device", options.device, "Device by name, index or UUID (geodisk info)")
         ->type_name("NAME|INDEX");
+    app.add_flag("--stages", options.runner.time_stages,
+                 "Time each stage on the device; takes a little time itself");
     app.add_option("--json", options.json, "Write rows, fits and circumstances as JSON")
         ->type_name("FILE");
     app.add_option("--csv", options.csv, "Write rows and circumstances as CSV")->type_name("FILE");

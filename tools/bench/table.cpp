@@ -113,7 +113,17 @@ void print_row(const Measurement& row) {
     for (const Column& column : kColumns) {
         append_right(line, column.text(row), column.width);
     }
-    std::cout << line << '\n' << std::flush;
+    std::cout << line << '\n';
+    // All 0 unless asked for.
+    if (row.run.stages[static_cast<std::size_t>(Stage::detect)] > 0) {
+        std::cout << "  stages";
+        for (std::size_t stage = 0; stage < kStages; ++stage) {
+            std::cout << "  " << to_string(static_cast<Stage>(stage)) << ' '
+                      << seconds(row.run.stages[stage]);
+        }
+        std::cout << '\n';
+    }
+    std::cout << std::flush;
 }
 
 void print_growth(const Series& series) {

@@ -80,15 +80,16 @@ struct WorkspaceNeeds {
 /// where a distance is within the guard of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time.
-    std::uint32_t window_capacity = 0; ///< Windows per slot, and vertex events; a power of two.
-    std::uint32_t table_capacity = 0;  ///< Vertices per slot, a power of two.
+    std::uint32_t lanes = 0;           ///< Invocations that share the work on them.
+    std::uint32_t window_capacity = 0; ///< Windows per lane, and vertex events; a power of two.
+    std::uint32_t table_capacity = 0;  ///< Vertices per lane, a power of two.
     std::uint32_t list_capacity = 0;   ///< Conflicts per slot, a multiple of 4.
-    std::uint32_t trip_budget = 0;     ///< Windows an invocation spreads per dispatch, about.
+    std::uint32_t step_budget = 0;     ///< Windows a lane spreads per dispatch, in eights.
     std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
     std::uint32_t sample_capacity = 0; ///< Samples the buffer holds.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
 
-    GEODISK_API std::uint32_t slice_rows() const noexcept; ///< Of 16 bytes, per slot.
+    GEODISK_API std::uint32_t lane_rows() const noexcept; ///< Of 16 bytes, per lane.
     GEODISK_API std::uint64_t pool_bytes() const noexcept;
 };
 

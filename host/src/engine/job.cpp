@@ -9,6 +9,7 @@
 #include "bindings.h"
 #include "records.h"
 #include "engine/device_mesh.hpp"
+#include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
 #include "support/guard.hpp"
 #include "vk/result.hpp"
@@ -72,13 +73,13 @@ Result<Done> check_plan(const RunPlan& plan) {
     const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
                       std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
                       plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 &&
-                      plan.trip_budget >= 1 && plan.detect_passes >= 1 &&
+                      plan.lanes >= 1 && plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
                       plan.detect_passes <= 4096 && plan.sample_capacity >= 1 && plan.slots <= kMost &&
                       plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
                       plan.list_capacity <= kMost;
     if (!fine) {
         return Error{Status::invalid_argument,
-                     "the plan is not as RunPlan asks: slots, trip_budget, detect_passes and "
+                     "the plan is not as RunPlan asks: slots, lanes, step_budget, detect_passes and "
                      "sample_capacity at least 1, "
                      "window_capacity and table_capacity powers of two, list_capacity a "
                      "multiple of 4, none of them 0 or more than 2^26"};
@@ -113,8 +114,9 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.window_capacity = plan.window_capacity;
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;
-    push.slice_rows = plan.slice_rows();
-    push.trip_budget = plan.trip_budget;
+    push.lanes = plan.lanes;
+    push.lane_rows = plan.lane_rows();
+    push.step_budget = std::min(plan.step_budget, most_steps(sampler->report));
     push.sample_capacity = plan.sample_capacity;
 }
 

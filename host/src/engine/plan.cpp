@@ -18,10 +18,9 @@ namespace geodisk {
 namespace {
 
 // llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently.
-constexpr std::uint32_t kLlvmpipeTrips =
-    (65535 - gpu::kIterationsPerDispatch) / gpu::kIterationsPerTrip;
+constexpr std::uint32_t kLlvmpipeSteps = 65535 / gpu::kIterationsPerStep;
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
-constexpr std::uint32_t kDefaultTrips = 1024;
+constexpr std::uint32_t kDefaultSteps = 128;
 constexpr std::uint32_t kMostSlots = 1u << 16;
 constexpr double kMostPasses = 32;
 constexpr std::uint64_t kIdleBytes = std::uint64_t{gpu::kFindMostGroups} * gpu::kFindLanes * 4;
@@ -35,28 +34,44 @@ std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
 }
 
+std::uint32_t cpu_lanes(const DeviceReport& report) {
+    return std::max(1u, std::thread::hardware_concurrency()) *
+           std::max(1u, report.limits.subgroup_size);
+}
+
 /// Few enough that most active candidates are accepted (paper Table 1), and enough to fill the
 /// device; where that cannot be had, a CPU rather waits than computes disks for losers.
 std::uint32_t wanted_slots(double disks, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    const double lanes = std::max(1u, std::thread::hardware_concurrency()) *
-                         std::max(1u, report.limits.subgroup_size);
-    const double least = cpu ? std::clamp(disks / 8, 8.0, lanes) : 64.0;
-    return static_cast<std::uint32_t>(
+    const double least = cpu ? std::clamp<double>(disks / 8, 8, cpu_lanes(report)) : 64;
+    const auto slots = static_cast<std::uint32_t>(
         std::clamp(disks / (cpu ? 24 : 8), least, double{kMostSlots}));
+    // No lane is to wait for the others with its last one.
+    const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
+    return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
 }
 
-/// As many slots as fit the pool; none if not even one does.
-std::uint32_t fitting_slots(const RunPlan& plan, std::uint64_t pool_bytes) {
-    const std::uint64_t slice = std::uint64_t{plan.slice_rows()} * 16;
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.slots, pool_bytes / slice));
+/// A CPU runs as many lanes as it has; a GPU is to have one for every slot.
+std::uint32_t wanted_lanes(std::uint32_t slots, const DeviceReport& report) {
+    return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? std::min(slots, cpu_lanes(report)) : slots;
+}
+
+/// As many lanes as fit the pool; none if not even one does.
+std::uint32_t fitting_lanes(const RunPlan& plan, std::uint64_t pool_bytes) {
+    const std::uint64_t slice = std::uint64_t{plan.lane_rows()} * 16;
+    const std::uint64_t lists = std::uint64_t{plan.slots} * plan.list_capacity * 4;
+    return lists >= pool_bytes ? 0
+                               : static_cast<std::uint32_t>(std::min<std::uint64_t>(
+                                     plan.lanes, (pool_bytes - lists) / slice));
 }
 
 Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
     return Error{Status::workspace_too_small,
                  "the disk of one candidate takes " +
-                     std::to_string(std::uint64_t{plan.slice_rows()} * 16) +
-                     " bytes of the pool, which may take " + std::to_string(pool_bytes)};
+                     std::to_string(std::uint64_t{plan.lane_rows()} * 16) +
+                     " bytes of the pool and the lists of conflicts " +
+                     std::to_string(std::uint64_t{plan.slots} * plan.list_capacity * 4) +
+                     ", but the pool may take only " + std::to_string(pool_bytes)};
 }
 
 } // namespace
@@ -68,6 +83,10 @@ const char* to_string(BufferRole role) noexcept {
     return kNames[static_cast<std::size_t>(role)];
 }
 
+std::uint32_t most_steps(const DeviceReport& report) noexcept {
+    return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeSteps : kDefaultSteps;
+}
+
 RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     const auto replace = [](std::uint32_t& field, std::uint32_t value) {
         field = value != 0 ? value : field;
@@ -76,19 +95,20 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.window_capacity, wanted.window_capacity);
     replace(plan.table_capacity, wanted.table_capacity);
     replace(plan.list_capacity, wanted.list_capacity);
-    replace(plan.trip_budget, wanted.trip_budget);
+    replace(plan.step_budget, wanted.step_budget);
+    replace(plan.lanes, wanted.lanes);
     replace(plan.detect_passes, wanted.detect_passes);
     replace(plan.sample_capacity, wanted.sample_capacity);
     replace(plan.chain, wanted.chain);
     return plan;
 }
 
-std::uint32_t RunPlan::slice_rows() const noexcept {
-    return (gpu::kWindowRows + 1) * window_capacity + table_capacity + list_capacity / 4;
+std::uint32_t RunPlan::lane_rows() const noexcept {
+    return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity;
 }
 
 std::uint64_t RunPlan::pool_bytes() const noexcept {
-    return std::uint64_t{slots} * slice_rows() * 16;
+    return std::uint64_t{lanes} * lane_rows() * 16 + std::uint64_t{slots} * list_capacity * 4;
 }
 
 VkDeviceSize WorkspaceNeeds::total() const noexcept {
@@ -111,22 +131,23 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
         plan.slots = wanted_slots(disks, report);
+        plan.lanes = wanted_lanes(plan.slots, report);
         plan.window_capacity = pow2_at_least(16 + faces_per_disk);
         plan.table_capacity = pow2_at_least(16 + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
-        plan.trip_budget = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips
-                                                                          : kDefaultTrips;
+        plan.step_budget = most_steps(report);
         // The trips a disk takes grow a little slower than this, by measurement.
-        const double trips = 0.4 * faces_per_disk * std::sqrt(faces_per_disk);
+        const double trips = plan.slots / plan.lanes *
+                             (8 + 3 * faces_per_disk + 0.4 * faces_per_disk * std::sqrt(faces_per_disk));
         plan.detect_passes = static_cast<std::uint32_t>(
-            std::clamp(trips / plan.trip_budget + 1, 1.0, kMostPasses));
+            std::clamp(trips / (plan.step_budget * gpu::kTripsPerStep) + 1, 1.0, kMostPasses));
         // Borders, creases and thin parts hold more samples than their area tells.
         plan.sample_capacity = static_cast<std::uint32_t>(
             std::min<double>(*candidates, std::ceil(1.5 * disks) + 64));
         plan.chain = provided_chain(mesh, params.min_distance);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
-        plan.slots = fitting_slots(plan, pool_bytes);
-        if (plan.slots == 0) {
+        plan.lanes = fitting_lanes(plan, pool_bytes);
+        if (plan.lanes == 0) {
             return slice_error(plan, pool_bytes);
         }
         return plan;
@@ -144,8 +165,10 @@ Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
         grow(gpu::kOverflowVertices, grown.table_capacity);
         grow(gpu::kOverflowConflicts, grown.list_capacity);
         pool_bytes = std::min(pool_bytes, impl_->report.limits.max_storage_buffer_range);
-        grown.slots = fitting_slots(grown, pool_bytes);
-        if (grown.slots == 0 || grown.slice_rows() == plan.slice_rows()) {
+        grown.lanes = fitting_lanes(grown, pool_bytes);
+        const bool same = grown.lane_rows() == plan.lane_rows() &&
+                          grown.list_capacity == plan.list_capacity;
+        if (grown.lanes == 0 || same) {
             return slice_error(grown, pool_bytes);
         }
         return grown;

@@ -94,6 +94,7 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     const std::uint32_t starts = push.cells + 1;
     recorder.fill(BufferRole::cells, VkDeviceSize{starts} * 4);
     recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
+    recorder.fill(BufferRole::pool, VkDeviceSize{push.lanes} * push.lane_rows * 16);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch_per_candidate(Kernel::candidates);
     recorder.mark(Stage::draw);
@@ -105,13 +106,15 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
 void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
                             std::uint32_t rounds) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
+    const gpu::Push& push = job.impl_->push;
+    const Groups lanes = groups_for(push.lanes, impl_->slot_local_size);
     for (std::uint32_t round = 0; round < rounds; ++round) {
         recorder.dispatch_indirect(Kernel::find_idle, offsetof(gpu::ControlRec, find_x));
-        recorder.dispatch(Kernel::select, {1, 1}, job.impl_->push);
+        recorder.dispatch(Kernel::select, {1, 1}, push);
         recorder.dispatch_per_slot(Kernel::activate);
         recorder.mark(Stage::select);
         for (std::uint32_t pass = 0; pass < job.impl_->plan.detect_passes; ++pass) {
-            recorder.dispatch_per_slot(Kernel::detect);
+            recorder.dispatch(Kernel::detect, lanes, push);
         }
         recorder.mark(Stage::detect);
         recorder.dispatch_per_slot(Kernel::block);
@@ -126,6 +129,10 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
     // The batch was selected with the slots of an earlier plan, never fewer than now.
     const Recorder recorder(commands, *impl_, *job.impl_);
     const BufferRange& slots = job.impl_->workspace[static_cast<std::size_t>(BufferRole::slots)];
+    // No lane has a slot, and no row of a table a disk.
+    recorder.fill(BufferRole::pool,
+                  VkDeviceSize{job.impl_->push.lanes} * job.impl_->push.lane_rows * 16);
+    barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch(Kernel::rewind,
                       groups_for(slots.size / sizeof(gpu::SlotRec), impl_->slot_local_size),
                       job.impl_->push);

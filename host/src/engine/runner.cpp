@@ -114,6 +114,7 @@ class Run {
     RunMemory memory_;
     std::optional<Job> job_;
     std::uint32_t slots_ = 0; ///< Of the first plan.
+    std::uint32_t lanes_ = 0;
     gpu::ControlRec control_{};
     RunReport report_;
 };
@@ -154,6 +155,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
         runner_.clock->reset();
     }
     slots_ = plan->slots;
+    lanes_ = plan->lanes;
     report_.candidates = job_->candidates();
     report_.guard = tolerances_for(mesh_, params_.min_distance, plan->chain).guard;
     return Done{};
@@ -230,6 +232,7 @@ Result<Done> Run::grow() {
     // As many slots as the job was made with, if the pool may be as large as that takes.
     RunPlan before = job_->plan();
     before.slots = slots_;
+    before.lanes = lanes_;
     const auto grown =
         runner_.sampler.grow_plan(before, control_.overflow, runner_.options.pool_bytes);
     if (!grown) {

@@ -84,7 +84,7 @@ bool same(const std::vector<geodisk::Sample>& a, const std::vector<geodisk::Samp
 void check_plan(const geodisk::Sampler& sampler, const geodisk::PreparedMesh& mesh,
                 const geodisk::SampleParams& params) {
     const auto plan = take(sampler.plan_run(mesh, params, 1 << 24), "plan_run");
-    require(plan.slice_rows() > 0 && plan.pool_bytes() <= 1 << 24, "the plan keeps to its pool");
+    require(plan.lane_rows() > 0 && plan.pool_bytes() <= 1 << 24, "the plan keeps to its pool");
     const auto needs = take(sampler.workspace_needs(mesh, params, plan), "workspace_needs");
     require(needs.total() >= plan.pool_bytes(), "the workspace holds the pool");
 }
