@@ -34,18 +34,12 @@ void main() {
         return;
     }
     // Active conflicts first; only an accepted candidate goes on to the idle ones.
+    uint first = list_row(slot);
     uint resolved = slots[slot * kSlotRows + 3u].z;
-    uint total = head.w + (rejected ? 0u : head.z);
-    uint end = min(total, resolved + kListPerDispatch);
+    uint end = min(head.w, resolved + kListPerDispatch);
     for (; resolved < end; ++resolved) {
-        bool is_active = resolved < head.w;
-        uint at = is_active ? active_entry(resolved) : resolved - head.w;
-        uint other = pool[list_row(slot) + (at >> 2)][at & 3u];
-        if (!is_active) {
-            atomicOr(states[other], kRejected);
-            continue;
-        }
-        uint other_slot = marks[other];
+        uint at = active_entry(resolved);
+        uint other_slot = marks[pool[first + (at >> 2)][at & 3u]];
         if (other_slot > slot) {
             if (rejected) {
                 atomicAdd(blockers[other_slot], 0xffffffffu);
@@ -53,6 +47,27 @@ void main() {
                 atomicOr(blockers[other_slot], kBlockedForGood);
             }
         }
+    }
+    uint total = head.w + (rejected ? 0u : head.z);
+    if (resolved >= head.w) {
+        // Four at a time: a budget in between is a multiple of four.
+        end = min(total, resolved + kListPerDispatch);
+        for (; resolved < end; resolved += 4u) {
+            uint at = resolved - head.w;
+            uvec4 others = pool[first + (at >> 2)];
+            uint left = end - resolved;
+            atomicOr(states[others.x], kRejected);
+            if (left > 1u) {
+                atomicOr(states[others.y], kRejected);
+            }
+            if (left > 2u) {
+                atomicOr(states[others.z], kRejected);
+            }
+            if (left > 3u) {
+                atomicOr(states[others.w], kRejected);
+            }
+        }
+        resolved = min(resolved, total);
     }
     slots[slot * kSlotRows + 3u].z = resolved;
     if (resolved == total) {

@@ -91,7 +91,7 @@ TEST_SUITE("layout") {
                 CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
             }
         }
-        CHECK(controls == 8);
+        CHECK(controls == 9);
     }
 
     TEST_CASE("no kernel binds more than eight buffers") {

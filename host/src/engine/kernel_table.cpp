@@ -9,6 +9,7 @@ namespace {
 #include "bin_fill.spv.inc"
 #include "block.spv.inc"
 #include "candidates.spv.inc"
+#include "compact_fill.spv.inc"
 #include "compact_gather.spv.inc"
 #include "compact_mark.spv.inc"
 #include "detect.spv.inc"
@@ -38,8 +39,9 @@ constexpr std::uint32_t kBlock[] = {kBindSlots, kBindPool, kBindControl, kBindMa
 constexpr std::uint32_t kResolve[] = {kBindStates, kBindSlots, kBindPool, kBindControl, kBindMarks};
 constexpr std::uint32_t kRewind[] = {kBindStates, kBindSlots, kBindControl};
 constexpr std::uint32_t kCompactMark[] = {kBindStates, kBindPlaces, kBindMarks};
-constexpr std::uint32_t kCompactGather[] = {kBindAlias,   kBindStates, kBindPlaces,
-                                            kBindControl, kBindMarks,  kBindSamples};
+constexpr std::uint32_t kCompactGather[] = {kBindStates, kBindPlaces, kBindControl, kBindMarks,
+                                            kBindSamples};
+constexpr std::uint32_t kCompactFill[] = {kBindAlias, kBindControl, kBindSamples};
 constexpr std::uint32_t kSelfTest[] = {kBindSums};
 
 const std::array<KernelInfo, kKernels> kTable{{
@@ -57,6 +59,7 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"rewind", k_rewind_spirv, kRewind, true},
     {"compact_mark", k_compact_mark_spirv, kCompactMark, false},
     {"compact_gather", k_compact_gather_spirv, kCompactGather, false},
+    {"compact_fill", k_compact_fill_spirv, kCompactFill, false},
     {"self_test", k_self_test_spirv, kSelfTest, false},
 }};
 

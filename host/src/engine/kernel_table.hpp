@@ -10,9 +10,9 @@ namespace geodisk {
 
 enum class Kernel : std::uint32_t {
     candidates, scan_blocks, scan_sums, scan_add, bin_fill, find_idle, select, activate, detect,
-    block, resolve, rewind, compact_mark, compact_gather, self_test,
+    block, resolve, rewind, compact_mark, compact_gather, compact_fill, self_test,
 };
-inline constexpr std::size_t kKernels = 15;
+inline constexpr std::size_t kKernels = 16;
 
 struct KernelInfo {
     const char* name;

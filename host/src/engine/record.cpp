@@ -143,6 +143,9 @@ void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noex
     recorder.dispatch_per_candidate(Kernel::compact_mark);
     recorder.scan(job.impl_->push.candidates, SetRole::workspace);
     recorder.dispatch_per_candidate(Kernel::compact_gather);
+    recorder.dispatch(Kernel::compact_fill,
+                      groups_for(job.impl_->push.sample_capacity, impl_->local_size),
+                      job.impl_->push);
     recorder.mark(Stage::gather);
 }
 

@@ -25,11 +25,12 @@ double seconds_since(Clock::time_point start) {
 // those of detect.
 constexpr std::uint32_t kDispatchesPerRound = 6;
 constexpr std::uint32_t kDispatchesToBegin = 5;
-constexpr std::uint32_t kDispatchesToFinish = 5;
+constexpr std::uint32_t kDispatchesToFinish = 6;
 // Submissions start small and grow towards this time, so that no watchdog bites and progress and
 // cancellation stay prompt.
 constexpr double kTargetSeconds = 0.1;
 constexpr std::uint32_t kMostRounds = 256;
+constexpr std::uint32_t kMostPasses = 64;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
 constexpr std::size_t index_of(BufferRole role) { return static_cast<std::size_t>(role); }
@@ -105,6 +106,7 @@ class Run {
     Result<Done> sample(const ProgressCallback& progress);
     Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
     Result<Done> grow();
+    Result<Done> detect_longer();
     Result<Done> enlarge_samples();
     Result<std::vector<Sample>> read_samples();
 
@@ -251,6 +253,13 @@ Result<Done> Run::grow() {
     return job_->set_plan(*grown, {pool.handle(), 0, pool.size()});
 }
 
+/// Batches take more than a round: fewer of the other dispatches go idle when a round detects longer.
+Result<Done> Run::detect_longer() {
+    RunPlan plan = job_->plan();
+    plan.detect_passes = std::min(2 * plan.detect_passes, kMostPasses);
+    return job_->set_plan(plan);
+}
+
 Result<Done> Run::enlarge_samples() {
     const VkDeviceSize bytes = VkDeviceSize{control_.accepted} * sizeof(gpu::SampleRec);
     if (bytes > runner_.sampler.report().limits.max_storage_buffer_range) {
@@ -275,8 +284,14 @@ Result<Done> Run::sample(const ProgressCallback& progress) {
     bool rewind = false;
     while (control_.done == 0) {
         const auto start = Clock::now();
+        const std::uint32_t batches = control_.iterations;
         if (auto done = run_rounds(rounds, rewind); !done) {
             return done.error();
+        }
+        if (control_.unfinished > 0 && rounds >= 2 * (control_.iterations - batches)) {
+            if (auto more = detect_longer(); !more) {
+                return more;
+            }
         }
         const double took = seconds_since(start);
         rounds = took < kTargetSeconds / 2   ? std::min(2 * rounds, kMostRounds)
