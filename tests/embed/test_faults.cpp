@@ -300,8 +300,8 @@ TEST_SUITE("faults") {
             refs.get_instance_proc_addr = &FakeDriver::get_instance_proc_addr;
             Runner runner = expect(Runner::create(refs, context.queue()));
             CHECK(runner.sample_and_wait(mesh, params_for(mesh, 30)));
-            // A point takes 16 bytes; one percent more of them than fit.
-            const double most = range / 16 / kDefaultPoolRatio;
+            // Each buffer takes 4 bytes of a candidate; one percent more of them than fit.
+            const double most = range / 4 / kDefaultPoolRatio;
             const auto set = runner.sample_and_wait(mesh, params_for(mesh, 1.01 * most));
             REQUIRE_FALSE(set);
             CHECK(set.error().status == Status::device_lacks);

@@ -352,6 +352,10 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::list_capacity, 0);
         check(&RunPlan::list_capacity, 6);
         check(&RunPlan::step_budget, 0);
+        check(&RunPlan::lanes, 0);
+        check(&RunPlan::detect_passes, 0);
+        check(&RunPlan::detect_passes, 5000);
+        check(&RunPlan::sample_capacity, 0);
 
         RunPlan larger = good.plan();
         larger.window_capacity *= 2;

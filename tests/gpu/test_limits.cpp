@@ -11,13 +11,44 @@
 namespace geodisk::test {
 
 TEST_SUITE("limits") {
-    // Disks of some 10,000 trips each, eight to a SIMD group: more than the 65,535 loop iterations
-    // after which lavapipe silently ends all loops of a group.
+    // Disks of some 5,000 trips each, every one of many iterations: more than the 65,535 after which
+    // lavapipe silently ends all loops of a SIMD group.
     TEST_CASE("disks far beyond 65,535 loop iterations per SIMD group") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 6));
         const SampleParams params = params_for(mesh, 60);
         const SampleSet set = sample(mesh, params);
-        CHECK(set.report.windows / set.report.disks > 65535 / 8);
+        CHECK(set.report.windows / set.report.disks > 65535 / 16);
+        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+    }
+
+    TEST_CASE("crowds of candidates in every cell") {
+        const PreparedMesh mesh = prepared(builtin("cube", 1));
+        SampleParams params = params_for(mesh, 60);
+        params.pool_ratio = 2000;
+        const SampleSet set = sample(mesh, params);
+        CHECK(set.report.tested / set.report.disks > 1000);
+        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+    }
+
+    TEST_CASE("more samples than their buffer holds are told, and fit a larger one") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        const SampleParams params = params_for(mesh, 100);
+        RunPlan small;
+        small.sample_capacity = 10;
+        DeviceRun run(mesh, params, small);
+        run.begin();
+        while (run.control().done == 0) {
+            run.rounds(1);
+        }
+        const gpu::ControlRec before = run.control();
+        REQUIRE(before.overflow == 0);
+        REQUIRE(before.accepted > 10);
+        run.finish();
+        CHECK(run.control().overflow == gpu::kOverflowSamples);
+        RunnerOptions options;
+        options.plan.sample_capacity = 10;
+        const SampleSet set = sample(mesh, params, options);
+        CHECK(set.samples.size() == before.accepted);
         CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
     }
 

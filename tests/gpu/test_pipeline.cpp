@@ -128,6 +128,9 @@ TEST_SUITE("invariance") {
             CAPTURE(steps);
             CHECK(same(options));
         }
+        RunnerOptions timed;
+        timed.time_stages = true;
+        CHECK(same(timed));
         RunnerOptions emulated;
         emulated.sampler.rounding = Rounding::emulated;
         CHECK(same(emulated));
