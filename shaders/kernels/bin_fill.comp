@@ -1,16 +1,16 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Sorts the candidates by cell, after the scan turned counts into starts. The count of cell c went
-// into word c + 1, so the scan leaves c's start there, and filling moves it on to c's end, which is
-// where cell c + 1 starts. One invocation per candidate.
-// reads: alias columns   writes: starts, states, weights, places   spec: local size, rounding
+// Sorts the candidates by cell, after the scan turned counts into starts. One invocation per
+// candidate.
+// reads: alias columns, cells, marks   writes: states, weights, places   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindCells, coherent, uint, cells);
+GEODISK_BUFFER(kBindCells, readonly, uint, cells);
+GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
 GEODISK_BUFFER(kBindPlaces, , uint, places);
 GEODISK_BUFFER(kBindStates, writeonly, uint, states);
 GEODISK_BUFFER(kBindWeights, writeonly, uint, weights);
@@ -22,7 +22,7 @@ void main() {
         return;
     }
     Candidate c = draw_candidate(rank);
-    uint place = atomicAdd(cells[places[rank] + 1u], 1u);
+    uint place = cells[places[rank]] + marks[rank];
     places[rank] = place;
     states[place] = c.weight1 << kWeightShift | kIdle;
     weights[place] = c.weight2;

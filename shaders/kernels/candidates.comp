@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Draws the pool and counts the candidates of every cell (paper GenerateDensePoints, sections 3.3
 // and 4.2). One invocation per candidate.
-// reads: alias columns, faces   writes: cell counts (one word late, see bin_fill), cell of each
-// candidate into places   spec: local size, rounding
+// reads: alias columns, faces   writes: cell counts; the cell of each candidate into places, and its
+// number there into marks   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"
@@ -14,6 +14,7 @@ layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 GEODISK_BUFFER(kBindPlaces, writeonly, uint, places);
+GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
 
 uint cell_of(Candidate c) {
     uint word = load_links(c.face).w;
@@ -36,5 +37,5 @@ void main() {
     }
     uint cell = cell_of(draw_candidate(rank));
     places[rank] = cell;
-    atomicAdd(cells[cell + 1u], 1u);
+    marks[rank] = atomicAdd(cells[cell], 1u);
 }

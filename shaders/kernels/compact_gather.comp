@@ -1,14 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Leaves the rank of every accepted candidate at its output place. One invocation per candidate.
-// reads: places, states, marks   writes: samples, control   spec: local size
+// Leaves the rank of every accepted candidate at its output place. After the scan an accepted one is
+// where the next word is larger. One invocation per candidate.
+// reads: marks   writes: samples, control   spec: local size
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
-GEODISK_BUFFER(kBindStates, readonly, uint, states);
 GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
 GEODISK_BUFFER(kBindSamples, writeonly, uvec4, samples);
 GEODISK_CONTROL;
@@ -16,12 +15,17 @@ GEODISK_CONTROL;
 void main() {
     uint rank = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
                 gl_GlobalInvocationID.x;
-    if (rank >= push.candidates || (states[places[rank]] & kStateMask) != kAccepted) {
+    if (rank >= push.candidates) {
         return;
     }
-    if (marks[rank] >= push.sample_capacity) {
+    uint place = marks[rank];
+    uint next = rank + 1u < push.candidates ? marks[rank + 1u] : control.accepted;
+    if (next == place) {
+        return;
+    }
+    if (place >= push.sample_capacity) {
         atomicOr(control.overflow, kOverflowSamples);
     } else {
-        samples[marks[rank]].x = rank;
+        samples[place].x = rank;
     }
 }

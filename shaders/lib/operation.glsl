@@ -1,5 +1,5 @@
 // The operation in flight: what spreads over which face. It is set up in registers and kept in
-// SlotRec between dispatches.
+// LaneRec between dispatches.
 #ifndef GEODISK_OPERATION_GLSL
 #define GEODISK_OPERATION_GLSL
 

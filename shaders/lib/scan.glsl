@@ -1,5 +1,5 @@
 // The candidates of a face that the operation in flight can reach: cells are visited row by row, some
-// candidates per trip of the main loop, so that a long list never outgrows the trip budget.
+// candidates per trip of the main loop, so that a long list never outgrows the bound on iterations.
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 

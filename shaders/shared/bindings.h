@@ -18,11 +18,13 @@ GEODISK_CONST uint kBindStates = 4u;     // a word per candidate, sorted by cell
 GEODISK_CONST uint kBindWeights = 5u;    // likewise the weight of the third corner, in units of 2^-24
 GEODISK_CONST uint kBindPlaces = 6u;     // rank -> place in the sorted order
 GEODISK_CONST uint kBindSlots = 7u;      // SlotRec per slot of an active candidate
-GEODISK_CONST uint kBindPool = 8u;       // one slice of rows per slot: windows, events, table, list
+GEODISK_CONST uint kBindPool = 8u;       // a slice per lane: LaneRec, windows, events, vertex table;
+                                         // then a list of conflicts per slot
 GEODISK_CONST uint kBindControl = 9u;    // ControlRec, then a blocker word per slot
-GEODISK_CONST uint kBindMarks = 10u;     // a word per candidate. In the rounds: the slot of an active
-                                         // one, by place; in the end: 1 where accepted, then its
-                                         // output place, by rank
+GEODISK_CONST uint kBindMarks = 10u;     // a word per candidate. While binning: its number in its cell,
+                                         // by rank; in the rounds: the slot of an active one, by
+                                         // place; in the end: 1 where accepted, then its output
+                                         // place, by rank
 GEODISK_CONST uint kBindSums = 11u;      // block sums of the scans; in the rounds: idle ranks as bits
 GEODISK_CONST uint kBindSamples = 12u;   // SampleRec per accepted candidate, in rank order
 GEODISK_CONST uint kBindCount = 13u;

@@ -65,7 +65,7 @@ struct ControlRec {
     uint batch_rank;       // next_rank before the active batch was selected
     uint slots_used;       // slots of the active batch
     uint next_slot;        // the first that no lane has taken yet
-    uint unfinished;       // slots whose disk is not complete
+    uint unfinished;       // slots whose disk is not complete or not yet in the blockers
     uint undecided;        // slots neither accepted nor rejected
     uint overflow;         // kOverflow* bits
     uint done;             // 1 once no idle candidate is left

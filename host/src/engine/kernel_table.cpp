@@ -24,11 +24,12 @@ namespace {
 
 using namespace gpu;
 
-constexpr std::uint32_t kCandidates[] = {kBindFaces, kBindAlias, kBindCells, kBindPlaces};
+constexpr std::uint32_t kCandidates[] = {kBindFaces, kBindAlias, kBindCells, kBindPlaces,
+                                         kBindMarks};
 constexpr std::uint32_t kScanData[] = {kBindMarks, kBindSums};
 constexpr std::uint32_t kScanSums[] = {kBindSums};
-constexpr std::uint32_t kBinFill[] = {kBindAlias, kBindCells, kBindStates, kBindWeights,
-                                      kBindPlaces};
+constexpr std::uint32_t kBinFill[] = {kBindAlias,   kBindCells,  kBindStates,
+                                      kBindWeights, kBindPlaces, kBindMarks};
 constexpr std::uint32_t kFindIdle[] = {kBindStates, kBindPlaces, kBindControl, kBindSums};
 constexpr std::uint32_t kSelect[] = {kBindSlots, kBindControl, kBindSums};
 constexpr std::uint32_t kActivate[] = {kBindAlias, kBindStates,  kBindPlaces,
@@ -39,8 +40,7 @@ constexpr std::uint32_t kBlock[] = {kBindSlots, kBindPool, kBindControl, kBindMa
 constexpr std::uint32_t kResolve[] = {kBindStates, kBindSlots, kBindPool, kBindControl, kBindMarks};
 constexpr std::uint32_t kRewind[] = {kBindStates, kBindSlots, kBindControl};
 constexpr std::uint32_t kCompactMark[] = {kBindStates, kBindPlaces, kBindMarks};
-constexpr std::uint32_t kCompactGather[] = {kBindStates, kBindPlaces, kBindControl, kBindMarks,
-                                            kBindSamples};
+constexpr std::uint32_t kCompactGather[] = {kBindControl, kBindMarks, kBindSamples};
 constexpr std::uint32_t kCompactFill[] = {kBindAlias, kBindControl, kBindSamples};
 constexpr std::uint32_t kSelfTest[] = {kBindSums};
 
