@@ -1,4 +1,4 @@
-// Twin of shaders/kernels/bin_*.comp: candidates sorted by face and cell.
+// Twin of shaders/kernels/scan_*.comp and bin_fill.comp: candidates sorted by face and cell.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Twin of shaders/kernels/resolve.comp: decides a batch of active candidates (paper section 3.5,
-// CheckStatus).
+// Twin of shaders/kernels/block.comp and resolve.comp: decides a batch of active candidates (paper
+// section 3.5, CheckStatus).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Twin of shaders/kernels/select.comp: the lowest-ranked idle candidates (paper section 4.2).
+// Twin of shaders/kernels/find_idle.comp and select.comp: the lowest-ranked idle candidates (paper
+// section 4.2).
 #pragma once
 
 #include <cstdint>

@@ -110,8 +110,7 @@ GEODISK_CONST uint kSpecNativeRounding = 1u;
 GEODISK_CONST uint kFindLanes = 64u;
 GEODISK_CONST uint kFindMostGroups = 256u;
 
-// Elements one work group of the scan covers, and with them the limit of what can be scanned:
-// kScanBlock squared.
+// Words that one work group of the scan covers: so many lanes, so many words each.
 GEODISK_CONST uint kScanLanes = 128u;
 GEODISK_CONST uint kScanPerLane = 32u;
 GEODISK_CONST uint kScanBlock = 4096u;
