@@ -27,7 +27,7 @@ struct Sample {
 enum class Stage : std::uint32_t {
     draw,    ///< Candidates, and how many lie in each cell.
     bin,     ///< Sorts them by cell.
-    select,  ///< Finds the next batch.
+    select,  ///< Finds the next batch and readies its slots.
     detect,  ///< Geodesic disks.
     resolve, ///< Decides the batch.
     gather,  ///< Collects the samples.
@@ -45,10 +45,10 @@ struct RunReport {
     std::uint32_t iterations = 0;   ///< Batches of active candidates.
     std::uint32_t dispatches = 0;   ///< Recorded, empty ones included.
     std::uint32_t disks = 0;        ///< Geodesic disks computed, more than samples.
-    std::uint32_t regrown = 0;      ///< Times a batch was repeated with larger slices.
+    std::uint32_t regrown = 0;      ///< Times a batch was repeated with more memory.
     std::uint64_t windows = 0;      ///< Windows and vertex events of all disks.
     std::uint64_t tested = 0;       ///< Candidate distances computed in all disks.
-    std::uint32_t most_waiting = 0; ///< Most windows, or vertex events, waiting in one slot.
+    std::uint32_t most_waiting = 0; ///< Most windows, or vertex events, waiting in one disk.
     std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
     std::uint32_t most_vertices = 0;  ///< Reached by one disk.
     std::uint32_t most_conflicts = 0; ///< Listed by one disk.
@@ -58,7 +58,7 @@ struct RunReport {
     struct {
         double upload = 0, sample = 0, readback = 0;
     } seconds;
-    StageSeconds stages{}; ///< Device time, if RunnerOptions::time_stages.
+    StageSeconds stages{}; ///< Device time, 0 without RunnerOptions::time_stages.
 };
 
 struct SampleSet {
@@ -75,7 +75,8 @@ struct Progress {
 
 struct RunnerOptions {
     SamplerOptions sampler;
-    /// Most bytes of the pool of window slices; bounded by one binding of the device.
+    /// Most bytes of the pool, which holds disks in progress and lists of conflicts; bounded by one
+    /// binding of the device.
     std::uint64_t pool_bytes = std::uint64_t{256} << 20;
     /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice changes
     /// the samples, but `chain`, which widens or narrows the guard and with it the ties.
@@ -101,7 +102,7 @@ class GEODISK_API Runner {
     ~Runner();
 
     /// Returns the set that sequential dart throwing over the same candidates returns, whatever
-    /// device, driver or plan. Slices that overflow are grown and the batch repeated; a run whose
+    /// device, driver or plan. What overflows is enlarged and the batch repeated; a run whose
     /// window chains outgrow the guard is repeated with a wider one.
     ///
     /// Errors: `invalid_argument`, `device_lacks` and `workspace_too_small` as Sampler's functions;

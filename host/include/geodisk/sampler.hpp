@@ -2,15 +2,16 @@
 // submits nothing and waits for nothing.
 //
 // How a job goes:
-//   1. plan_run             how many candidates to work on at a time, and how large their slices are
+//   1. plan_run             how many candidates are active at a time, how many invocations compute
+//                           their disks, and how much memory each gets
 //   2. workspace_needs      sizes of the buffers; the caller allocates them
 //   3. mesh_bytes           what to upload into the mesh buffers before the first use
 //   4. make_job             writes descriptor sets; nothing is recorded yet
 //   5. record_begin         draws and bins the candidates
-//   6. record_rounds        a fixed number of rounds; finished ones cost an empty dispatch. Submit,
-//                           read gpu::ControlRec from the control buffer, and record more until
-//                           `done`. With `overflow` set nothing was decided since; grow_plan, set it
-//                           on the job and record_rewind first.
+//   6. record_rounds        a fixed number of rounds; those after the last cost empty dispatches.
+//                           Submit, read gpu::ControlRec from the control buffer, and record more
+//                           until `done`. With `overflow` set nothing was decided since; grow_plan,
+//                           set it on the job and record_rewind first.
 //   7. record_finish        gpu::SampleRec per accepted candidate, in rank order; if ControlRec tells
 //                           that more were accepted than the plan's sample_capacity, give the job a
 //                           larger buffer first (set_samples)
@@ -40,8 +41,8 @@ enum class Rounding : std::uint32_t {
 };
 
 struct SamplerOptions {
-    /// Invocations per work group of the per-candidate and per-slot kernels; 0 chooses. A power of two up to the
-    /// device's limit.
+    /// Invocations per work group of the kernels whose size is not fixed; 0 chooses. A power of
+    /// two up to the device's limit.
     std::uint32_t local_size = 0;
     Rounding rounding = Rounding::automatic;
 };
@@ -80,16 +81,21 @@ struct WorkspaceNeeds {
 /// where a distance is within the guard of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time.
-    std::uint32_t lanes = 0;           ///< Invocations that share the work on them.
-    std::uint32_t window_capacity = 0; ///< Windows per lane, and vertex events; a power of two.
-    std::uint32_t table_capacity = 0;  ///< Vertices per lane, a power of two.
+    std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another.
+    std::uint32_t window_capacity = 0; ///< Windows waiting in a lane, and vertex events; a power of
+                                       ///< two.
+    std::uint32_t table_capacity = 0;  ///< Rows of a lane's vertex table, used by half; a power of
+                                       ///< two.
     std::uint32_t list_capacity = 0;   ///< Conflicts per slot, a multiple of 4.
-    std::uint32_t step_budget = 0;     ///< Windows a lane spreads per dispatch, in eights.
+    std::uint32_t step_budget = 0;     ///< Steps of a lane per dispatch, each gpu::kTripsPerStep
+                                       ///< windows or corners; cut to what the device can take.
     std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
     std::uint32_t sample_capacity = 0; ///< Samples the buffer holds.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
 
-    GEODISK_API std::uint32_t lane_rows() const noexcept; ///< Of 16 bytes, per lane.
+    /// A lane's slice of the pool, in rows of 16 bytes.
+    GEODISK_API std::uint32_t lane_rows() const noexcept;
+    /// The slices of all lanes and the lists of all slots.
     GEODISK_API std::uint64_t pool_bytes() const noexcept;
 };
 
@@ -116,13 +122,13 @@ class GEODISK_API Sampler {
     const DeviceReport& report() const noexcept;
 
     /// A plan for this device whose pool is at most `pool_bytes` (and one binding) large.
-    /// Errors: `invalid_argument` as pool_size(); `workspace_too_small` when not even one slice fits.
+    /// Errors: `invalid_argument` as pool_size(); `workspace_too_small` if not even one lane fits.
     Result<RunPlan> plan_run(const PreparedMesh& mesh, const SampleParams& params,
                              std::uint64_t pool_bytes) const noexcept;
 
     /// The plan after an overflow: the capacities named by `overflow` (gpu::kOverflow* bits) doubled,
-    /// the slots fewer if the pool would grow past `pool_bytes`.
-    /// Errors: `workspace_too_small` naming the bytes one slice takes.
+    /// the lanes fewer if the pool would grow past `pool_bytes`, the slots as many.
+    /// Errors: `workspace_too_small` naming the bytes one lane and the lists of conflicts take.
     Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
                               std::uint64_t pool_bytes) const noexcept;
 
@@ -179,8 +185,9 @@ class GEODISK_API Job {
     /// The same with another pool. No command buffer of the job may be pending.
     Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;
     std::uint32_t candidates() const noexcept;
-    /// Another buffer for the samples, where more were accepted than RunPlan::sample_capacity. No
-    /// command buffer of the job may be pending.
+    /// Another buffer for the samples, where more were accepted than RunPlan::sample_capacity; its
+    /// size becomes the capacity. record_finish may be recorded again afterwards. No command buffer
+    /// of the job may be pending.
     Result<Done> set_samples(const BufferRange& samples) noexcept;
 
     struct Impl; ///< Internal.

@@ -18,7 +18,7 @@ struct KernelInfo {
     const char* name;
     std::span<const std::uint32_t> spirv;
     std::span<const std::uint32_t> bindings; ///< Binding numbers, ascending; at most eight.
-    bool per_slot; ///< One invocation per slot, else per candidate or as the kernel says.
+    bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
 };
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept;

@@ -12,7 +12,7 @@ namespace {
 
 const double kTwoRootThree = 2 * std::sqrt(3.0);
 constexpr double kMinimumPool = 64;
-// Ranks share words with flags.
+// Four bytes for each are then more than Vulkan can bind.
 constexpr double kMaximumPool = 0x1p30;
 constexpr double kBytesPerCandidate = 16;
 // Edges longer than this many distances would need a guard of a percent.

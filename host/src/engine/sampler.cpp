@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kDefaultLocalSize = 64;
 
-/// On a CPU a work group runs on one thread, so that slots are spread over as many as there are
+/// On a CPU a work group runs on one thread, so that lanes are spread over as many as there are
 /// SIMD groups; a GPU wants whole subgroups, and a few of them.
 std::uint32_t default_slot_local_size(const DeviceReport& report) {
     return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU

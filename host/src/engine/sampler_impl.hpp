@@ -16,8 +16,8 @@ struct Sampler::Impl {
     DeviceRefs device;
     DeviceReport report;
     DeviceTable vk;
-    std::uint32_t local_size = 0;      ///< Of kernels with an invocation per candidate.
-    std::uint32_t slot_local_size = 0; ///< Of kernels with an invocation per slot.
+    std::uint32_t local_size = 0;      ///< Of those with an invocation per candidate or sample.
+    std::uint32_t slot_local_size = 0; ///< Of kernels with an invocation per slot or lane.
     bool native_rounding = false;
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
