@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Marks the accepted candidates by rank; the scan turns marks into output places. One invocation
 // per candidate.
-// reads: places, states   writes: marks   spec: local size
+// reads: places, states   writes: marks, control   spec: local size
 
 #include "../lib/prelude.glsl"
 
@@ -11,10 +11,14 @@ layout(local_size_x_id = 0) in;
 GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
 GEODISK_BUFFER(kBindStates, readonly, uint, states);
 GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
+GEODISK_CONTROL;
 
 void main() {
     uint rank = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
                 gl_GlobalInvocationID.x;
+    if (rank == 0u) {
+        atomicAnd(control.overflow, ~kOverflowSamples); // of an earlier try with a smaller buffer
+    }
     if (rank >= push.candidates) {
         return;
     }

@@ -28,14 +28,13 @@ DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const
         expect(Submitter::create(device_, vk_, context.queue(), std::chrono::seconds(300))));
     const auto instance =
         expect(load_instance_table(device_.get_instance_proc_addr, device_.instance));
-    VkPhysicalDeviceMemoryProperties memory{};
-    instance.vkGetPhysicalDeviceMemoryProperties(device_.physical_device, &memory);
+    instance.vkGetPhysicalDeviceMemoryProperties(device_.physical_device, &memory_);
     RunPlan used = expect(sampler_->plan_run(mesh, params, std::uint64_t{64} << 20));
     used = overridden(used, plan);
     const WorkspaceNeeds needs = expect(sampler_->workspace_needs(mesh, params, used));
     Workspace workspace;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        buffers_[i] = expect(DeviceBuffer::create(device_, vk_, memory, needs.bytes[i],
+        buffers_[i] = expect(DeviceBuffer::create(device_, vk_, memory_, needs.bytes[i],
                                                   kWorkspaceUsage, MemoryKind::host));
         workspace[i] = {buffers_[i].handle(), 0, buffers_[i].size()};
     }
@@ -68,6 +67,13 @@ void DeviceRun::grow(std::uint32_t overflow) {
         sampler_->record_rewind(commands, *job_);
         barrier_to_host(vk_, commands);
     }));
+}
+
+void DeviceRun::enlarge_samples(std::uint32_t count) {
+    DeviceBuffer& samples = buffers_[static_cast<std::size_t>(BufferRole::samples)];
+    samples = expect(DeviceBuffer::create(device_, vk_, memory_, count * sizeof(gpu::SampleRec),
+                                          kWorkspaceUsage, MemoryKind::host));
+    expect(job_->set_samples({samples.handle(), 0, samples.size()}));
 }
 
 void DeviceRun::finish() {

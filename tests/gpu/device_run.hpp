@@ -39,6 +39,7 @@ class DeviceRun {
     void rounds(std::uint32_t count);
     void grow(std::uint32_t overflow);
     void finish();
+    void enlarge_samples(std::uint32_t count);
 
     gpu::ControlRec control() const { return read<gpu::ControlRec>(BufferRole::control, 1)[0]; }
     const RunPlan& plan() const { return job_->plan(); }
@@ -62,6 +63,7 @@ class DeviceRun {
     DeviceTable vk_;
     std::optional<Sampler> sampler_;
     std::optional<Submitter> submitter_;
+    VkPhysicalDeviceMemoryProperties memory_{};
     std::array<DeviceBuffer, kBufferRoles> buffers_;
     std::optional<Job> job_;
 };

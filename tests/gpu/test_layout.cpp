@@ -91,7 +91,7 @@ TEST_SUITE("layout") {
                 CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
             }
         }
-        CHECK(controls == 9);
+        CHECK(controls == 10);
     }
 
     TEST_CASE("no kernel binds more than eight buffers") {

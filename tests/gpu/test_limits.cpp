@@ -45,10 +45,17 @@ TEST_SUITE("limits") {
         REQUIRE(before.accepted > 10);
         run.finish();
         CHECK(run.control().overflow == gpu::kOverflowSamples);
+        run.enlarge_samples(before.accepted);
+        run.finish();
+        CHECK(run.control().overflow == 0);
+        const auto records = run.read<gpu::SampleRec>(BufferRole::samples, before.accepted);
         RunnerOptions options;
         options.plan.sample_capacity = 10;
         const SampleSet set = sample(mesh, params, options);
-        CHECK(set.samples.size() == before.accepted);
+        REQUIRE(set.samples.size() == before.accepted);
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            CHECK(records[i].rank == set.samples[i].candidate);
+        }
         CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
     }
 
@@ -75,6 +82,31 @@ TEST_SUITE("limits") {
         CHECK(run.control().overflow == gpu::kOverflowWindows);
         CHECK(run.control().accepted == 0);
         CHECK(run.control().undecided == run.control().slots_used);
+    }
+
+    TEST_CASE("a pool smaller than all lists takes fewer slots and returns the same set") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 4));
+        SampleParams params = params_for(mesh, 600);
+        params.pool_ratio = 200;
+        const SampleSet plenty = sample(mesh, params);
+        RunnerOptions options;
+        options.pool_bytes = 96 << 10;
+        const SampleSet tight = sample(mesh, params, options);
+        CHECK(tight.report.plan.slots < plenty.report.plan.slots);
+        CHECK(tight.report.plan.pool_bytes() <= options.pool_bytes);
+        CHECK(ranks_of(tight) == ranks_of(plenty));
+    }
+
+    TEST_CASE("a plan asked for must keep to the pool") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        RunnerOptions options;
+        options.plan.lanes = 4096;
+        options.pool_bytes = 1 << 20;
+        Runner runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), options));
+        const auto result = runner.sample_and_wait(mesh, params_for(mesh, 100));
+        REQUIRE_FALSE(result);
+        CHECK(result.error().status == Status::workspace_too_small);
     }
 
     TEST_CASE("a pool too small for one disk is an error naming the bytes") {

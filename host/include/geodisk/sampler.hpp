@@ -127,8 +127,8 @@ class GEODISK_API Sampler {
                              std::uint64_t pool_bytes) const noexcept;
 
     /// The plan after an overflow: the capacities named by `overflow` (gpu::kOverflow* bits) doubled,
-    /// the lanes fewer if the pool would grow past `pool_bytes`, the slots as many.
-    /// Errors: `workspace_too_small` naming the bytes one lane and the lists of conflicts take.
+    /// slots and lanes fewer if the pool would grow past `pool_bytes`.
+    /// Errors: `workspace_too_small` naming the bytes one lane and one list of conflicts take.
     Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
                               std::uint64_t pool_bytes) const noexcept;
 

@@ -56,21 +56,38 @@ std::uint32_t wanted_lanes(std::uint32_t slots, const DeviceReport& report) {
     return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? std::min(slots, cpu_lanes(report)) : slots;
 }
 
-/// As many lanes as fit the pool; none if not even one does.
-std::uint32_t fitting_lanes(const RunPlan& plan, std::uint64_t pool_bytes) {
+/// Slots and lanes as they fit the pool: one of each before all, then lists for the slots in at most
+/// half of it. No lanes if not even one fits.
+void fit(RunPlan& plan, std::uint64_t pool_bytes) {
     const std::uint64_t slice = std::uint64_t{plan.lane_rows()} * 16;
-    const std::uint64_t lists = std::uint64_t{plan.slots} * plan.list_capacity * 4;
-    return lists >= pool_bytes ? 0
-                               : static_cast<std::uint32_t>(std::min<std::uint64_t>(
-                                     plan.lanes, (pool_bytes - lists) / slice));
+    const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
+    if (pool_bytes < slice + list) {
+        plan.lanes = 0;
+        return;
+    }
+    const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - slice);
+    plan.slots = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(for_lists / list, 1, plan.slots));
+    plan.lanes = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        std::min(plan.lanes, plan.slots), (pool_bytes - plan.slots * list) / slice));
+}
+
+/// Dispatches of detect in which a batch should be done.
+std::uint32_t wanted_passes(const RunPlan& plan, double faces_per_disk) {
+    // What a disk takes, by measurement.
+    const double trips =
+        12 + 2.5 * faces_per_disk + 0.3 * faces_per_disk * std::sqrt(faces_per_disk);
+    const double per_lane = std::ceil(static_cast<double>(plan.slots) / plan.lanes) * trips;
+    return static_cast<std::uint32_t>(
+        std::clamp(per_lane / (plan.step_budget * gpu::kTripsPerStep) + 1, 1.0, kMostPasses));
 }
 
 Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
     return Error{Status::workspace_too_small,
                  "the disk of one candidate takes " +
                      std::to_string(std::uint64_t{plan.lane_rows()} * 16) +
-                     " bytes of the pool and the lists of conflicts " +
-                     std::to_string(std::uint64_t{plan.slots} * plan.list_capacity * 4) +
+                     " bytes of the pool and its list of conflicts " +
+                     std::to_string(std::uint64_t{plan.list_capacity} * 4) +
                      ", but the pool may take only " + std::to_string(pool_bytes)};
 }
 
@@ -136,20 +153,16 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         plan.table_capacity = pow2_at_least(16 + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.step_budget = most_steps(report);
-        // The trips a disk takes grow a little slower than this, by measurement.
-        const double trips = plan.slots / plan.lanes *
-                             (8 + 3 * faces_per_disk + 0.4 * faces_per_disk * std::sqrt(faces_per_disk));
-        plan.detect_passes = static_cast<std::uint32_t>(
-            std::clamp(trips / (plan.step_budget * gpu::kTripsPerStep) + 1, 1.0, kMostPasses));
         // Borders, creases and thin parts hold more samples than their area tells.
         plan.sample_capacity = static_cast<std::uint32_t>(
             std::min<double>(*candidates, std::ceil(1.5 * disks) + 64));
         plan.chain = provided_chain(mesh, params.min_distance);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
-        plan.lanes = fitting_lanes(plan, pool_bytes);
+        fit(plan, pool_bytes);
         if (plan.lanes == 0) {
             return slice_error(plan, pool_bytes);
         }
+        plan.detect_passes = wanted_passes(plan, faces_per_disk);
         return plan;
     });
 }
@@ -165,7 +178,7 @@ Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
         grow(gpu::kOverflowVertices, grown.table_capacity);
         grow(gpu::kOverflowConflicts, grown.list_capacity);
         pool_bytes = std::min(pool_bytes, impl_->report.limits.max_storage_buffer_range);
-        grown.lanes = fitting_lanes(grown, pool_bytes);
+        fit(grown, pool_bytes);
         const bool same = grown.lane_rows() == plan.lane_rows() &&
                           grown.list_capacity == plan.list_capacity;
         if (grown.lanes == 0 || same) {

@@ -129,6 +129,12 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     }
     *plan = overridden(*plan, runner_.options.plan);
     plan->chain = std::max(plan->chain, chain);
+    if (plan->pool_bytes() > runner_.options.pool_bytes) {
+        return Error{Status::workspace_too_small,
+                     "the plan asked for takes a pool of " + std::to_string(plan->pool_bytes()) +
+                         " bytes, which may take " +
+                         std::to_string(runner_.options.pool_bytes)};
+    }
     const auto needs = sampler.workspace_needs(mesh_, params_, *plan);
     if (!needs) {
         return needs.error();
