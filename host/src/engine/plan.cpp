@@ -149,7 +149,7 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         RunPlan plan;
         plan.slots = wanted_slots(disks, report);
         plan.lanes = wanted_lanes(plan.slots, report);
-        plan.window_capacity = pow2_at_least(16 + faces_per_disk);
+        plan.window_capacity = pow2_at_least(32 + 2 * faces_per_disk);
         plan.table_capacity = pow2_at_least(16 + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.step_budget = most_steps(report);
