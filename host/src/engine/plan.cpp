@@ -21,7 +21,9 @@ namespace {
 constexpr std::uint32_t kLlvmpipeSteps = 65535 / gpu::kIterationsPerStep;
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
 constexpr std::uint32_t kDefaultSteps = 128;
-constexpr std::uint32_t kMostSlots = 1u << 16;
+constexpr double kMostSlots = 1u << 16;
+// Of a CPU, whose caches the lists of more would leave.
+constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
 constexpr std::uint64_t kIdleBytes = std::uint64_t{gpu::kFindMostGroups} * gpu::kFindLanes * 4;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
@@ -45,7 +47,7 @@ std::uint32_t wanted_slots(double disks, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const double least = cpu ? std::clamp<double>(disks / 8, 8, cpu_lanes(report)) : 64;
     const auto slots = static_cast<std::uint32_t>(
-        std::clamp(disks / (cpu ? 24 : 8), least, double{kMostSlots}));
+        std::clamp(disks / (cpu ? 24 : 8), least, cpu ? kMostCpuSlots : kMostSlots));
     // No lane is to wait for the others with its last one.
     const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
     return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
