@@ -44,8 +44,7 @@ void main() {
     uint cursor = slots[row + 3u].y;
     uint end = min(cursor + kListPerDispatch, head.w);
     for (; cursor < end; ++cursor) {
-        uint at = active_entry(cursor);
-        uint other = marks[pool[list_row(slot) + (at >> 2)][at & 3u]];
+        uint other = marks[active_conflict(slot, cursor)];
         if (other > slot) {
             atomicAdd(blockers[other], 1u);
         }

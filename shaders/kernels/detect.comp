@@ -314,10 +314,8 @@ void trip() {
 
 bool running() { return phase > kPhaseClear && phase < kPhaseComplete && overflow == 0u; }
 
+// Takes a slot if the lane has none, works on it, and hands it in if it is done.
 void step() {
-    if (phase == kPhaseComplete) {
-        hand_in_slot();
-    }
     if (phase == kPhaseIdle && control.next_slot < control.slots_used) {
         take_slot();
     }
@@ -326,6 +324,9 @@ void step() {
     }
     for (uint i = 0u; i < kTripsPerStep && running(); ++i) {
         trip();
+    }
+    if (phase == kPhaseComplete) {
+        hand_in_slot();
     }
 }
 
@@ -338,15 +339,12 @@ void main() {
     load_lane(lane);
     for (uint i = 0u; i < P.step_budget && overflow == 0u; ++i) {
         step();
-        if (phase == kPhaseIdle) {
+        if (phase == kPhaseIdle && control.next_slot >= control.slots_used) {
             break;
         }
     }
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
-    }
-    if (phase == kPhaseComplete) {
-        hand_in_slot();
     }
     save_lane(lane);
 }

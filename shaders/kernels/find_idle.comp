@@ -6,7 +6,7 @@
 
 #include "../lib/prelude.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kFindLanes) in;
 
 GEODISK_BUFFER(kBindStates, readonly, uint, states);
 GEODISK_BUFFER(kBindPlaces, readonly, uint, places);

@@ -34,12 +34,10 @@ void main() {
         return;
     }
     // Active conflicts first; only an accepted candidate goes on to the idle ones.
-    uint first = list_row(slot);
     uint resolved = slots[slot * kSlotRows + 3u].z;
     uint end = min(head.w, resolved + kListPerDispatch);
     for (; resolved < end; ++resolved) {
-        uint at = active_entry(resolved);
-        uint other_slot = marks[pool[first + (at >> 2)][at & 3u]];
+        uint other_slot = marks[active_conflict(slot, resolved)];
         if (other_slot > slot) {
             if (rejected) {
                 atomicAdd(blockers[other_slot], 0xffffffffu);
@@ -54,7 +52,7 @@ void main() {
         end = min(total, resolved + kListPerDispatch);
         for (; resolved < end; resolved += 4u) {
             uint at = resolved - head.w;
-            uvec4 others = pool[first + (at >> 2)];
+            uvec4 others = pool[list_row(slot) + (at >> 2)];
             uint left = end - resolved;
             atomicOr(states[others.x], kRejected);
             if (left > 1u) {

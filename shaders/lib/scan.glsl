@@ -58,7 +58,7 @@ void list_conflict(uint place, bool is_active) {
         overflow |= kOverflowConflicts;
         return;
     }
-    uint at = is_active ? P.list_capacity - 1u - active_conflicts : idle_conflicts;
+    uint at = is_active ? active_entry(P.list_capacity, active_conflicts) : idle_conflicts;
     pool[list_first + (at >> 2)][at & 3u] = place;
     active_conflicts += is_active ? 1u : 0u;
     idle_conflicts += is_active ? 0u : 1u;

@@ -15,7 +15,12 @@ uint list_row(uint slot) {
     return push.lanes * push.lane_rows + slot * (push.list_capacity >> 2);
 }
 
-// Where in the list the active conflict of this number is.
-uint active_entry(uint number) { return push.list_capacity - 1u - number; }
+// Where in a list of this capacity the active conflict of this number is.
+uint active_entry(uint capacity, uint number) { return capacity - 1u - number; }
+
+uint active_conflict(uint slot, uint number) {
+    uint at = active_entry(push.list_capacity, number);
+    return pool[list_row(slot) + (at >> 2)][at & 3u];
+}
 
 #endif

@@ -41,9 +41,9 @@ GEODISK_CONST uint kOverflowConflicts = 4u;
 // Not an overflow but an error: a window has crossed kLongestChain edges, which no disk needs.
 GEODISK_CONST uint kOverflowChain = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
-
 // Nor this: the samples' buffer is too small, the set itself is complete.
 GEODISK_CONST uint kOverflowSamples = 16u;
+
 // Set in a blocker word once an accepted candidate of lower rank conflicts.
 GEODISK_CONST uint kBlockedForGood = 0x80000000u;
 
@@ -73,13 +73,13 @@ GEODISK_CONST uint kManyFaces = 0x40000000u;   // three or more faces share the 
 GEODISK_CONST uint kVertexMask = 0x3fffffffu;
 
 GEODISK_CONST uint kNoHalfEdge = 0xffffffffu;
+GEODISK_CONST uint kWholeFan = 0xffffffffu;
 
 // Rows of the vertex table carry the generation of the disk that wrote them, in the two top bits of
 // the vertex and of the distance, so that the table is emptied only once in so many disks.
 GEODISK_CONST uint kMostGenerations = 15u;
 GEODISK_CONST uint kTagShift = 30u;
 GEODISK_CONST uint kTagMask = 0xc0000000u;
-GEODISK_CONST uint kWholeFan = 0xffffffffu;
 
 // The loops of detect: most iterations of each in one trip of the main loop.
 GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
