@@ -8,7 +8,6 @@
 
 #include "bindings.h"
 #include "records.h"
-#include "engine/device_mesh.hpp"
 #include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
 #include "support/guard.hpp"
@@ -196,7 +195,7 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         push.candidates = *pool_size(mesh, params);
         push.faces = mesh.face_count();
         push.vertices = mesh.vertex_count();
-        push.cells = *count_cells(mesh, params.min_distance);
+        push.cells = static_cast<std::uint32_t>(needs->bytes[gpu::kBindCells] / 4 - 1);
         push.seed_low = static_cast<std::uint32_t>(params.seed);
         push.seed_high = static_cast<std::uint32_t>(params.seed >> 32);
         push.limit = tolerances.limit;

@@ -39,7 +39,7 @@ Result<StageClock> StageClock::create(const DeviceRefs& refs, const DeviceTable&
 StageClock::StageClock(StageClock&& other) noexcept
     : refs_(other.refs_), vk_(other.vk_), pool_(std::exchange(other.pool_, VK_NULL_HANDLE)),
       seconds_per_tick_(other.seconds_per_tick_), mask_(other.mask_),
-      stages_(std::move(other.stages_)), open_(other.open_), seconds_(other.seconds_) {}
+      stages_(std::move(other.stages_)), seconds_(other.seconds_) {}
 
 StageClock::~StageClock() {
     if (pool_ != VK_NULL_HANDLE) {

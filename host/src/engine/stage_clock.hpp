@@ -42,7 +42,6 @@ class StageClock {
     double seconds_per_tick_ = 0;
     std::uint64_t mask_ = 0;
     std::vector<Stage> stages_; ///< Of the queries written, but the first.
-    bool open_ = false;
     StageSeconds seconds_{};
 };
 
