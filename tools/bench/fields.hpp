@@ -1,25 +1,12 @@
 // The names and values that every written form of a row and of the circumstances has, in order.
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "bench/circumstances.hpp"
 #include "bench/measurement.hpp"
 
 namespace geodisk::bench {
-
-/// Names of the stages' fields; the values are 0 unless stages are timed.
-inline const std::array<std::string, kStages>& stage_names() {
-    static const std::array<std::string, kStages> kNames = [] {
-        std::array<std::string, kStages> names;
-        for (std::size_t stage = 0; stage < kStages; ++stage) {
-            names[stage] = std::string(to_string(static_cast<Stage>(stage))) + "_stage_seconds";
-        }
-        return names;
-    }();
-    return kNames;
-}
 
 /// Calls `visit(name, value)` for each; values are strings or numbers.
 template <class Visit>
@@ -40,7 +27,9 @@ void visit_fields(const Measurement& row, const Visit& visit) {
     visit("device_samples_per_second", static_cast<double>(row.samples) / row.seconds.device);
     visit("reference_samples_per_second", static_cast<double>(row.samples) / row.seconds.reference);
     for (std::size_t stage = 0; stage < kStages; ++stage) {
-        visit(stage_names()[stage].c_str(), run.stages[stage]);
+        // 0 unless stages are timed.
+        const std::string name = to_string(static_cast<Stage>(stage));
+        visit((name + "_stage_seconds").c_str(), run.stages[stage]);
     }
     visit("disks_per_sample", row.per_sample(static_cast<double>(run.disks)));
     visit("windows_per_disk", row.per_disk(static_cast<double>(run.windows)));

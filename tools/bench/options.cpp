@@ -81,23 +81,16 @@ void add_scaling(CLI::App& app, RawOptions& raw) {
 }
 
 void add_tuning(CLI::App& app, RunnerOptions& runner) {
-    const char* const group = "Tuning, does not change the samples";
-    app.add_option("--slots", runner.plan.slots, "Candidates active at a time")
-        ->type_name("K")
-        ->group(group);
-    app.add_option("--lanes", runner.plan.lanes, "Invocations that share the work on them")
-        ->type_name("K")
-        ->group(group);
-    app.add_option("--passes", runner.plan.detect_passes, "Dispatches of detect per round")
-        ->type_name("K")
-        ->group(group);
-    app.add_option("--steps", runner.plan.step_budget, "Steps of detect per dispatch")
-        ->type_name("K")
-        ->group(group);
-    app.add_option("--local-size", runner.sampler.local_size,
-                   "Invocations per work group, a power of two")
-        ->type_name("K")
-        ->group(group);
+    const auto add = [&app](const char* name, std::uint32_t& value, const char* what) {
+        app.add_option(name, value, what)
+            ->type_name("K")
+            ->group("Tuning, does not change the samples");
+    };
+    add("--slots", runner.plan.slots, "Candidates active at a time");
+    add("--lanes", runner.plan.lanes, "Invocations that share the work on them");
+    add("--passes", runner.plan.detect_passes, "Dispatches of detect per round");
+    add("--steps", runner.plan.step_budget, "Steps of detect per dispatch");
+    add("--local-size", runner.sampler.local_size, "Invocations per work group, a power of two");
 }
 
 } // namespace
