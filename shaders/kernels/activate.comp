@@ -9,7 +9,7 @@
 layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindStates, , uint, states);
-GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
+GEODISK_WORDS(kBindPlaces, places);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
 GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
 GEODISK_CONTROL;
@@ -21,7 +21,7 @@ void main() {
         return;
     }
     uint rank = slots[row + 1u].x;
-    uint place = places[rank];
+    uint place = word_at(places, rank);
     Candidate c = draw_candidate(rank);
     slots[row] = uvec4(place, kSlotReady, 0u, 0u);
     slots[row + 1u] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),

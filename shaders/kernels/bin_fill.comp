@@ -9,8 +9,8 @@
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindCells, readonly, uint, cells);
-GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
+GEODISK_WORDS(kBindCells, cells);
+GEODISK_WORDS(kBindMarks, marks);
 GEODISK_BUFFER(kBindPlaces, , uint, places);
 GEODISK_BUFFER(kBindStates, writeonly, uint, states);
 GEODISK_BUFFER(kBindWeights, writeonly, uint, weights);
@@ -22,7 +22,7 @@ void main() {
         return;
     }
     Candidate c = draw_candidate(rank);
-    uint place = cells[places[rank]] + marks[rank];
+    uint place = word_at(cells, places[rank]) + word_at(marks, rank);
     places[rank] = place;
     states[place] = c.weight1 << kWeightShift | kIdle;
     weights[place] = c.weight2;

@@ -8,12 +8,13 @@
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
+GEODISK_WORDS(kBindMarks, marks);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
-GEODISK_BUFFER(kBindPool, readonly, uvec4, pool);
+GEODISK_ROWS(kBindPool, pool);
 GEODISK_CONTROL;
 
 #include "../lib/slice.glsl"
+#include "../lib/conflicts.glsl"
 
 void count_disk(uint row, uint conflicts) {
     uvec4 took = slots[row + 2u];
@@ -44,7 +45,7 @@ void main() {
     uint cursor = slots[row + 3u].y;
     uint end = min(cursor + kListPerDispatch, head.w);
     for (; cursor < end; ++cursor) {
-        uint other = marks[active_conflict(slot, cursor)];
+        uint other = word_at(marks, active_conflict(slot, cursor));
         if (other > slot) {
             atomicAdd(blockers[other], 1u);
         }

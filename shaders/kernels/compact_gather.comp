@@ -8,7 +8,7 @@
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
+GEODISK_WORDS(kBindMarks, marks);
 GEODISK_BUFFER(kBindSamples, writeonly, uvec4, samples);
 GEODISK_CONTROL;
 
@@ -18,8 +18,8 @@ void main() {
     if (rank >= push.candidates) {
         return;
     }
-    uint place = marks[rank];
-    uint next = rank + 1u < push.candidates ? marks[rank + 1u] : control.accepted;
+    uint place = word_at(marks, rank);
+    uint next = rank + 1u < push.candidates ? word_at(marks, rank + 1u) : control.accepted;
     if (next == place) {
         return;
     }

@@ -8,8 +8,8 @@
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
-GEODISK_BUFFER(kBindStates, readonly, uint, states);
+GEODISK_WORDS(kBindPlaces, places);
+GEODISK_WORDS(kBindStates, states);
 GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
 GEODISK_CONTROL;
 
@@ -22,5 +22,6 @@ void main() {
     if (rank >= push.candidates) {
         return;
     }
-    marks[rank] = (states[places[rank]] & kStateMask) == kAccepted ? 1u : 0u;
+    uint state = word_at(states, word_at(places, rank)) & kStateMask;
+    marks[rank] = state == kAccepted ? 1u : 0u;
 }

@@ -19,12 +19,12 @@
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindFans, readonly, uvec4, fans);
-GEODISK_BUFFER(kBindCells, readonly, uint, cells);
-GEODISK_BUFFER(kBindStates, readonly, uint, states);
-GEODISK_BUFFER(kBindWeights, readonly, uint, weights);
+GEODISK_ROWS(kBindFans, fans);
+GEODISK_WORDS(kBindCells, cells);
+GEODISK_WORDS(kBindStates, states);
+GEODISK_WORDS(kBindWeights, weights);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
-GEODISK_BUFFER(kBindPool, , uvec4, pool);
+GEODISK_OWN_ROWS(kBindPool, kBindPoolTexels, pool);
 GEODISK_CONTROL;
 
 // A copy that stays in registers; reading push constants in a branch is a gather on lavapipe.
@@ -60,15 +60,15 @@ void load_candidate() {
 
 void load_lane(uint lane) {
     uint row = lane_row(lane);
-    uvec4 a = pool[row];
-    uvec4 b = pool[row + 1u];
-    uvec4 c = pool[row + 2u];
-    uvec4 d = pool[row + 3u];
-    uvec4 e = pool[row + 4u];
-    uvec4 f = pool[row + 5u];
-    uvec4 g = pool[row + 6u];
-    uvec4 h = pool[row + 7u];
-    uvec4 i = pool[row + 8u];
+    uvec4 a = own_row_at(pool, row);
+    uvec4 b = own_row_at(pool, row + 1u);
+    uvec4 c = own_row_at(pool, row + 2u);
+    uvec4 d = own_row_at(pool, row + 3u);
+    uvec4 e = own_row_at(pool, row + 4u);
+    uvec4 f = own_row_at(pool, row + 5u);
+    uvec4 g = own_row_at(pool, row + 6u);
+    uvec4 h = own_row_at(pool, row + 7u);
+    uvec4 i = own_row_at(pool, row + 8u);
     slot = a.x, phase = a.y, idle_conflicts = a.z, active_conflicts = a.w;
     windows = b.x, event_head = b.y, event_tail = b.z, generation = b.w;
     half_edge = c.x, mode = c.y, x = uintBitsToFloat(c.z), y = uintBitsToFloat(c.w);
@@ -149,13 +149,13 @@ void clear_table() {
 
 // Half-edge and angles of a corner of the fans.
 uvec2 fan_corner(uint i) {
-    uvec4 row = fans[P.vertices + (i >> 1)];
+    uvec4 row = row_at(fans, P.vertices + (i >> 1));
     return (i & 1u) == 0u ? row.xy : row.zw;
 }
 
 uint corner_angles(uint h) {
     uint corners = 3u * P.faces;
-    return fans[P.vertices + ((corners + 1u) >> 1) + (h >> 2)][h & 3u];
+    return row_at(fans, P.vertices + ((corners + 1u) >> 1) + (h >> 2))[h & 3u];
 }
 
 // Whether a shortest path that came in through corner entered_by may go on into `corner`: it must
@@ -182,8 +182,8 @@ bool in_shadow(uvec2 corner) {
 void take_window() {
     --windows;
     uint row = windows_first + kWindowRows * windows;
-    uvec4 row0 = pool[row];
-    uvec4 row1 = pool[row + 1u];
+    uvec4 row0 = own_row_at(pool, row);
+    uvec4 row1 = own_row_at(pool, row + 1u);
     half_edge = row0.x >> 1;
     mode = (row0.x & 1u) != 0u ? kModeSameWay : kModeOpposite;
     x = uintBitsToFloat(row0.y);
@@ -198,7 +198,7 @@ void take_window() {
 
 // A vertex reached sooner by now is dropped.
 void take_event() {
-    uvec4 row = pool[event_row(event_head)];
+    uvec4 row = own_row_at(pool, event_row(event_head));
     ++event_head;
     uint vertex = row.x;
     if (find_vertex(vertex).distance < uintBitsToFloat(row.y)) {
@@ -207,7 +207,7 @@ void take_event() {
     sigma = uintBitsToFloat(row.y);
     chain = row.z;
     entered_by = row.w;
-    uvec4 fan = fans[vertex];
+    uvec4 fan = row_at(fans, vertex);
     cursor = fan.x;
     cursor_end = fan.x + fan.y;
     fan_angle = fan.z;

@@ -8,8 +8,8 @@
 
 layout(local_size_x = kFindLanes) in;
 
-GEODISK_BUFFER(kBindStates, readonly, uint, states);
-GEODISK_BUFFER(kBindPlaces, readonly, uint, places);
+GEODISK_WORDS(kBindStates, states);
+GEODISK_WORDS(kBindPlaces, places);
 GEODISK_BUFFER(kBindSums, writeonly, uint, idle);
 GEODISK_CONTROL;
 
@@ -22,7 +22,7 @@ void main() {
     uint end = min(begin + 32u, push.candidates);
     uint bits = 0u;
     for (uint rank = begin; rank < end; ++rank) {
-        uint state = states[places[rank]] & kStateMask;
+        uint state = word_at(states, word_at(places, rank)) & kStateMask;
         bits |= (state == kIdle ? 1u : 0u) << (rank - begin);
     }
     idle[word] = bits;

@@ -11,12 +11,13 @@
 layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindStates, coherent, uint, states);
-GEODISK_BUFFER(kBindMarks, readonly, uint, marks);
+GEODISK_WORDS(kBindMarks, marks);
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
-GEODISK_BUFFER(kBindPool, readonly, uvec4, pool);
+GEODISK_ROWS(kBindPool, pool);
 GEODISK_CONTROL;
 
 #include "../lib/slice.glsl"
+#include "../lib/conflicts.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -37,7 +38,7 @@ void main() {
     uint resolved = slots[slot * kSlotRows + 3u].z;
     uint end = min(head.w, resolved + kListPerDispatch);
     for (; resolved < end; ++resolved) {
-        uint other_slot = marks[active_conflict(slot, resolved)];
+        uint other_slot = word_at(marks, active_conflict(slot, resolved));
         if (other_slot > slot) {
             if (rejected) {
                 atomicAdd(blockers[other_slot], 0xffffffffu);
@@ -52,7 +53,7 @@ void main() {
         end = min(total, resolved + kListPerDispatch);
         for (; resolved < end; resolved += 4u) {
             uint at = resolved - head.w;
-            uvec4 others = pool[list_row(slot) + (at >> 2)];
+            uvec4 others = four_conflicts(slot, at);
             uint left = end - resolved;
             atomicOr(states[others.x], kRejected);
             if (left > 1u) {

@@ -9,13 +9,13 @@
 layout(local_size_x_id = 0) in;
 
 GEODISK_BUFFER(kBindStates, , uint, states);
-GEODISK_BUFFER(kBindSlots, readonly, uvec4, slots);
+GEODISK_ROWS(kBindSlots, slots);
 GEODISK_CONTROL;
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot < control.slots_used) {
-        states[slots[slot * kSlotRows].x] &= ~kStateMask;
+        states[row_at(slots, slot * kSlotRows).x] &= ~kStateMask;
     }
     if (slot == 0u) {
         control.next_rank = control.batch_rank;

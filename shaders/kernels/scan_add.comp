@@ -8,14 +8,14 @@
 layout(local_size_x = 128) in;
 
 GEODISK_BUFFER(kBindMarks, , uint, words);
-GEODISK_BUFFER(kBindSums, readonly, uint, sums);
+GEODISK_WORDS(kBindSums, sums);
 
 void main() {
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     if (block * kScanBlock >= push.scan_count) {
         return;
     }
-    uint before = sums[block];
+    uint before = word_at(sums, block);
     uint end = min((block + 1u) * kScanBlock, push.scan_count);
     for (uint i = block * kScanBlock + gl_LocalInvocationID.x; i < end; i += kScanLanes) {
         words[i] += before;

@@ -12,7 +12,7 @@ layout(local_size_x = 128) in;
 layout(constant_id = kSpecLocalSize) const uint kSlotLocalSize = 64u;
 
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
-GEODISK_BUFFER(kBindSums, readonly, uint, idle);
+GEODISK_WORDS(kBindSums, idle);
 GEODISK_CONTROL;
 
 shared uint first_left; // lowest idle rank that found no slot
@@ -33,7 +33,7 @@ void main() {
     barrier();
     for (uint first = 0u; first < words; first += kScanLanes) {
         uint word = first + lane;
-        uint bits = word < words ? idle[word] : 0u;
+        uint bits = word < words ? word_at(idle, word) : 0u;
         uint total;
         uint slot = taken + group_exclusive_scan(lane, uint(bitCount(bits)), total);
         while (bits != 0u) {

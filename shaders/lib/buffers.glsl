@@ -1,9 +1,42 @@
-// How kernels declare the buffers they touch.
+// How kernels declare the buffers they touch. Every kernel is compiled twice: with GEODISK_TEXELS it
+// reads through texel buffers what no invocation of the dispatch writes, or only itself. On lavapipe
+// a load from a storage buffer is a loop over lanes and words, and a texel fetch a few gathers at
+// less than half the price.
 #ifndef GEODISK_BUFFERS_GLSL
 #define GEODISK_BUFFERS_GLSL
 
 #define GEODISK_BUFFER(number, access, type, name)                                                 \
     layout(set = 0, binding = number, std430) restrict access buffer name##_buffer { type name[]; }
+
+// What is only read: words, pairs and rows of four words, by word_at, pair_at and row_at.
+#ifdef GEODISK_TEXELS
+#define GEODISK_WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name
+#define GEODISK_PAIRS(number, name) GEODISK_WORDS(number, name)
+#define GEODISK_ROWS(number, name) GEODISK_WORDS(number, name)
+#define word_at(name, i) texelFetch(name, int(i)).x
+#define pair_at(name, i) texelFetch(name, int(i)).xy
+#define row_at(name, i) texelFetch(name, int(i))
+#else
+#define GEODISK_WORDS(number, name) GEODISK_BUFFER(number, readonly, uint, name)
+#define GEODISK_PAIRS(number, name) GEODISK_BUFFER(number, readonly, uvec2, name)
+#define GEODISK_ROWS(number, name) GEODISK_BUFFER(number, readonly, uvec4, name)
+#define word_at(name, i) name[i]
+#define pair_at(name, i) name[i]
+#define row_at(name, i) name[i]
+#endif
+
+// Rows that an invocation writes and reads back itself: written as name[i], read by own_row_at. Two
+// names of one memory, neither `restrict` and both `coherent`, so that reads see the writes before.
+#ifdef GEODISK_TEXELS
+#define GEODISK_OWN_ROWS(number, texels_number, name)                                              \
+    layout(set = 0, binding = number, std430) coherent buffer name##_buffer { uvec4 name[]; };     \
+    layout(set = 0, binding = texels_number, rgba32ui) uniform coherent readonly uimageBuffer      \
+        name##_texels
+#define own_row_at(name, i) imageLoad(name##_texels, int(i))
+#else
+#define GEODISK_OWN_ROWS(number, texels_number, name) GEODISK_BUFFER(number, , uvec4, name)
+#define own_row_at(name, i) name[i]
+#endif
 
 // The run's record with the blocker words behind it; shared by all work groups of a dispatch, so
 // only atomics touch what another invocation may write.

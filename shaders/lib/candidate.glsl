@@ -7,7 +7,7 @@
 #include "rounding.glsl"
 #include "weights.glsl"
 
-GEODISK_BUFFER(kBindAlias, readonly, uvec2, alias_columns);
+GEODISK_PAIRS(kBindAlias, alias_columns);
 
 struct Candidate {
     uint face;
@@ -23,7 +23,7 @@ Candidate draw_candidate(uint rank) {
     umulExtended(random.y, push.faces, fine, unused);
     uint fraction = low + fine;
     uint column = high + (fraction < low ? 1u : 0u);
-    uvec2 entry = alias_columns[column];
+    uvec2 entry = pair_at(alias_columns, column);
     uint face = fraction < entry.x ? column : entry.y;
     // Odd multiples of 2^-24 keep clear of 0 and 1.
     uint alpha = (random.z >> 9) << 1 | 1u;

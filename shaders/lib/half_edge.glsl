@@ -3,7 +3,7 @@
 #ifndef GEODISK_HALF_EDGE_GLSL
 #define GEODISK_HALF_EDGE_GLSL
 
-GEODISK_BUFFER(kBindFaces, readonly, uvec4, faces);
+GEODISK_ROWS(kBindFaces, faces);
 
 struct Edge {
     float len;
@@ -13,11 +13,11 @@ struct Edge {
 };
 
 Edge load_edge(uint face, uint corner) {
-    uvec4 row = faces[kFaceRows * face + corner];
+    uvec4 row = row_at(faces, kFaceRows * face + corner);
     return Edge(uintBitsToFloat(row.x), uintBitsToFloat(row.y), uintBitsToFloat(row.z), row.w);
 }
 
-uvec4 load_links(uint face) { return faces[kFaceRows * face + 3u]; }
+uvec4 load_links(uint face) { return row_at(faces, kFaceRows * face + 3u); }
 
 uint next_corner(uint corner) { return corner == 2u ? 0u : corner + 1u; }
 uint previous_corner(uint corner) { return corner == 0u ? 2u : corner - 1u; }

@@ -77,21 +77,21 @@ void scan_some() {
     precise float rest2 = rest * rest;
     for (uint i = 0u; i < kRowsPerTrip && scanning(); ++i) {
         if (scan_place >= scan_end) {
-            scan_place = cells[scan_row];
-            scan_end = cells[scan_row + scan_columns];
+            scan_place = word_at(cells, scan_row);
+            scan_end = word_at(cells, scan_row + scan_columns);
             scan_row += scan_stride;
         }
         for (uint k = 0u; k < kScanPerRow && scan_place < scan_end; ++k) {
             uint place = scan_place;
             ++scan_place;
-            uint word = states[place];
+            uint word = word_at(states, place);
             uint state = word & kStateMask;
             if (state > kActive || place == own_place) {
                 continue;
             }
             ++tested;
             vec2 q = position_in(corner, edge.len, apex, weight_of(word >> kWeightShift),
-                                 weight_of(weights[place]));
+                                 weight_of(word_at(weights, place)));
             precise float dx = q.x - sx;
             precise float dy = q.y - sy;
             precise float at = dx * y;

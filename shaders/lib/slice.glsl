@@ -18,9 +18,4 @@ uint list_row(uint slot) {
 // Where in a list of this capacity the active conflict of this number is.
 uint active_entry(uint capacity, uint number) { return capacity - 1u - number; }
 
-uint active_conflict(uint slot, uint number) {
-    uint at = active_entry(push.list_capacity, number);
-    return pool[list_row(slot) + (at >> 2)][at & 3u];
-}
-
 #endif

@@ -29,7 +29,7 @@ VertexRow find_vertex(uint vertex) {
     // A bound that is not constant keeps compilers from unrolling what mostly ends at once.
     uint most = min(kMostProbes, P.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
-        row = pool[table_first + at];
+        row = own_row_at(pool, table_first + at);
         bool empty = (row.x & kTagMask) != vertex_tag() || (row.y & kTagMask) != distance_tag();
         found = !empty && (row.x & kVertexMask) == vertex;
         if (empty || found) {

@@ -1,5 +1,5 @@
-// Binding numbers, one per buffer, the same in every kernel; all live in set 0. A kernel declares
-// only what it touches, never more than eight.
+// Binding numbers, one per buffer and the same in every kernel; all live in set 0. A kernel declares
+// only what it touches, never more than eight storage buffers.
 #ifndef GEODISK_SHARED_BINDINGS_H
 #define GEODISK_SHARED_BINDINGS_H
 
@@ -27,7 +27,9 @@ GEODISK_CONST uint kBindMarks = 10u;     // a word per candidate. While binning:
                                          // place, by rank
 GEODISK_CONST uint kBindSums = 11u;      // block sums of the scans; in the rounds: idle ranks as bits
 GEODISK_CONST uint kBindSamples = 12u;   // SampleRec per accepted candidate, in rank order
-GEODISK_CONST uint kBindCount = 13u;
+// The pool a second time, as a texel buffer, see lib/buffers.glsl.
+GEODISK_CONST uint kBindPoolTexels = 13u;
+GEODISK_CONST uint kBindCount = 14u;
 
 GEODISK_END_SHARED
 

@@ -215,6 +215,7 @@ PFN_vkVoidFunction DeviceSpy::Functions::find(std::string_view name) {
     }
     static const std::map<std::string_view, PFN_vkVoidFunction> replacements = {
         GEODISK_PAIR(vkCreateBuffer, vkDestroyBuffer),
+        GEODISK_PAIR(vkCreateBufferView, vkDestroyBufferView),
         GEODISK_PAIR(vkCreateShaderModule, vkDestroyShaderModule),
         GEODISK_PAIR(vkCreatePipelineLayout, vkDestroyPipelineLayout),
         GEODISK_PAIR(vkCreateDescriptorSetLayout, vkDestroyDescriptorSetLayout),

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <geodisk/context.hpp>
+#include <geodisk/sampler.hpp>
 
 #include "fake_driver.hpp"
 #include "owned/context_access.hpp"
@@ -128,6 +129,23 @@ TEST_CASE("a device that just meets the requirements is usable") {
     CHECK(report->reasons_against.empty());
     CHECK(report->rounds_natively); // Found through the extension, without Vulkan 1.2.
     CHECK(report->limits.subgroup_size == context.report().limits.subgroup_size);
+}
+
+TEST_CASE("texel buffers that reach less far than storage buffers are not used") {
+    const Context context = create_on_lavapipe();
+    test::FakeDriver driver;
+    driver.edit_properties = [](VkPhysicalDeviceProperties& properties) {
+        properties.limits.maxTexelBufferElements = properties.limits.maxStorageBufferRange / 4 - 1;
+    };
+    DeviceRefs refs = context.device();
+    refs.get_instance_proc_addr = &test::FakeDriver::get_instance_proc_addr;
+    CHECK(Sampler::create(refs));
+    SamplerOptions options;
+    options.reads = Reads::texels;
+    const Result<Sampler> refused = Sampler::create(refs, options);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().status == Status::device_lacks);
+    CHECK(contains(refused.error().message, "maxTexelBufferElements is 33554431, at least 33554432"));
 }
 
 TEST_CASE("a device of Vulkan 1.0 is not asked what it cannot answer") {

@@ -40,6 +40,7 @@ const std::vector<Fallible> kFallible = {
     {"vkAllocateDescriptorSets",
      {kNoHostMemory, kNoDeviceMemory, VK_ERROR_FRAGMENTED_POOL, VK_ERROR_OUT_OF_POOL_MEMORY}},
     {"vkCreateBuffer", {kNoHostMemory, kNoDeviceMemory}},
+    {"vkCreateBufferView", {kNoHostMemory, kNoDeviceMemory}},
     {"vkAllocateMemory", {kNoHostMemory, kNoDeviceMemory, VK_ERROR_TOO_MANY_OBJECTS}},
     {"vkBindBufferMemory", {kNoHostMemory, kNoDeviceMemory}},
     {"vkMapMemory", {kNoHostMemory, kNoDeviceMemory, VK_ERROR_MEMORY_MAP_FAILED}},

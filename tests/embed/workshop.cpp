@@ -22,7 +22,8 @@ constexpr VkDeviceSize up(VkDeviceSize x, VkDeviceSize unit) {
 Workshop::Workshop(const Context& context)
     : device_(context.device()), vk_(expect(load_device_table(device_))) {
     const DeviceLimits& limits = context.report().limits;
-    alignment_ = std::max<VkDeviceSize>(limits.min_storage_buffer_offset_alignment, kOwnBytes);
+    alignment_ = std::max<VkDeviceSize>({limits.min_storage_buffer_offset_alignment,
+                                         limits.min_texel_buffer_offset_alignment, kOwnBytes});
     submitter_.emplace(
         expect(Submitter::create(device_, vk_, context.queue(), std::chrono::seconds(300))));
     const auto instance =

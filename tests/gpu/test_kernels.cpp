@@ -182,7 +182,12 @@ void compare_samples(const DeviceRun& run, const Twin& twin) {
     CHECK(wrong == 0);
 }
 
-void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
+// The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively.
+const SamplerOptions kOnCpu{0, Rounding::native, Reads::texels};
+const SamplerOptions kOnGpu{0, Rounding::emulated, Reads::storage};
+const SamplerOptions kPlain{0, Rounding::native, Reads::storage};
+
+void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
                   std::uint32_t slots) {
     const SampleParams params = params_for(mesh, count);
     // Budgets and capacities so large that each round completes a batch.
@@ -191,8 +196,6 @@ void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
     plan.window_capacity = 4096;
     plan.table_capacity = 8192;
     plan.list_capacity = 1024;
-    SamplerOptions options;
-    options.rounding = rounding;
     DeviceRun run(mesh, params, plan, options);
     Twin twin(mesh, params, run.plan().chain);
     run.begin();
@@ -222,37 +225,36 @@ void step_through(const PreparedMesh& mesh, double count, Rounding rounding,
 TEST_SUITE("kernels") {
     TEST_CASE("step by step on a torus knot") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 16));
-        for (const Rounding rounding : {Rounding::native, Rounding::emulated}) {
-            CAPTURE(static_cast<int>(rounding));
-            step_through(mesh, 400, rounding, 64);
+        for (const SamplerOptions& options : {kOnCpu, kOnGpu, kPlain}) {
+            step_through(mesh, 400, options, 64);
         }
     }
 
     TEST_CASE("step by step on a cube of 12 triangles, many cells each") {
         const PreparedMesh mesh = prepared(builtin("cube", 1));
-        for (const Rounding rounding : {Rounding::native, Rounding::emulated}) {
-            step_through(mesh, 3000, rounding, 256);
+        for (const SamplerOptions& options : {kOnCpu, kOnGpu}) {
+            step_through(mesh, 3000, options, 256);
         }
     }
 
     TEST_CASE("step by step where the surface is no manifold, one-sided or folded") {
-        step_through(prepared(builtin("moebius", 8)), 300, Rounding::native, 32);
-        step_through(prepared(builtin("folded-sheet", 8)), 300, Rounding::emulated, 32);
+        step_through(prepared(builtin("moebius", 8)), 300, kOnCpu, 32);
+        step_through(prepared(builtin("folded-sheet", 8)), 300, kOnGpu, 32);
         if (const auto mesh = shared_mesh("meshes/cycloidal_43k.ply")) {
-            step_through(prepared(*mesh), 1000, Rounding::native, 128);
+            step_through(prepared(*mesh), 1000, kOnCpu, 128);
         }
         if (const auto mesh = shared_mesh("meshes/tray_4k5.ply")) {
-            step_through(prepared(*mesh), 1000, Rounding::emulated, 128);
+            step_through(prepared(*mesh), 1000, kOnGpu, 128);
         }
     }
 
     TEST_CASE("step by step with disks so large that every vertex is near") {
-        step_through(prepared(builtin("icosphere", 3)), 1e-4, Rounding::native, 16);
-        step_through(prepared(builtin("terrain", 16)), 1e-4, Rounding::native, 64);
+        step_through(prepared(builtin("icosphere", 3)), 1e-4, kOnCpu, 16);
+        step_through(prepared(builtin("terrain", 16)), 1e-4, kOnCpu, 64);
     }
 
     TEST_CASE("step by step with one candidate at a time") {
-        step_through(prepared(builtin("icosphere", 2)), 60, Rounding::native, 1);
+        step_through(prepared(builtin("icosphere", 2)), 60, kOnCpu, 1);
     }
 }
 

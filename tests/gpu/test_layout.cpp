@@ -1,6 +1,7 @@
 // Offsets in the compiled SPIR-V against offsetof in C++.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <map>
@@ -81,25 +82,35 @@ TEST_SUITE("layout") {
         for (std::size_t k = 0; k < kKernels; ++k) {
             const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
             CAPTURE(info.name);
-            const auto offsets = struct_offsets(info.spirv);
-            REQUIRE(offsets.count("Push") == 1);
-            CHECK(offsets.at("Push") == kPush);
-            if (offsets.count("ControlRec") != 0) {
-                ++controls;
-                CHECK(offsets.at("ControlRec") == kControl);
-                // The blocker words follow the record without a gap.
-                CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
+            for (const auto& spirv : {info.spirv, info.texels_spirv}) {
+                const auto offsets = struct_offsets(spirv);
+                REQUIRE(offsets.count("Push") == 1);
+                CHECK(offsets.at("Push") == kPush);
+                if (offsets.count("ControlRec") != 0) {
+                    ++controls;
+                    CHECK(offsets.at("ControlRec") == kControl);
+                    // The blocker words follow the record without a gap.
+                    CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
+                }
             }
         }
-        CHECK(controls == 10);
+        CHECK(controls == 20);
     }
 
-    TEST_CASE("no kernel binds more than eight buffers") {
+    TEST_CASE("no kernel binds more than eight storage buffers") {
         for (std::size_t k = 0; k < kKernels; ++k) {
             const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
             CAPTURE(info.name);
-            CHECK(info.bindings.size() <= 8);
-            CHECK(info.bindings.size() >= 1);
+            for (const bool texels : {false, true}) {
+                const auto storage_buffers =
+                    std::count_if(info.bindings.begin(), info.bindings.end(), [&](const Binding& b) {
+                        return has_binding(b.access, texels) &&
+                               descriptor_type(b.access, texels) ==
+                                   VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+                    });
+                CHECK(storage_buffers >= 1);
+                CHECK(storage_buffers <= 8);
+            }
         }
     }
 }

@@ -131,6 +131,11 @@ TEST_SUITE("invariance") {
         RunnerOptions timed;
         timed.time_stages = true;
         CHECK(same(timed));
+        for (const Reads reads : {Reads::storage, Reads::texels}) {
+            RunnerOptions options;
+            options.sampler.reads = reads;
+            CHECK(same(options));
+        }
         RunnerOptions emulated;
         emulated.sampler.rounding = Rounding::emulated;
         CHECK(same(emulated));

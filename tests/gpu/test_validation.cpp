@@ -14,9 +14,10 @@ TEST_SUITE("validation") {
         Context context = expect(Context::create(options));
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         const SampleParams params = params_for(mesh, 300);
-        {
+        for (const Reads reads : {Reads::storage, Reads::texels}) {
             // Slices that overflow bring in the rewind as well.
             RunnerOptions tight;
+            tight.sampler.reads = reads;
             tight.plan.window_capacity = 2;
             Runner runner = expect(Runner::create(context.device(), context.queue(), tight));
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));

@@ -54,6 +54,7 @@ Circumstances find_circumstances(const DeviceReport& device, const Options& opti
     result.passes = options.runner.plan.detect_passes;
     result.steps = options.runner.plan.step_budget;
     result.local_size = options.runner.sampler.local_size;
+    result.reads = to_string(options.runner.sampler.reads);
     return result;
 }
 

@@ -22,7 +22,9 @@ struct Circumstances {
     unsigned cores = 0; ///< That this process may be scheduled on; 0 if unknown.
     std::string date;   ///< UTC, ISO 8601.
     int repeats = 0, warm_ups = 0;
-    std::uint32_t slots = 0, lanes = 0, steps = 0, passes = 0, local_size = 0; ///< As asked for; 0 for the default.
+    /// As asked for; 0 for the default.
+    std::uint32_t slots = 0, lanes = 0, steps = 0, passes = 0, local_size = 0;
+    std::string reads; ///< "auto", "storage" or "texels", as asked for.
 };
 
 Circumstances find_circumstances(const DeviceReport& device, const Options& options);

@@ -67,6 +67,7 @@ void visit_fields(const Circumstances& run, const Visit& visit) {
     visit("steps", run.steps);
     visit("passes", run.passes);
     visit("local_size", run.local_size);
+    visit("reads", run.reads);
 }
 
 } // namespace geodisk::bench

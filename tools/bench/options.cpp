@@ -80,6 +80,15 @@ void add_scaling(CLI::App& app, RawOptions& raw) {
         ->group(group);
 }
 
+Reads reads_from(const std::string& name) {
+    for (const Reads reads : {Reads::automatic, Reads::storage, Reads::texels}) {
+        if (name == to_string(reads)) {
+            return reads;
+        }
+    }
+    throw CLI::ValidationError("--reads", "\"" + name + "\" is not auto, storage or texels");
+}
+
 void add_tuning(CLI::App& app, RunnerOptions& runner) {
     const auto add = [&app](const char* name, std::uint32_t& value, const char* what) {
         app.add_option(name, value, what)
@@ -91,6 +100,11 @@ void add_tuning(CLI::App& app, RunnerOptions& runner) {
     add("--passes", runner.plan.detect_passes, "Dispatches of detect per round");
     add("--steps", runner.plan.step_budget, "Steps of detect per dispatch");
     add("--local-size", runner.sampler.local_size, "Invocations per work group, a power of two");
+    app.add_option_function<std::string>(
+           "--reads", [&runner](const std::string& name) { runner.sampler.reads = reads_from(name); },
+           "Through which buffers: auto, storage or texels")
+        ->type_name("KIND")
+        ->group("Tuning, does not change the samples");
 }
 
 } // namespace

@@ -1,28 +1,35 @@
-# geodisk_add_kernel(TARGET NAME): compiles shaders/kernels/NAME.comp to SPIR-V 1.3 and writes it as
-# a C array to the build tree, where TARGET includes it as "NAME.spv.inc".
+# geodisk_add_kernel(TARGET NAME): compiles shaders/kernels/NAME.comp to SPIR-V 1.3, once as it is and
+# once to read through texel buffers, and writes both as C arrays to the build tree, where TARGET
+# includes them as "NAME.spv.inc" and "NAME_texels.spv.inc".
 find_program(GEODISK_GLSLANG NAMES glslangValidator glslang REQUIRED
     DOC "The GLSL compiler (package glslang-tools)")
 find_program(GEODISK_SPIRV_VAL NAMES spirv-val DOC "The SPIR-V validator (package spirv-tools)")
 
 function(geodisk_add_kernel target name)
+    geodisk_add_kernel_variant(${target} ${name} ${name})
+    geodisk_add_kernel_variant(${target} ${name} ${name}_texels -DGEODISK_TEXELS)
+endfunction()
+
+# Further arguments are options of the compiler.
+function(geodisk_add_kernel_variant target name variant)
     set(source "${PROJECT_SOURCE_DIR}/shaders/kernels/${name}.comp")
     set(folder "${CMAKE_CURRENT_BINARY_DIR}/kernels")
-    set(binary "${folder}/${name}.spv")
-    set(header "${folder}/${name}.spv.inc")
+    set(binary "${folder}/${variant}.spv")
+    set(header "${folder}/${variant}.spv.inc")
     file(MAKE_DIRECTORY "${folder}")
+    set(compile "${GEODISK_GLSLANG}" --quiet --target-env vulkan1.1 ${ARGN} -V "${source}")
     set(validate "")
     if(GEODISK_SPIRV_VAL)
         set(validate COMMAND "${GEODISK_SPIRV_VAL}" --target-env vulkan1.1 "${binary}")
     endif()
     add_custom_command(
         OUTPUT "${header}"
-        COMMAND "${GEODISK_GLSLANG}" --quiet --target-env vulkan1.1 -V "${source}" -o "${binary}"
+        COMMAND ${compile} -o "${binary}"
         ${validate}
-        COMMAND "${GEODISK_GLSLANG}" --quiet --target-env vulkan1.1 -V "${source}"
-            --vn "k_${name}_spirv" --depfile "${header}.d" -o "${header}"
+        COMMAND ${compile} --vn "k_${variant}_spirv" --depfile "${header}.d" -o "${header}"
         DEPENDS "${source}"
         DEPFILE "${header}.d"
-        COMMENT "Compiling kernel ${name}"
+        COMMENT "Compiling kernel ${variant}"
         VERBATIM)
     target_sources(${target} PRIVATE "${header}")
     target_include_directories(${target} PRIVATE "${folder}")

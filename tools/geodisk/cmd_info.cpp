@@ -98,6 +98,8 @@ Json to_json(std::size_t index, const DeviceReport& report) {
          {{"max_storage_buffer_range", limits.max_storage_buffer_range},
           {"max_memory_allocation_size", limits.max_memory_allocation_size},
           {"min_storage_buffer_offset_alignment", limits.min_storage_buffer_offset_alignment},
+          {"min_texel_buffer_offset_alignment", limits.min_texel_buffer_offset_alignment},
+          {"max_texel_buffer_elements", limits.max_texel_buffer_elements},
           {"non_coherent_atom_size", limits.non_coherent_atom_size},
           {"max_memory_allocation_count", limits.max_memory_allocation_count},
           {"max_storage_buffers_per_stage", limits.max_storage_buffers_per_stage},

@@ -55,6 +55,8 @@ struct DeviceLimits {
     std::uint64_t max_storage_buffer_range = 0;
     std::uint64_t max_memory_allocation_size = 0;
     std::uint64_t min_storage_buffer_offset_alignment = 0;
+    std::uint64_t min_texel_buffer_offset_alignment = 0;
+    std::uint64_t max_texel_buffer_elements = 0;
     std::uint64_t non_coherent_atom_size = 0;
     std::uint32_t max_memory_allocation_count = 0;
     std::uint32_t max_storage_buffers_per_stage = 0;

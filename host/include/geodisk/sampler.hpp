@@ -40,11 +40,22 @@ enum class Rounding : std::uint32_t {
     emulated,
 };
 
+/// How shaders read what they do not write. Both ways return the same bits.
+enum class Reads : std::uint32_t {
+    automatic, ///< Texel buffers where they are known to be faster (llvmpipe), else storage buffers.
+    storage,
+    texels,
+};
+
+/// "auto", "storage" or "texels".
+GEODISK_API const char* to_string(Reads reads) noexcept;
+
 struct SamplerOptions {
     /// Invocations per work group of the kernels whose size is not fixed; 0 chooses. A power of
     /// two up to the device's limit.
     std::uint32_t local_size = 0;
     Rounding rounding = Rounding::automatic;
+    Reads reads = Reads::automatic;
 };
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
@@ -56,8 +67,8 @@ inline constexpr std::size_t kBufferRoles = 13;
 /// Name of a role as spelled above, for messages.
 GEODISK_API const char* to_string(BufferRole role) noexcept;
 
-/// A range of a caller's buffer, bound as storage buffer: `offset` a multiple of the device's
-/// minStorageBufferOffsetAlignment.
+/// A range of a caller's buffer, bound as storage and texel buffer: `offset` a multiple of the
+/// device's minStorageBufferOffsetAlignment and minTexelBufferOffsetAlignment.
 struct BufferRange {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
@@ -68,7 +79,8 @@ struct BufferRange {
 /// the buffers with `kWorkspaceUsage`.
 using Workspace = std::array<BufferRange, kBufferRoles>;
 inline constexpr VkBufferUsageFlags kWorkspaceUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+    VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 
 /// Bytes each buffer needs at least.
@@ -112,8 +124,9 @@ class Job;
 class GEODISK_API Sampler {
   public:
     /// Compiles the pipelines on the lent device.
-    /// Errors: `device_lacks` with every reason, `invalid_argument` for a local size the device does
-    /// not allow, or as Vulkan fails.
+    /// Errors: `device_lacks` with every reason, or for Reads::texels on a device whose texel buffers
+    /// are too small; `invalid_argument` for a local size the device does not allow; or as Vulkan
+    /// fails.
     static Result<Sampler> create(const DeviceRefs& device, const SamplerOptions& options = {}) noexcept;
     Sampler(Sampler&&) noexcept;
     Sampler& operator=(Sampler&&) noexcept;

@@ -37,7 +37,8 @@ Result<Done> check_range(const BufferRange& range, std::size_t role, VkDeviceSiz
                                "most " +
                                std::to_string(limits.max_storage_buffer_range));
     }
-    const std::uint64_t alignment = limits.min_storage_buffer_offset_alignment;
+    const std::uint64_t alignment = std::max(limits.min_storage_buffer_offset_alignment,
+                                             limits.min_texel_buffer_offset_alignment);
     if (range.offset % alignment != 0) {
         return range_error(Status::invalid_argument, role,
                            "starts at " + std::to_string(range.offset) +
@@ -86,6 +87,41 @@ Result<Done> check_plan(const RunPlan& plan) {
     return Done{};
 }
 
+/// The same for a plan of a job that exists.
+Result<Done> check_plan(const RunPlan& plan, VkDeviceSize pool, std::uint32_t most_slots) {
+    if (auto checked = check_plan(plan); !checked) {
+        return checked;
+    }
+    if (plan.pool_bytes() > pool || plan.slots > most_slots) {
+        return Error{Status::workspace_too_small,
+                     "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
+                         " bytes and " + std::to_string(plan.slots) +
+                         " slots; the workspace has " + std::to_string(pool) + " bytes and " +
+                         std::to_string(most_slots) + " slots"};
+    }
+    return Done{};
+}
+
+/// The buffer behind a binding.
+std::size_t bound_as(SetRole role, std::uint32_t binding) {
+    // The scan kernels work on whatever is bound as marks.
+    return role == SetRole::cell_scan && binding == gpu::kBindMarks ? gpu::kBindCells
+           : binding == gpu::kBindPoolTexels                       ? gpu::kBindPool
+                                                                    : binding;
+}
+
+/// Whether some kernel reads this buffer as texels.
+bool read_as_texels(std::size_t buffer) {
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
+            if (binding.number == buffer && binding.access == Access::read) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 Job::Job(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
@@ -101,9 +137,13 @@ std::uint32_t Job::candidates() const noexcept {
 }
 
 Job::Impl::~Impl() {
-    if (!sampler->abandoned) {
-        sampler->vk.vkDestroyDescriptorPool(sampler->device.device, descriptor_pool,
-                                            sampler->device.host_allocator);
+    if (sampler->abandoned) {
+        return;
+    }
+    sampler->vk.vkDestroyDescriptorPool(sampler->device.device, descriptor_pool,
+                                        sampler->device.host_allocator);
+    for (const VkBufferView view : views) {
+        destroy_view(view);
     }
 }
 
@@ -121,16 +161,10 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked = check_plan(plan); !checked) {
+        if (auto checked =
+                check_plan(plan, impl_->workspace[gpu::kBindPool].size, impl_->most_slots);
+            !checked) {
             return checked;
-        }
-        const VkDeviceSize pool = impl_->workspace[gpu::kBindPool].size;
-        if (plan.pool_bytes() > pool || plan.slots > impl_->most_slots) {
-            return Error{Status::workspace_too_small,
-                         "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
-                             " bytes and " + std::to_string(plan.slots) +
-                             " slots; the workspace has " + std::to_string(pool) + " bytes and " +
-                             std::to_string(impl_->most_slots) + " slots"};
         }
         impl_->apply_plan(plan);
         return Done{};
@@ -144,16 +178,14 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
             !checked) {
             return checked;
         }
-        const BufferRange before = std::exchange(impl_->workspace[gpu::kBindPool], pool);
-        auto done = set_plan(plan);
-        if (!done) {
-            impl_->workspace[gpu::kBindPool] = before;
-            return done;
+        if (auto checked = check_plan(plan, pool.size, impl_->most_slots); !checked) {
+            return checked;
         }
-        for (std::uint32_t role = 0; role < kSetRoles; ++role) {
-            impl_->write_binding(static_cast<SetRole>(role), gpu::kBindPool);
+        if (auto replaced = impl_->replace_buffer(gpu::kBindPool, pool); !replaced) {
+            return replaced;
         }
-        return done;
+        impl_->apply_plan(plan);
+        return Done{};
     });
 }
 
@@ -164,11 +196,12 @@ Result<Done> Job::set_samples(const BufferRange& samples) noexcept {
             !checked) {
             return checked;
         }
-        impl_->workspace[gpu::kBindSamples] = samples;
+        if (auto replaced = impl_->replace_buffer(gpu::kBindSamples, samples); !replaced) {
+            return replaced;
+        }
         impl_->plan.sample_capacity = static_cast<std::uint32_t>(std::min<VkDeviceSize>(
             samples.size / sizeof(gpu::SampleRec), impl_->push.candidates));
         impl_->push.sample_capacity = impl_->plan.sample_capacity;
-        impl_->write_binding(SetRole::workspace, gpu::kBindSamples);
         return Done{};
     });
 }
@@ -203,6 +236,13 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         push.slack = tolerances.slack;
         push.splits_once = mesh.statistics().nonmanifold_edges == 0 ? 1 : 0;
         job->apply_plan(plan);
+        for (std::size_t i = 0; i < kBufferRoles; ++i) {
+            auto view = job->create_view(i, workspace[i]);
+            if (!view) {
+                return view.error();
+            }
+            job->views[i] = *view;
+        }
         if (auto written = job->write_sets(); !written) {
             return written.error();
         }
@@ -214,12 +254,17 @@ Result<Done> Job::Impl::write_sets() {
     const DeviceTable& vk = sampler->vk;
     const VkDevice device = sampler->device.device;
     constexpr std::uint32_t kSets = kSetRoles * kKernels;
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSets};
+    // Kernels bind at most eight buffers in any of these ways, and one as their own texels.
+    const std::array<VkDescriptorPoolSize, 3> sizes{{
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSets},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 8 * kSets},
+        {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, kSets},
+    }};
     VkDescriptorPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool_info.maxSets = kSets;
-    pool_info.poolSizeCount = 1;
-    pool_info.pPoolSizes = &size;
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
     VkResult result = null_unless_success(vk.vkCreateDescriptorPool(device, &pool_info,
                                                                     sampler->device.host_allocator,
                                                                     &descriptor_pool),
@@ -237,31 +282,75 @@ Result<Done> Job::Impl::write_sets() {
         if (result != VK_SUCCESS) {
             return vk_error("vkAllocateDescriptorSets", result);
         }
-        for (std::uint32_t binding = 0; binding < gpu::kBindCount; ++binding) {
-            write_binding(static_cast<SetRole>(role), binding);
-        }
+    }
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        write_buffer(i);
     }
     return Done{};
 }
 
-void Job::Impl::write_binding(SetRole role, std::uint32_t binding) const {
+Result<VkBufferView> Job::Impl::create_view(std::size_t buffer, const BufferRange& range) const {
+    if (!sampler->reads_texels || !read_as_texels(buffer)) {
+        return VkBufferView{VK_NULL_HANDLE};
+    }
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = range.buffer;
+    info.format = texel_format(static_cast<std::uint32_t>(buffer));
+    info.offset = range.offset;
+    info.range = range.size / texel_bytes(info.format) * texel_bytes(info.format);
+    VkBufferView view = VK_NULL_HANDLE;
+    const VkResult result =
+        null_unless_success(sampler->vk.vkCreateBufferView(sampler->device.device, &info,
+                                                           sampler->device.host_allocator, &view),
+                            view);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreateBufferView", result);
+    }
+    return view;
+}
+
+void Job::Impl::destroy_view(VkBufferView view) const {
+    sampler->vk.vkDestroyBufferView(sampler->device.device, view, sampler->device.host_allocator);
+}
+
+Result<Done> Job::Impl::replace_buffer(std::size_t buffer, const BufferRange& range) {
+    auto view = create_view(buffer, range);
+    if (!view) {
+        return view.error();
+    }
+    workspace[buffer] = range;
+    const VkBufferView before = std::exchange(views[buffer], *view);
+    write_buffer(buffer);
+    destroy_view(before);
+    return Done{};
+}
+
+void Job::Impl::write_buffer(std::size_t buffer) const {
+    const VkDescriptorBufferInfo info{workspace[buffer].buffer, workspace[buffer].offset,
+                                      workspace[buffer].size};
+    const auto write = [&](SetRole role, std::size_t kernel, const Binding& binding) {
+        VkWriteDescriptorSet set{};
+        set.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        set.dstSet = sets[static_cast<std::size_t>(role)][kernel];
+        set.dstBinding = binding.number;
+        set.descriptorCount = 1;
+        set.descriptorType = descriptor_type(binding.access, sampler->reads_texels);
+        set.pBufferInfo = &info;
+        set.pTexelBufferView = &views[buffer];
+        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &set, 0, nullptr);
+    };
     for (std::size_t k = 0; k < kKernels; ++k) {
-        const auto bindings = kernel_info(static_cast<Kernel>(k)).bindings;
-        if (std::find(bindings.begin(), bindings.end(), binding) == bindings.end()) {
-            continue;
+        for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
+            if (!has_binding(binding.access, sampler->reads_texels)) {
+                continue;
+            }
+            for (const SetRole role : {SetRole::workspace, SetRole::cell_scan}) {
+                if (bound_as(role, binding.number) == buffer) {
+                    write(role, k, binding);
+                }
+            }
         }
-        // The scan kernels work on whatever is bound as marks.
-        const bool cells = role == SetRole::cell_scan && binding == gpu::kBindMarks;
-        const BufferRange& range = workspace[cells ? gpu::kBindCells : binding];
-        const VkDescriptorBufferInfo buffer{range.buffer, range.offset, range.size};
-        VkWriteDescriptorSet write{};
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = sets[static_cast<std::size_t>(role)][k];
-        write.dstBinding = binding;
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        write.pBufferInfo = &buffer;
-        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &write, 0, nullptr);
     }
 }
 

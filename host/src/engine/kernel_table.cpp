@@ -6,61 +6,76 @@ namespace geodisk {
 namespace {
 
 #include "activate.spv.inc"
+#include "activate_texels.spv.inc"
 #include "bin_fill.spv.inc"
+#include "bin_fill_texels.spv.inc"
 #include "block.spv.inc"
+#include "block_texels.spv.inc"
 #include "candidates.spv.inc"
+#include "candidates_texels.spv.inc"
 #include "compact_fill.spv.inc"
+#include "compact_fill_texels.spv.inc"
 #include "compact_gather.spv.inc"
+#include "compact_gather_texels.spv.inc"
 #include "compact_mark.spv.inc"
+#include "compact_mark_texels.spv.inc"
 #include "detect.spv.inc"
+#include "detect_texels.spv.inc"
 #include "find_idle.spv.inc"
+#include "find_idle_texels.spv.inc"
 #include "resolve.spv.inc"
+#include "resolve_texels.spv.inc"
 #include "rewind.spv.inc"
+#include "rewind_texels.spv.inc"
 #include "scan_add.spv.inc"
+#include "scan_add_texels.spv.inc"
 #include "scan_blocks.spv.inc"
+#include "scan_blocks_texels.spv.inc"
 #include "scan_sums.spv.inc"
+#include "scan_sums_texels.spv.inc"
 #include "select.spv.inc"
+#include "select_texels.spv.inc"
 #include "self_test.spv.inc"
+#include "self_test_texels.spv.inc"
 
 using namespace gpu;
 
-constexpr std::uint32_t kCandidates[] = {kBindFaces, kBindAlias, kBindCells, kBindPlaces,
-                                         kBindMarks};
-constexpr std::uint32_t kScanData[] = {kBindMarks, kBindSums};
-constexpr std::uint32_t kScanSums[] = {kBindSums};
-constexpr std::uint32_t kBinFill[] = {kBindAlias,   kBindCells,  kBindStates,
-                                      kBindWeights, kBindPlaces, kBindMarks};
-constexpr std::uint32_t kFindIdle[] = {kBindStates, kBindPlaces, kBindControl, kBindSums};
-constexpr std::uint32_t kSelect[] = {kBindSlots, kBindControl, kBindSums};
-constexpr std::uint32_t kActivate[] = {kBindAlias, kBindStates,  kBindPlaces,
-                                       kBindSlots, kBindControl, kBindMarks};
-constexpr std::uint32_t kDetect[] = {kBindFaces,   kBindFans,  kBindCells, kBindStates,
-                                     kBindWeights, kBindSlots, kBindPool,  kBindControl};
-constexpr std::uint32_t kBlock[] = {kBindSlots, kBindPool, kBindControl, kBindMarks};
-constexpr std::uint32_t kResolve[] = {kBindStates, kBindSlots, kBindPool, kBindControl, kBindMarks};
-constexpr std::uint32_t kRewind[] = {kBindStates, kBindSlots, kBindControl};
-constexpr std::uint32_t kCompactMark[] = {kBindStates, kBindPlaces, kBindControl, kBindMarks};
-constexpr std::uint32_t kCompactGather[] = {kBindControl, kBindMarks, kBindSamples};
-constexpr std::uint32_t kCompactFill[] = {kBindAlias, kBindControl, kBindSamples};
-constexpr std::uint32_t kSelfTest[] = {kBindSums};
+using enum Access;
+
+constexpr Binding kCandidates[] = {{kBindFaces, read}, {kBindAlias, read}, {kBindCells, storage}, {kBindPlaces, storage}, {kBindMarks, storage}};
+constexpr Binding kScanData[] = {{kBindMarks, storage}, {kBindSums, storage}};
+constexpr Binding kScanAdd[] = {{kBindMarks, storage}, {kBindSums, read}};
+constexpr Binding kScanSums[] = {{kBindSums, storage}};
+constexpr Binding kBinFill[] = {{kBindAlias, read}, {kBindCells, read}, {kBindStates, storage}, {kBindWeights, storage}, {kBindPlaces, storage}, {kBindMarks, read}};
+constexpr Binding kFindIdle[] = {{kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindSums, storage}};
+constexpr Binding kSelect[] = {{kBindSlots, storage}, {kBindControl, storage}, {kBindSums, read}};
+constexpr Binding kActivate[] = {{kBindAlias, read}, {kBindStates, storage}, {kBindPlaces, read}, {kBindSlots, storage}, {kBindControl, storage}, {kBindMarks, storage}};
+constexpr Binding kDetect[] = {{kBindFaces, read}, {kBindFans, read}, {kBindCells, read}, {kBindStates, read}, {kBindWeights, read}, {kBindSlots, storage}, {kBindPool, storage}, {kBindControl, storage}, {kBindPoolTexels, read_own}};
+constexpr Binding kBlock[] = {{kBindSlots, storage}, {kBindPool, read}, {kBindControl, storage}, {kBindMarks, read}};
+constexpr Binding kResolve[] = {{kBindStates, storage}, {kBindSlots, storage}, {kBindPool, read}, {kBindControl, storage}, {kBindMarks, read}};
+constexpr Binding kRewind[] = {{kBindStates, storage}, {kBindSlots, read}, {kBindControl, storage}};
+constexpr Binding kCompactMark[] = {{kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindMarks, storage}};
+constexpr Binding kCompactGather[] = {{kBindControl, storage}, {kBindMarks, read}, {kBindSamples, storage}};
+constexpr Binding kCompactFill[] = {{kBindAlias, read}, {kBindControl, storage}, {kBindSamples, storage}};
+constexpr Binding kSelfTest[] = {{kBindSums, storage}};
 
 const std::array<KernelInfo, kKernels> kTable{{
-    {"candidates", k_candidates_spirv, kCandidates, false},
-    {"scan_blocks", k_scan_blocks_spirv, kScanData, false},
-    {"scan_sums", k_scan_sums_spirv, kScanSums, false},
-    {"scan_add", k_scan_add_spirv, kScanData, false},
-    {"bin_fill", k_bin_fill_spirv, kBinFill, false},
-    {"find_idle", k_find_idle_spirv, kFindIdle, false},
-    {"select", k_select_spirv, kSelect, true},
-    {"activate", k_activate_spirv, kActivate, true},
-    {"detect", k_detect_spirv, kDetect, true},
-    {"block", k_block_spirv, kBlock, true},
-    {"resolve", k_resolve_spirv, kResolve, true},
-    {"rewind", k_rewind_spirv, kRewind, true},
-    {"compact_mark", k_compact_mark_spirv, kCompactMark, false},
-    {"compact_gather", k_compact_gather_spirv, kCompactGather, false},
-    {"compact_fill", k_compact_fill_spirv, kCompactFill, false},
-    {"self_test", k_self_test_spirv, kSelfTest, false},
+    {"candidates", k_candidates_spirv, k_candidates_texels_spirv, kCandidates, false},
+    {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanData, false},
+    {"scan_sums", k_scan_sums_spirv, k_scan_sums_texels_spirv, kScanSums, false},
+    {"scan_add", k_scan_add_spirv, k_scan_add_texels_spirv, kScanAdd, false},
+    {"bin_fill", k_bin_fill_spirv, k_bin_fill_texels_spirv, kBinFill, false},
+    {"find_idle", k_find_idle_spirv, k_find_idle_texels_spirv, kFindIdle, false},
+    {"select", k_select_spirv, k_select_texels_spirv, kSelect, true},
+    {"activate", k_activate_spirv, k_activate_texels_spirv, kActivate, true},
+    {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true},
+    {"block", k_block_spirv, k_block_texels_spirv, kBlock, true},
+    {"resolve", k_resolve_spirv, k_resolve_texels_spirv, kResolve, true},
+    {"rewind", k_rewind_spirv, k_rewind_texels_spirv, kRewind, true},
+    {"compact_mark", k_compact_mark_spirv, k_compact_mark_texels_spirv, kCompactMark, false},
+    {"compact_gather", k_compact_gather_spirv, k_compact_gather_texels_spirv, kCompactGather, false},
+    {"compact_fill", k_compact_fill_spirv, k_compact_fill_texels_spirv, kCompactFill, false},
+    {"self_test", k_self_test_spirv, k_self_test_texels_spirv, kSelfTest, false},
 }};
 
 } // namespace

@@ -1,8 +1,11 @@
 // The compiled kernels: SPIR-V words and the buffers each binds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+
+#include <vulkan/vulkan_core.h>
 
 #include "bindings.h"
 
@@ -14,13 +17,53 @@ enum class Kernel : std::uint32_t {
 };
 inline constexpr std::size_t kKernels = 16;
 
+/// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
+enum class Access : std::uint8_t {
+    storage,  ///< As a storage buffer.
+    read,     ///< Only reads it: as a texel buffer in the variant that reads texels.
+    read_own, ///< Reads back what the invocation wrote: a texel buffer, in that variant alone.
+};
+
+struct Binding {
+    std::uint32_t number;
+    Access access;
+};
+
 struct KernelInfo {
     const char* name;
-    std::span<const std::uint32_t> spirv;
-    std::span<const std::uint32_t> bindings; ///< Binding numbers, ascending; at most eight.
+    std::span<const std::uint32_t> spirv;        ///< Reads from storage buffers.
+    std::span<const std::uint32_t> texels_spirv; ///< Reads from texel buffers.
+    std::span<const Binding> bindings;           ///< Ascending; at most eight storage buffers.
     bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
 };
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept;
+
+/// Whether a variant has a binding.
+constexpr bool has_binding(Access access, bool texels) noexcept {
+    return texels || access != Access::read_own;
+}
+
+constexpr VkDescriptorType descriptor_type(Access access, bool texels) noexcept {
+    return !texels || access == Access::storage ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+           : access == Access::read             ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                                : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+}
+
+/// The texels of the buffer with this number: words, pairs or rows of four.
+constexpr VkFormat texel_format(std::uint32_t buffer) noexcept {
+    switch (buffer) {
+    case gpu::kBindFaces:
+    case gpu::kBindFans:
+    case gpu::kBindSlots:
+    case gpu::kBindPool: return VK_FORMAT_R32G32B32A32_UINT;
+    case gpu::kBindAlias: return VK_FORMAT_R32G32_UINT;
+    default: return VK_FORMAT_R32_UINT;
+    }
+}
+
+constexpr VkDeviceSize texel_bytes(VkFormat format) noexcept {
+    return format == VK_FORMAT_R32G32B32A32_UINT ? 16 : format == VK_FORMAT_R32G32_UINT ? 8 : 4;
+}
 
 } // namespace geodisk

@@ -16,6 +16,7 @@ namespace geodisk {
 namespace {
 
 constexpr std::uint32_t kDefaultLocalSize = 64;
+constexpr std::uint32_t kWord = sizeof(std::uint32_t);
 
 /// On a CPU a work group runs on one thread, so that lanes are spread over as many as there are
 /// SIMD groups; a GPU wants whole subgroups, and a few of them.
@@ -25,6 +26,15 @@ std::uint32_t default_slot_local_size(const DeviceReport& report) {
                : kDefaultLocalSize;
 }
 
+/// A texel buffer of words can be as large as a storage buffer.
+bool texels_reach(const DeviceLimits& limits) {
+    return limits.max_texel_buffer_elements >= limits.max_storage_buffer_range / kWord;
+}
+
+bool fetches_are_faster(const DeviceReport& report) {
+    return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE && texels_reach(report.limits);
+}
+
 Result<Done> check_options(const SamplerOptions& options, const DeviceReport& report) {
     const std::uint32_t most =
         std::min(report.limits.max_workgroup_invocations, report.limits.max_workgroup_size_x);
@@ -32,6 +42,13 @@ Result<Done> check_options(const SamplerOptions& options, const DeviceReport& re
         return Error{Status::invalid_argument,
                      "the local size must be 0 or a power of two up to the device's limit of " +
                          std::to_string(most)};
+    }
+    if (options.reads == Reads::texels && !texels_reach(report.limits)) {
+        return Error{Status::device_lacks,
+                     report.name + " cannot read texels: maxTexelBufferElements is " +
+                         std::to_string(report.limits.max_texel_buffer_elements) + ", at least " +
+                         std::to_string(report.limits.max_storage_buffer_range / kWord) +
+                         " is needed, a quarter of maxStorageBufferRange"};
     }
     return Done{};
 }
@@ -45,6 +62,11 @@ std::string join(const std::vector<std::string>& reasons) {
 }
 
 } // namespace
+
+const char* to_string(Reads reads) noexcept {
+    constexpr const char* kNames[] = {"auto", "storage", "texels"};
+    return kNames[static_cast<std::size_t>(reads)];
+}
 
 Sampler::Sampler(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 Sampler::Sampler(Sampler&&) noexcept = default;
@@ -76,6 +98,8 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
         impl->vk = *table;
         impl->native_rounding = options.rounding == Rounding::native ||
                                 (options.rounding == Rounding::automatic && report->rounds_natively);
+        impl->reads_texels = options.reads == Reads::texels ||
+                             (options.reads == Reads::automatic && fetches_are_faster(*report));
         impl->local_size = options.local_size != 0 ? options.local_size : kDefaultLocalSize;
         impl->slot_local_size =
             options.local_size != 0 ? options.local_size : default_slot_local_size(*report);
@@ -111,9 +135,11 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     const auto k = static_cast<std::size_t>(kernel);
     const KernelInfo& info = kernel_info(kernel);
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (const std::uint32_t number : info.bindings) {
-        bindings.push_back({number, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
-                            VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    for (const Binding& binding : info.bindings) {
+        if (has_binding(binding.access, reads_texels)) {
+            bindings.push_back({binding.number, descriptor_type(binding.access, reads_texels), 1,
+                                VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        }
     }
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
@@ -141,14 +167,14 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     }
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    module_info.codeSize = info.spirv.size_bytes();
-    module_info.pCode = info.spirv.data();
+    const std::span<const std::uint32_t> spirv = reads_texels ? info.texels_spirv : info.spirv;
+    module_info.codeSize = spirv.size_bytes();
+    module_info.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
     result = vk.vkCreateShaderModule(device.device, &module_info, device.host_allocator, &module);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateShaderModule", result);
     }
-    constexpr std::uint32_t kWord = sizeof(std::uint32_t);
     const std::array<std::uint32_t, 2> constants{info.per_slot ? slot_local_size : local_size,
                                                  native_rounding ? VK_TRUE : VK_FALSE};
     const std::array<VkSpecializationMapEntry, 2> entries{{

@@ -19,6 +19,7 @@ struct Sampler::Impl {
     std::uint32_t local_size = 0;      ///< Of those with an invocation per candidate or sample.
     std::uint32_t slot_local_size = 0; ///< Of kernels with an invocation per slot or lane.
     bool native_rounding = false;
+    bool reads_texels = false;         ///< Of the two variants of the kernels, which.
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
@@ -42,6 +43,8 @@ struct Job::Impl {
     VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
     std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
     Workspace workspace{};
+    /// Of the workspace's buffers that some kernel reads as texels.
+    std::array<VkBufferView, kBufferRoles> views{};
     std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
     RunPlan plan;
     gpu::Push push{};
@@ -49,7 +52,11 @@ struct Job::Impl {
     static Impl& of(Job& job) { return *job.impl_; }
     ~Impl();
     Result<Done> write_sets();
-    void write_binding(SetRole role, std::uint32_t binding) const;
+    Result<VkBufferView> create_view(std::size_t buffer, const BufferRange& range) const;
+    void destroy_view(VkBufferView view) const;
+    /// Binds a buffer wherever kernels use it.
+    void write_buffer(std::size_t buffer) const;
+    Result<Done> replace_buffer(std::size_t buffer, const BufferRange& range);
     void apply_plan(const RunPlan& new_plan);
 };
 

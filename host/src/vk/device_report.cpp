@@ -38,6 +38,8 @@ void read_properties(const VkPhysicalDeviceProperties& properties, DeviceReport&
     DeviceLimits& to = report.limits;
     to.max_storage_buffer_range = from.maxStorageBufferRange;
     to.min_storage_buffer_offset_alignment = from.minStorageBufferOffsetAlignment;
+    to.min_texel_buffer_offset_alignment = from.minTexelBufferOffsetAlignment;
+    to.max_texel_buffer_elements = from.maxTexelBufferElements;
     to.non_coherent_atom_size = from.nonCoherentAtomSize;
     to.max_memory_allocation_count = from.maxMemoryAllocationCount;
     to.max_storage_buffers_per_stage = from.maxPerStageDescriptorStorageBuffers;

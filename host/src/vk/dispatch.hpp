@@ -38,6 +38,8 @@
     X(vkInvalidateMappedMemoryRanges)     \
     X(vkCreateBuffer)                     \
     X(vkDestroyBuffer)                    \
+    X(vkCreateBufferView)                 \
+    X(vkDestroyBufferView)                \
     X(vkGetBufferMemoryRequirements)      \
     X(vkGetBufferMemoryRequirements2)     \
     X(vkBindBufferMemory)                 \
