@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // A slot whose disk is complete counts itself among the blockers of the active candidates of higher
 // rank in it, and its disk into the run's totals. One invocation per slot; resumable.
-// reads: pool lists, marks   writes: slots, control, blockers   spec: local size
+// reads: pool lists, marks   writes: slots, control, blockers   spec: local size, pool block
 
 #include "../lib/prelude.glsl"
 

@@ -6,7 +6,7 @@
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
 // reads: faces, fans, cells, states, weights   writes: pool, slots, control
-// spec: local size, rounding
+// spec: local size, rounding, pool block
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
@@ -59,16 +59,16 @@ void load_candidate() {
 }
 
 void load_lane(uint lane) {
-    uint row = lane_row(lane);
-    uvec4 a = own_row_at(pool, row);
-    uvec4 b = own_row_at(pool, row + 1u);
-    uvec4 c = own_row_at(pool, row + 2u);
-    uvec4 d = own_row_at(pool, row + 3u);
-    uvec4 e = own_row_at(pool, row + 4u);
-    uvec4 f = own_row_at(pool, row + 5u);
-    uvec4 g = own_row_at(pool, row + 6u);
-    uvec4 h = own_row_at(pool, row + 7u);
-    uvec4 i = own_row_at(pool, row + 8u);
+    slice = first_row(lane);
+    uvec4 a = own_row_at(pool, own_row(0u));
+    uvec4 b = own_row_at(pool, own_row(1u));
+    uvec4 c = own_row_at(pool, own_row(2u));
+    uvec4 d = own_row_at(pool, own_row(3u));
+    uvec4 e = own_row_at(pool, own_row(4u));
+    uvec4 f = own_row_at(pool, own_row(5u));
+    uvec4 g = own_row_at(pool, own_row(6u));
+    uvec4 h = own_row_at(pool, own_row(7u));
+    uvec4 i = own_row_at(pool, own_row(8u));
     slot = a.x, phase = a.y, idle_conflicts = a.z, active_conflicts = a.w;
     windows = b.x, event_head = b.y, event_tail = b.z, generation = b.w;
     half_edge = c.x, mode = c.y, x = uintBitsToFloat(c.z), y = uintBitsToFloat(c.w);
@@ -78,26 +78,24 @@ void load_lane(uint lane) {
     scan_columns = g.x, scan_stride = g.y, tested = g.z, pushed = g.w;
     most_waiting = h.x, longest_chain = h.y, vertices = h.z;
     entered_by = i.x, entry_angles = i.y, fan_angle = i.z, fan_flags = i.w;
-    windows_first = windows_row(lane);
-    events_first = events_row(lane);
-    table_first = table_row(lane);
+    first_event = kLaneRows + kWindowRows * P.window_capacity;
+    first_vertex = first_event + P.window_capacity;
     overflow = 0u;
     load_candidate();
     load_face();
 }
 
-void save_lane(uint lane) {
-    uint row = lane_row(lane);
-    pool[row] = uvec4(slot, phase, idle_conflicts, active_conflicts);
-    pool[row + 1u] = uvec4(windows, event_head, event_tail, generation);
-    pool[row + 2u] = uvec4(half_edge, mode, floatBitsToUint(x), floatBitsToUint(y));
-    pool[row + 3u] =
+void save_lane() {
+    pool[own_row(0u)] = uvec4(slot, phase, idle_conflicts, active_conflicts);
+    pool[own_row(1u)] = uvec4(windows, event_head, event_tail, generation);
+    pool[own_row(2u)] = uvec4(half_edge, mode, floatBitsToUint(x), floatBitsToUint(y));
+    pool[own_row(3u)] =
         uvec4(floatBitsToUint(b0), floatBitsToUint(b1), floatBitsToUint(sigma), chain);
-    pool[row + 4u] = uvec4(known, cursor, cursor_end, corner_ahead);
-    pool[row + 5u] = uvec4(scan_place, scan_end, scan_row, scan_row_end);
-    pool[row + 6u] = uvec4(scan_columns, scan_stride, tested, pushed);
-    pool[row + 7u] = uvec4(most_waiting, longest_chain, vertices, 0u);
-    pool[row + 8u] = uvec4(entered_by, entry_angles, fan_angle, fan_flags);
+    pool[own_row(4u)] = uvec4(known, cursor, cursor_end, corner_ahead);
+    pool[own_row(5u)] = uvec4(scan_place, scan_end, scan_row, scan_row_end);
+    pool[own_row(6u)] = uvec4(scan_columns, scan_stride, tested, pushed);
+    pool[own_row(7u)] = uvec4(most_waiting, longest_chain, vertices, 0u);
+    pool[own_row(8u)] = uvec4(entered_by, entry_angles, fan_angle, fan_flags);
 }
 
 void hand_in_slot() {
@@ -139,7 +137,7 @@ void take_slot() {
 void clear_table() {
     uint end = min(cursor + kClearPerStep, P.table_capacity);
     for (; cursor < end; ++cursor) {
-        pool[table_first + cursor] = uvec4(0u);
+        pool[vertex_row(cursor)] = uvec4(0u);
     }
     if (cursor == P.table_capacity) {
         phase = kPhaseSource;
@@ -181,9 +179,9 @@ bool in_shadow(uvec2 corner) {
 
 void take_window() {
     --windows;
-    uint row = windows_first + kWindowRows * windows;
-    uvec4 row0 = own_row_at(pool, row);
-    uvec4 row1 = own_row_at(pool, row + 1u);
+    uint at = window_at(windows);
+    uvec4 row0 = own_row_at(pool, own_row(at));
+    uvec4 row1 = own_row_at(pool, own_row(at + 1u));
     half_edge = row0.x >> 1;
     mode = (row0.x & 1u) != 0u ? kModeSameWay : kModeOpposite;
     x = uintBitsToFloat(row0.y);
@@ -346,5 +344,5 @@ void main() {
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
     }
-    save_lane(lane);
+    save_lane();
 }

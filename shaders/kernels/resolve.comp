@@ -4,7 +4,7 @@
 // one of lower rank blocks is accepted and rejects what its disk holds; a rejected one lifts its
 // blocks. Blocks only fall and rejections only come, so every order of events ends the same.
 // One invocation per slot; resumable, since lists may be long.
-// reads: pool lists, slots, marks   writes: states, slots, control, blockers   spec: local size
+// reads: pool lists, slots, marks   writes: states, slots, control, blockers   spec: local size, pool block
 
 #include "../lib/prelude.glsl"
 

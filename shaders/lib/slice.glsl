@@ -4,16 +4,18 @@
 //     events   a row each
 //     table    a row per vertex
 //   a list per slot:   conflicts, four to a row: idle ones from the front, active ones from the back
+// The slices of kPoolBlock lanes alternate row by row, so that lanes that step together read side by
+// side.
 #ifndef GEODISK_SLICE_GLSL
 #define GEODISK_SLICE_GLSL
 
-uint lane_row(uint lane) { return lane * push.lane_rows; }
-uint windows_row(uint lane) { return lane_row(lane) + kLaneRows; }
-uint events_row(uint lane) { return windows_row(lane) + kWindowRows * push.window_capacity; }
-uint table_row(uint lane) { return events_row(lane) + push.window_capacity; }
-uint list_row(uint slot) {
-    return push.lanes * push.lane_rows + slot * (push.list_capacity >> 2);
+layout(constant_id = kSpecPoolBlock) const uint kPoolBlock = 1u; // a power of two
+
+uint first_row(uint lane) {
+    return (lane & ~(kPoolBlock - 1u)) * push.lane_rows + (lane & (kPoolBlock - 1u));
 }
+
+uint list_row(uint slot) { return push.first_list_row + slot * (push.list_capacity >> 2); }
 
 // Where in a list of this capacity the active conflict of this number is.
 uint active_entry(uint capacity, uint number) { return capacity - 1u - number; }

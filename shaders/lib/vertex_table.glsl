@@ -4,9 +4,11 @@
 #ifndef GEODISK_VERTEX_TABLE_GLSL
 #define GEODISK_VERTEX_TABLE_GLSL
 
-uint table_first; // row of this lane's table
-uint generation;  // of this disk, 1 to kMostGenerations
-uint vertices;    // rows in use
+uint first_vertex; // of the table, among the rows of this lane
+uint generation;   // of this disk, 1 to kMostGenerations
+uint vertices;     // rows in use
+
+uint vertex_row(uint at) { return own_row(first_vertex + at); }
 
 uint vertex_tag() { return generation << kTagShift; }
 uint distance_tag() { return (generation << (kTagShift - 2u)) & kTagMask; }
@@ -29,7 +31,7 @@ VertexRow find_vertex(uint vertex) {
     // A bound that is not constant keeps compilers from unrolling what mostly ends at once.
     uint most = min(kMostProbes, P.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
-        row = own_row_at(pool, table_first + at);
+        row = own_row_at(pool, vertex_row(at));
         bool empty = (row.x & kTagMask) != vertex_tag() || (row.y & kTagMask) != distance_tag();
         found = !empty && (row.x & kVertexMask) == vertex;
         if (empty || found) {
@@ -49,7 +51,7 @@ void note_vertex(VertexRow row, uint vertex, float distance, uint through, float
         return;
     }
     vertices += row.found ? 0u : 1u;
-    pool[table_first + row.at] =
+    pool[vertex_row(row.at)] =
         uvec4(vertex | vertex_tag(), floatBitsToUint(distance) | distance_tag(), through,
               floatBitsToUint(crossing));
 }

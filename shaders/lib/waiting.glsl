@@ -5,24 +5,30 @@
 #ifndef GEODISK_WAITING_GLSL
 #define GEODISK_WAITING_GLSL
 
-uint windows_first; // row of this lane's windows
-uint events_first;  // row of this lane's events
-uint windows;       // on the stack
-uint event_head;    // events taken
-uint event_tail;    // events pushed
-uint most_waiting;  // most on the stack or in the ring
-uint pushed;        // windows and events ever pushed
-uint overflow;      // kOverflow* bits
+uint slice;        // first row of this lane
+uint first_event;  // among the rows of this lane
+uint windows;      // on the stack
+uint event_head;   // events taken
+uint event_tail;   // events pushed
+uint most_waiting; // most on the stack or in the ring
+uint pushed;       // windows and events ever pushed
+uint overflow;     // kOverflow* bits
 
-uint event_row(uint event) { return events_first + (event & (P.window_capacity - 1u)); }
+// A row of this lane in the pool.
+uint own_row(uint at) { return slice + at * kPoolBlock; }
+uint window_at(uint window) { return kLaneRows + kWindowRows * window; }
+uint event_row(uint event) {
+    return own_row(first_event + (event & (P.window_capacity - 1u)));
+}
 
 void push_window(uvec4 row0, uvec4 row1) {
     if (windows >= P.window_capacity) {
         overflow |= kOverflowWindows;
         return;
     }
-    pool[windows_first + kWindowRows * windows] = row0;
-    pool[windows_first + kWindowRows * windows + 1u] = row1;
+    uint at = window_at(windows);
+    pool[own_row(at)] = row0;
+    pool[own_row(at + 1u)] = row1;
     ++windows;
     ++pushed;
     most_waiting = max(most_waiting, windows);

@@ -24,6 +24,7 @@ struct Push {
     uint table_capacity;  // vertex table of one lane, a power of two
     uint list_capacity;   // conflicts one slot can list
     uint lane_rows;       // rows of four words per lane
+    uint first_list_row;  // of the pool: the slices come before
     uint step_budget;     // steps of detect per dispatch
     uint scan_count;      // scans: words to scan
     uint sample_capacity; // samples the buffer holds
@@ -34,7 +35,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 76 && offsetof(Push, sample_capacity) == 72);
+static_assert(sizeof(Push) == 80 && offsetof(Push, sample_capacity) == 76);
 }
 #endif
 

@@ -141,7 +141,7 @@ TEST_CASE("texel buffers that reach less far than storage buffers are not used")
     refs.get_instance_proc_addr = &test::FakeDriver::get_instance_proc_addr;
     CHECK(Sampler::create(refs));
     SamplerOptions options;
-    options.reads = Reads::texels;
+    options.tuning.reads = Reads::texels;
     const Result<Sampler> refused = Sampler::create(refs, options);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().status == Status::device_lacks);

@@ -104,7 +104,7 @@ void compare_bins(const DeviceRun& run, const Twin& twin) {
 std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
                                   const std::vector<std::uint32_t>& by_place) {
     const RunPlan& plan = run.plan();
-    const std::size_t lists = std::size_t{plan.lanes} * plan.lane_rows() * 16;
+    const std::size_t lists = plan.first_list_row() * 16;
     const auto list = run.read<std::uint32_t>(BufferRole::pool, plan.list_capacity,
                                               lists + index * plan.list_capacity * 4);
     std::vector<std::uint32_t> ranks;
@@ -183,9 +183,9 @@ void compare_samples(const DeviceRun& run, const Twin& twin) {
 }
 
 // The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively.
-const SamplerOptions kOnCpu{0, Rounding::native, Reads::texels};
-const SamplerOptions kOnGpu{0, Rounding::emulated, Reads::storage};
-const SamplerOptions kPlain{0, Rounding::native, Reads::storage};
+const SamplerOptions kOnCpu{{0, 0, 1, 0, Reads::texels}, Rounding::native};
+const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
+const SamplerOptions kPlain{{0, 64, 32, 0, Reads::storage}, Rounding::native};
 
 void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
                   std::uint32_t slots) {

@@ -55,7 +55,7 @@ const Offsets kPush{
     GEODISK_OFFSET(Push, slack),           GEODISK_OFFSET(Push, splits_once),
     GEODISK_OFFSET(Push, slots),             GEODISK_OFFSET(Push, lanes),
     GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
-    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, lane_rows),
+    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, lane_rows), GEODISK_OFFSET(Push, first_list_row),
     GEODISK_OFFSET(Push, step_budget),     GEODISK_OFFSET(Push, scan_count),
     GEODISK_OFFSET(Push, sample_capacity)};
 

@@ -112,7 +112,8 @@ TEST_SUITE("invariance") {
         }
         for (const std::uint32_t local_size : {1u, 8u, 32u, 128u}) {
             RunnerOptions options;
-            options.sampler.local_size = local_size;
+            options.sampler.tuning.local_size = local_size;
+            options.sampler.tuning.slot_local_size = local_size;
             CAPTURE(local_size);
             CHECK(same(options));
         }
@@ -131,9 +132,21 @@ TEST_SUITE("invariance") {
         RunnerOptions timed;
         timed.time_stages = true;
         CHECK(same(timed));
+        for (const std::uint32_t block : {1u, 4u, 128u}) {
+            RunnerOptions options;
+            options.sampler.tuning.pool_block = block;
+            CAPTURE(block);
+            CHECK(same(options));
+        }
+        for (const std::uint32_t batches : {1u, 1000u}) {
+            RunnerOptions options;
+            options.sampler.tuning.batches = batches;
+            CAPTURE(batches);
+            CHECK(same(options));
+        }
         for (const Reads reads : {Reads::storage, Reads::texels}) {
             RunnerOptions options;
-            options.sampler.reads = reads;
+            options.sampler.tuning.reads = reads;
             CHECK(same(options));
         }
         RunnerOptions emulated;

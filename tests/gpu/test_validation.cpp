@@ -17,7 +17,7 @@ TEST_SUITE("validation") {
         for (const Reads reads : {Reads::storage, Reads::texels}) {
             // Slices that overflow bring in the rewind as well.
             RunnerOptions tight;
-            tight.sampler.reads = reads;
+            tight.sampler.tuning.reads = reads;
             tight.plan.window_capacity = 2;
             Runner runner = expect(Runner::create(context.device(), context.queue(), tight));
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));

@@ -34,7 +34,8 @@ std::string now_utc() {
 
 } // namespace
 
-Circumstances find_circumstances(const DeviceReport& device, const Options& options) {
+Circumstances find_circumstances(const Sampler& sampler, const Options& options) {
+    const DeviceReport& device = sampler.report();
     Circumstances result;
     result.version = "geodisk " GEODISK_VERSION_STRING;
     result.commit = kCommit;
@@ -53,8 +54,7 @@ Circumstances find_circumstances(const DeviceReport& device, const Options& opti
     result.lanes = options.runner.plan.lanes;
     result.passes = options.runner.plan.detect_passes;
     result.steps = options.runner.plan.step_budget;
-    result.local_size = options.runner.sampler.local_size;
-    result.reads = to_string(options.runner.sampler.reads);
+    result.tuning = sampler.tuning();
     return result;
 }
 

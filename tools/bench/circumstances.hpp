@@ -23,10 +23,10 @@ struct Circumstances {
     std::string date;   ///< UTC, ISO 8601.
     int repeats = 0, warm_ups = 0;
     /// As asked for; 0 for the default.
-    std::uint32_t slots = 0, lanes = 0, steps = 0, passes = 0, local_size = 0;
-    std::string reads; ///< "auto", "storage" or "texels", as asked for.
+    std::uint32_t slots = 0, lanes = 0, steps = 0, passes = 0;
+    Tuning tuning; ///< As used.
 };
 
-Circumstances find_circumstances(const DeviceReport& device, const Options& options);
+Circumstances find_circumstances(const Sampler& sampler, const Options& options);
 
 } // namespace geodisk::bench

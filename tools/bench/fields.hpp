@@ -66,8 +66,11 @@ void visit_fields(const Circumstances& run, const Visit& visit) {
     visit("lanes", run.lanes);
     visit("steps", run.steps);
     visit("passes", run.passes);
-    visit("local_size", run.local_size);
-    visit("reads", run.reads);
+    visit("batches", run.tuning.batches);
+    visit("local_size", run.tuning.local_size);
+    visit("slot_local_size", run.tuning.slot_local_size);
+    visit("pool_block", run.tuning.pool_block);
+    visit("reads", std::string(to_string(run.tuning.reads)));
 }
 
 } // namespace geodisk::bench

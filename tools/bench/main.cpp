@@ -51,7 +51,7 @@ void run(const bench::Options& options) {
     const Context context =
         tools::take(Context::create({options.device, /* validation */ false, {}}));
     Runner runner = tools::take(Runner::create(context.device(), context.queue(), options.runner));
-    const bench::Circumstances circumstances = bench::find_circumstances(context.report(), options);
+    const bench::Circumstances circumstances = bench::find_circumstances(runner.sampler(), options);
     bench::print_heading(circumstances);
     const std::vector<bench::Series> series =
         bench::run_all(runner, options, meshes, {bench::print_row, bench::print_growth});

@@ -99,9 +99,13 @@ void add_tuning(CLI::App& app, RunnerOptions& runner) {
     add("--lanes", runner.plan.lanes, "Invocations that share the work on them");
     add("--passes", runner.plan.detect_passes, "Dispatches of detect per round");
     add("--steps", runner.plan.step_budget, "Steps of detect per dispatch");
-    add("--local-size", runner.sampler.local_size, "Invocations per work group, a power of two");
+    Tuning& tuning = runner.sampler.tuning;
+    add("--batches", tuning.batches, "Batches to aim at, N/T");
+    add("--local-size", tuning.local_size, "Invocations per work group, a power of two");
+    add("--slot-local-size", tuning.slot_local_size, "The same for kernels per slot and lane");
+    add("--pool-block", tuning.pool_block, "Lanes whose memory alternates, a power of two");
     app.add_option_function<std::string>(
-           "--reads", [&runner](const std::string& name) { runner.sampler.reads = reads_from(name); },
+           "--reads", [&tuning](const std::string& name) { tuning.reads = reads_from(name); },
            "Through which buffers: auto, storage or texels")
         ->type_name("KIND")
         ->group("Tuning, does not change the samples");

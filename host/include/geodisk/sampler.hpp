@@ -50,12 +50,27 @@ enum class Reads : std::uint32_t {
 /// "auto", "storage" or "texels".
 GEODISK_API const char* to_string(Reads reads) noexcept;
 
-struct SamplerOptions {
-    /// Invocations per work group of the kernels whose size is not fixed; 0 chooses. A power of
-    /// two up to the device's limit.
+/// What suits a device best. No choice changes the samples; 0 and `automatic` choose by the device's
+/// type and limits.
+struct Tuning {
+    /// Invocations per work group of the kernels per candidate and per sample; a power of two up to
+    /// the device's limit.
     std::uint32_t local_size = 0;
-    Rounding rounding = Rounding::automatic;
+    /// The same for the kernels per slot and per lane.
+    std::uint32_t slot_local_size = 0;
+    /// Lanes whose rows alternate in the pool, a power of two up to kMostPoolBlock: 1 keeps the rows
+    /// of a lane together, the subgroup's size lets a subgroup read side by side.
+    std::uint32_t pool_block = 0;
+    /// Batches to aim at, of equal numbers of slots. More of them leave fewer disks that are computed
+    /// in vain, fewer are larger and cost fewer dispatches (paper section 5.3, N/T).
+    std::uint32_t batches = 0;
     Reads reads = Reads::automatic;
+};
+inline constexpr std::uint32_t kMostPoolBlock = 128;
+
+struct SamplerOptions {
+    Tuning tuning;
+    Rounding rounding = Rounding::automatic;
 };
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
@@ -104,9 +119,12 @@ struct RunPlan {
     std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
     std::uint32_t sample_capacity = 0; ///< Samples the buffer holds.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
+    std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it.
 
     /// A lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;
+    /// The first row of the lists: behind the slices of all lanes, up to a whole block of them.
+    GEODISK_API std::uint64_t first_list_row() const noexcept;
     /// The slices of all lanes and the lists of all slots.
     GEODISK_API std::uint64_t pool_bytes() const noexcept;
 };
@@ -125,14 +143,16 @@ class GEODISK_API Sampler {
   public:
     /// Compiles the pipelines on the lent device.
     /// Errors: `device_lacks` with every reason, or for Reads::texels on a device whose texel buffers
-    /// are too small; `invalid_argument` for a local size the device does not allow; or as Vulkan
-    /// fails.
+    /// are too small; `invalid_argument` for a local size or a pool block that cannot be; or as
+    /// Vulkan fails.
     static Result<Sampler> create(const DeviceRefs& device, const SamplerOptions& options = {}) noexcept;
     Sampler(Sampler&&) noexcept;
     Sampler& operator=(Sampler&&) noexcept;
     ~Sampler();
 
     const DeviceReport& report() const noexcept;
+    /// As given, with what was left to choose.
+    const Tuning& tuning() const noexcept;
 
     /// A plan for this device whose pool is at most `pool_bytes` (and one binding) large.
     /// Errors: `invalid_argument` as pool_size(); `workspace_too_small` if not even one lane fits.

@@ -68,7 +68,7 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 }
 
 /// What the shaders rely on without looking.
-Result<Done> check_plan(const RunPlan& plan) {
+Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
     constexpr std::uint32_t kMost = 1u << 26;
     const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
                       std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
@@ -84,12 +84,18 @@ Result<Done> check_plan(const RunPlan& plan) {
                      "window_capacity and table_capacity powers of two, list_capacity a "
                      "multiple of 4, none of them 0 or more than 2^26"};
     }
+    if (plan.pool_block != tuning.pool_block) {
+        return Error{Status::invalid_argument,
+                     "the plan's pool_block is " + std::to_string(plan.pool_block) +
+                         ", but the sampler's kernels have " + std::to_string(tuning.pool_block)};
+    }
     return Done{};
 }
 
 /// The same for a plan of a job that exists.
-Result<Done> check_plan(const RunPlan& plan, VkDeviceSize pool, std::uint32_t most_slots) {
-    if (auto checked = check_plan(plan); !checked) {
+Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning, VkDeviceSize pool,
+                        std::uint32_t most_slots) {
+    if (auto checked = check_plan(plan, tuning); !checked) {
         return checked;
     }
     if (plan.pool_bytes() > pool || plan.slots > most_slots) {
@@ -155,6 +161,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.list_capacity = plan.list_capacity;
     push.lanes = plan.lanes;
     push.lane_rows = plan.lane_rows();
+    push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
     push.step_budget = std::min(plan.step_budget, most_steps(sampler->report));
     push.sample_capacity = plan.sample_capacity;
 }
@@ -162,7 +169,8 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
     return guarded([&]() -> Result<Done> {
         if (auto checked =
-                check_plan(plan, impl_->workspace[gpu::kBindPool].size, impl_->most_slots);
+                check_plan(plan, impl_->sampler->tuning,
+                                      impl_->workspace[gpu::kBindPool].size, impl_->most_slots);
             !checked) {
             return checked;
         }
@@ -178,7 +186,7 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
             !checked) {
             return checked;
         }
-        if (auto checked = check_plan(plan, pool.size, impl_->most_slots); !checked) {
+        if (auto checked = check_plan(plan, impl_->sampler->tuning, pool.size, impl_->most_slots); !checked) {
             return checked;
         }
         if (auto replaced = impl_->replace_buffer(gpu::kBindPool, pool); !replaced) {
@@ -209,7 +217,7 @@ Result<Done> Job::set_samples(const BufferRange& samples) noexcept {
 Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& params,
                               const RunPlan& plan, const Workspace& workspace) const noexcept {
     return guarded([&]() -> Result<Job> {
-        if (auto checked = check_plan(plan); !checked) {
+        if (auto checked = check_plan(plan, impl_->tuning); !checked) {
             return checked.error();
         }
         auto needs = workspace_needs(mesh, params, plan);
@@ -290,7 +298,7 @@ Result<Done> Job::Impl::write_sets() {
 }
 
 Result<VkBufferView> Job::Impl::create_view(std::size_t buffer, const BufferRange& range) const {
-    if (!sampler->reads_texels || !read_as_texels(buffer)) {
+    if (!sampler->reads_texels() || !read_as_texels(buffer)) {
         return VkBufferView{VK_NULL_HANDLE};
     }
     VkBufferViewCreateInfo info{};
@@ -335,14 +343,14 @@ void Job::Impl::write_buffer(std::size_t buffer) const {
         set.dstSet = sets[static_cast<std::size_t>(role)][kernel];
         set.dstBinding = binding.number;
         set.descriptorCount = 1;
-        set.descriptorType = descriptor_type(binding.access, sampler->reads_texels);
+        set.descriptorType = descriptor_type(binding.access, sampler->reads_texels());
         set.pBufferInfo = &info;
         set.pTexelBufferView = &views[buffer];
         sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &set, 0, nullptr);
     };
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
-            if (!has_binding(binding.access, sampler->reads_texels)) {
+            if (!has_binding(binding.access, sampler->reads_texels())) {
                 continue;
             }
             for (const SetRole role : {SetRole::workspace, SetRole::cell_scan}) {

@@ -41,13 +41,13 @@ std::uint32_t cpu_lanes(const DeviceReport& report) {
            std::max(1u, report.limits.subgroup_size);
 }
 
-/// Few enough that most active candidates are accepted (paper Table 1), and enough to fill the
-/// device; where that cannot be had, a CPU rather waits than computes disks for losers.
-std::uint32_t wanted_slots(double disks, const DeviceReport& report) {
+/// As many as the tuning's batches ask for, and enough to fill the device; where that cannot be had,
+/// a CPU rather waits than computes disks for losers.
+std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const double least = cpu ? std::clamp<double>(disks / 8, 8, cpu_lanes(report)) : 64;
     const auto slots = static_cast<std::uint32_t>(
-        std::clamp(disks / (cpu ? 24 : 8), least, cpu ? kMostCpuSlots : kMostSlots));
+        std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
     // No lane is to wait for the others with its last one.
     const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
     return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
@@ -58,20 +58,27 @@ std::uint32_t wanted_lanes(std::uint32_t slots, const DeviceReport& report) {
     return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? std::min(slots, cpu_lanes(report)) : slots;
 }
 
-/// Slots and lanes as they fit the pool: one of each before all, then lists for the slots in at most
-/// half of it. No lanes if not even one fits.
+/// Bytes of the least pool that the plan can run with: a list and a block of lanes.
+std::uint64_t least_pool(const RunPlan& plan) {
+    return std::uint64_t{plan.pool_block} * plan.lane_rows() * 16 +
+           std::uint64_t{plan.list_capacity} * 4;
+}
+
+/// Slots and lanes as they fit the pool: a list and a block of lanes before all, then lists for the
+/// slots in at most half of it. No lanes if not even one block fits.
 void fit(RunPlan& plan, std::uint64_t pool_bytes) {
-    const std::uint64_t slice = std::uint64_t{plan.lane_rows()} * 16;
-    const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
-    if (pool_bytes < slice + list) {
+    if (pool_bytes < least_pool(plan)) {
         plan.lanes = 0;
         return;
     }
-    const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - slice);
+    const std::uint64_t block = std::uint64_t{plan.pool_block} * plan.lane_rows() * 16;
+    const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
+    const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - block);
     plan.slots = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(for_lists / list, 1, plan.slots));
+    const std::uint64_t blocks = (pool_bytes - plan.slots * list) / block;
     plan.lanes = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        std::min(plan.lanes, plan.slots), (pool_bytes - plan.slots * list) / slice));
+        std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
 /// Dispatches of detect in which a batch should be done.
@@ -86,9 +93,11 @@ std::uint32_t wanted_passes(const RunPlan& plan, double faces_per_disk) {
 
 Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
     return Error{Status::workspace_too_small,
-                 "the disk of one candidate takes " +
-                     std::to_string(std::uint64_t{plan.lane_rows()} * 16) +
-                     " bytes of the pool and its list of conflicts " +
+                 (plan.pool_block == 1 ? std::string("the disk of one candidate takes ")
+                                       : "the disks of " + std::to_string(plan.pool_block) +
+                                             " candidates side by side take ") +
+                     std::to_string(std::uint64_t{plan.pool_block} * plan.lane_rows() * 16) +
+                     " bytes of the pool and a list of conflicts " +
                      std::to_string(std::uint64_t{plan.list_capacity} * 4) +
                      ", but the pool may take only " + std::to_string(pool_bytes)};
 }
@@ -119,6 +128,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.detect_passes, wanted.detect_passes);
     replace(plan.sample_capacity, wanted.sample_capacity);
     replace(plan.chain, wanted.chain);
+    replace(plan.pool_block, wanted.pool_block);
     return plan;
 }
 
@@ -126,8 +136,13 @@ std::uint32_t RunPlan::lane_rows() const noexcept {
     return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity;
 }
 
+std::uint64_t RunPlan::first_list_row() const noexcept {
+    const std::uint64_t block = std::max(pool_block, 1u);
+    return (lanes + block - 1) / block * block * lane_rows();
+}
+
 std::uint64_t RunPlan::pool_bytes() const noexcept {
-    return std::uint64_t{lanes} * lane_rows() * 16 + std::uint64_t{slots} * list_capacity * 4;
+    return first_list_row() * 16 + std::uint64_t{slots} * list_capacity * 4;
 }
 
 VkDeviceSize WorkspaceNeeds::total() const noexcept {
@@ -149,7 +164,8 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double disks = *candidates / params.pool_ratio;
         const double faces_per_disk = 2.0 * mesh.face_count() / disks;
         RunPlan plan;
-        plan.slots = wanted_slots(disks, report);
+        plan.pool_block = impl_->tuning.pool_block;
+        plan.slots = wanted_slots(disks, impl_->tuning.batches, report);
         plan.lanes = wanted_lanes(plan.slots, report);
         plan.window_capacity = pow2_at_least(32 + 2 * faces_per_disk);
         plan.table_capacity = pow2_at_least(16 + 4 * faces_per_disk);

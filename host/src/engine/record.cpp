@@ -29,7 +29,7 @@ class Recorder {
     }
 
     void dispatch_per_candidate(Kernel kernel) const {
-        dispatch(kernel, groups_for(job_.push.candidates, sampler_.local_size), job_.push);
+        dispatch(kernel, groups_for(job_.push.candidates, sampler_.tuning.local_size), job_.push);
     }
 
     /// The size is what `select` left at this offset of the control record.
@@ -94,7 +94,7 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     const std::uint32_t starts = push.cells + 1;
     recorder.fill(BufferRole::cells, VkDeviceSize{starts} * 4);
     recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
-    recorder.fill(BufferRole::pool, VkDeviceSize{push.lanes} * push.lane_rows * 16);
+    recorder.fill(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch_per_candidate(Kernel::candidates);
     recorder.mark(Stage::draw);
@@ -107,7 +107,7 @@ void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
                             std::uint32_t rounds) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    const Groups lanes = groups_for(push.lanes, impl_->slot_local_size);
+    const Groups lanes = groups_for(push.lanes, impl_->tuning.slot_local_size);
     for (std::uint32_t round = 0; round < rounds; ++round) {
         recorder.dispatch_indirect(Kernel::find_idle, offsetof(gpu::ControlRec, find_x));
         recorder.dispatch(Kernel::select, {1, 1}, push);
@@ -131,10 +131,10 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
     const BufferRange& slots = job.impl_->workspace[static_cast<std::size_t>(BufferRole::slots)];
     // No lane has a slot, and no row of a table a disk.
     recorder.fill(BufferRole::pool,
-                  VkDeviceSize{job.impl_->push.lanes} * job.impl_->push.lane_rows * 16);
+                  VkDeviceSize{job.impl_->push.first_list_row} * 16);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch(Kernel::rewind,
-                      groups_for(slots.size / sizeof(gpu::SlotRec), impl_->slot_local_size),
+                      groups_for(slots.size / sizeof(gpu::SlotRec), impl_->tuning.slot_local_size),
                       job.impl_->push);
 }
 
@@ -144,7 +144,7 @@ void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noex
     recorder.scan(job.impl_->push.candidates, SetRole::workspace);
     recorder.dispatch_per_candidate(Kernel::compact_gather);
     recorder.dispatch(Kernel::compact_fill,
-                      groups_for(job.impl_->push.sample_capacity, impl_->local_size),
+                      groups_for(job.impl_->push.sample_capacity, impl_->tuning.local_size),
                       job.impl_->push);
     recorder.mark(Stage::gather);
 }

@@ -9,49 +9,12 @@
 #include "constants.h"
 #include "engine/device_mesh.hpp"
 #include "engine/sampler_impl.hpp"
+#include "engine/tuning.hpp"
 #include "support/guard.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
 namespace {
-
-constexpr std::uint32_t kDefaultLocalSize = 64;
-constexpr std::uint32_t kWord = sizeof(std::uint32_t);
-
-/// On a CPU a work group runs on one thread, so that lanes are spread over as many as there are
-/// SIMD groups; a GPU wants whole subgroups, and a few of them.
-std::uint32_t default_slot_local_size(const DeviceReport& report) {
-    return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU
-               ? std::clamp(report.limits.subgroup_size, 1u, kDefaultLocalSize)
-               : kDefaultLocalSize;
-}
-
-/// A texel buffer of words can be as large as a storage buffer.
-bool texels_reach(const DeviceLimits& limits) {
-    return limits.max_texel_buffer_elements >= limits.max_storage_buffer_range / kWord;
-}
-
-bool fetches_are_faster(const DeviceReport& report) {
-    return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE && texels_reach(report.limits);
-}
-
-Result<Done> check_options(const SamplerOptions& options, const DeviceReport& report) {
-    const std::uint32_t most =
-        std::min(report.limits.max_workgroup_invocations, report.limits.max_workgroup_size_x);
-    if (options.local_size > most || (options.local_size & (options.local_size - 1)) != 0) {
-        return Error{Status::invalid_argument,
-                     "the local size must be 0 or a power of two up to the device's limit of " +
-                         std::to_string(most)};
-    }
-    if (options.reads == Reads::texels && !texels_reach(report.limits)) {
-        return Error{Status::device_lacks,
-                     report.name + " cannot read texels: maxTexelBufferElements is " +
-                         std::to_string(report.limits.max_texel_buffer_elements) + ", at least " +
-                         std::to_string(report.limits.max_storage_buffer_range / kWord) +
-                         " is needed, a quarter of maxStorageBufferRange"};
-    }
-    return Done{};
-}
 
 std::string join(const std::vector<std::string>& reasons) {
     std::string text;
@@ -63,17 +26,13 @@ std::string join(const std::vector<std::string>& reasons) {
 
 } // namespace
 
-const char* to_string(Reads reads) noexcept {
-    constexpr const char* kNames[] = {"auto", "storage", "texels"};
-    return kNames[static_cast<std::size_t>(reads)];
-}
-
 Sampler::Sampler(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 Sampler::Sampler(Sampler&&) noexcept = default;
 Sampler& Sampler::operator=(Sampler&&) noexcept = default;
 Sampler::~Sampler() = default;
 
 const DeviceReport& Sampler::report() const noexcept { return impl_->report; }
+const Tuning& Sampler::tuning() const noexcept { return impl_->tuning; }
 
 Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& options) noexcept {
     return guarded([&]() -> Result<Sampler> {
@@ -86,8 +45,9 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
             return Error{Status::device_lacks,
                          report->name + " cannot run geodisk: " + join(report->reasons_against)};
         }
-        if (auto checked = check_options(options, *report); !checked) {
-            return checked.error();
+        auto tuning = chosen_tuning(options.tuning, *report);
+        if (!tuning) {
+            return tuning.error();
         }
         auto table = load_device_table(device);
         if (!table) {
@@ -98,11 +58,7 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
         impl->vk = *table;
         impl->native_rounding = options.rounding == Rounding::native ||
                                 (options.rounding == Rounding::automatic && report->rounds_natively);
-        impl->reads_texels = options.reads == Reads::texels ||
-                             (options.reads == Reads::automatic && fetches_are_faster(*report));
-        impl->local_size = options.local_size != 0 ? options.local_size : kDefaultLocalSize;
-        impl->slot_local_size =
-            options.local_size != 0 ? options.local_size : default_slot_local_size(*report);
+        impl->tuning = *tuning;
         impl->report = std::move(*report);
         if (auto created = impl->create_pipelines(); !created) {
             return created.error();
@@ -136,8 +92,8 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     const KernelInfo& info = kernel_info(kernel);
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const Binding& binding : info.bindings) {
-        if (has_binding(binding.access, reads_texels)) {
-            bindings.push_back({binding.number, descriptor_type(binding.access, reads_texels), 1,
+        if (has_binding(binding.access, reads_texels())) {
+            bindings.push_back({binding.number, descriptor_type(binding.access, reads_texels()), 1,
                                 VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
         }
     }
@@ -167,7 +123,7 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     }
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    const std::span<const std::uint32_t> spirv = reads_texels ? info.texels_spirv : info.spirv;
+    const std::span<const std::uint32_t> spirv = reads_texels() ? info.texels_spirv : info.spirv;
     module_info.codeSize = spirv.size_bytes();
     module_info.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
@@ -175,11 +131,14 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateShaderModule", result);
     }
-    const std::array<std::uint32_t, 2> constants{info.per_slot ? slot_local_size : local_size,
-                                                 native_rounding ? VK_TRUE : VK_FALSE};
-    const std::array<VkSpecializationMapEntry, 2> entries{{
+    constexpr std::uint32_t kWord = sizeof(std::uint32_t);
+    const std::array<std::uint32_t, 3> constants{
+        info.per_slot ? tuning.slot_local_size : tuning.local_size,
+        native_rounding ? VK_TRUE : VK_FALSE, tuning.pool_block};
+    const std::array<VkSpecializationMapEntry, 3> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
+        {gpu::kSpecPoolBlock, 2 * kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};

@@ -16,10 +16,8 @@ struct Sampler::Impl {
     DeviceRefs device;
     DeviceReport report;
     DeviceTable vk;
-    std::uint32_t local_size = 0;      ///< Of those with an invocation per candidate or sample.
-    std::uint32_t slot_local_size = 0; ///< Of kernels with an invocation per slot or lane.
+    Tuning tuning; ///< All chosen.
     bool native_rounding = false;
-    bool reads_texels = false;         ///< Of the two variants of the kernels, which.
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
@@ -27,6 +25,8 @@ struct Sampler::Impl {
     bool abandoned = false;
 
     ~Impl();
+    /// Of the two variants of the kernels, which.
+    bool reads_texels() const { return tuning.reads == Reads::texels; }
     Result<Done> create_pipelines();
     Result<Done> create_pipeline(Kernel kernel);
 };

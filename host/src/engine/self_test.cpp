@@ -117,7 +117,7 @@ Result<Done> Runner::Impl::check_rounding() {
                                    sampler_impl.layouts[k], 0, 1, &set, 0, nullptr);
         vk.vkCmdPushConstants(commands, sampler_impl.layouts[k], VK_SHADER_STAGE_COMPUTE_BIT, 0,
                               sizeof push, &push);
-        vk.vkCmdDispatch(commands, groups_for(kVectors, sampler_impl.local_size).x, 1, 1);
+        vk.vkCmdDispatch(commands, groups_for(kVectors, sampler_impl.tuning.local_size).x, 1, 1);
         record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                        VK_ACCESS_HOST_READ_BIT);
