@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -83,6 +85,48 @@ TEST_CASE("the benchmark tells its results and circumstances") {
         CHECK(std::count(line.begin(), line.end(), ',') + 1 ==
               static_cast<std::ptrdiff_t>(report["rows"][0].size()));
     }
+}
+
+TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
+    const TemporaryFolder folder;
+    Setting tuned = bench();
+    tuned.environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}};
+    const Outcome found = run(folder, {"builtin:cube", "-n", "50", "--repeats", "1", "--tune"}, tuned);
+    REQUIRE(found.status == 0);
+    CHECK(found.err.empty());
+    for (const char* const setting : {"reads storage", "slot_local_size 64", "pool_block 8",
+                                      "batches 12", "local_size 32", "kept in"}) {
+        CAPTURE(setting);
+        CHECK(contains(found.out, setting));
+    }
+    const auto kept = std::filesystem::directory_iterator(folder / "cache" / "geodisk")->path();
+    Json tuning = Json::parse(bytes_of(kept));
+    CHECK(tuning["device"].is_string());
+
+    tuning["pool_block"] = 16;
+    tuning["batches"] = 5;
+    std::ofstream(kept) << tuning;
+    Setting sampler = tuned;
+    sampler.program = GEODISK_COMMAND;
+    const std::vector<std::string> sample{"sample", "builtin:cube", "-n", "200", "-q", "--json",
+                                          "a.json", "-o"};
+    const auto with_output = [&](const char* name) {
+        std::vector<std::string> arguments = sample;
+        arguments.push_back(name);
+        return arguments;
+    };
+    REQUIRE(run(folder, with_output("a.ply"), sampler).status == 0);
+    const Json report = Json::parse(bytes_of(folder / "a.json"));
+    CHECK(report["tuning"]["pool_block"] == 16);
+    CHECK(report["tuning"]["batches"] == 5);
+    std::filesystem::remove(kept);
+    REQUIRE(run(folder, with_output("b.ply"), sampler).status == 0);
+    CHECK(Json::parse(bytes_of(folder / "a.json"))["tuning"]["batches"] != 5);
+    CHECK(bytes_of(folder / "a.ply") == bytes_of(folder / "b.ply"));
+
+    std::ofstream(kept) << "{}";
+    check_fails(folder, 3, "is not as geodisk_bench --tune writes it", with_output("c.ply"), sampler);
+    check_fails(folder, 2, "contradicts", {"builtin:cube", "--tune", "--json", "t.json"}, tuned);
 }
 
 TEST_CASE("the benchmark sweeps samples and triangles") {

@@ -1,5 +1,6 @@
 // The command `geodisk_bench`: the sampler beside the sequential reference, on the same meshes in
 // the same run. It compares their sets before it times anything.
+#include <filesystem>
 #include <iostream>
 #include <vector>
 
@@ -14,10 +15,12 @@
 #include "bench/outputs.hpp"
 #include "bench/sweep.hpp"
 #include "bench/table.hpp"
+#include "bench/tune.hpp"
 #include "common/user_error.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 #include "program/program.hpp"
+#include "program/tuning_file.hpp"
 
 namespace {
 
@@ -31,6 +34,7 @@ precision on one core. Both start from the candidates' numbers and end with the 
 Examples:
   geodisk_bench builtin:showpiece bunny.ply
   geodisk_bench builtin:cube -n 1e4,1e5 --repeats 9 --json bench.json
+  geodisk_bench builtin:showpiece -n 1e4,1e5 --tune
   geodisk_bench builtin:showpiece --scaling --json scaling.json --plot scaling
 
 Exit status:
@@ -45,17 +49,40 @@ Exit status:
   143  terminated (SIGTERM)
 Whenever the status is not 0, no output file is written or replaced.)";
 
-void run(const bench::Options& options) {
-    bench::check_outputs(options);
-    const std::vector<bench::NamedMesh> meshes = bench::read_meshes(options.meshes);
-    const Context context =
-        tools::take(Context::create({options.device, /* validation */ false, {}}));
+void tune(const Context& context, const bench::Options& options,
+          const std::vector<bench::NamedMesh>& meshes) {
+    const Runner start =
+        tools::take(Runner::create(context.device(), context.queue(), options.runner));
+    bench::print_tune_heading(bench::find_circumstances(start.sampler(), options));
+    const Tuning best = bench::find_tuning(context, options, meshes, start.sampler().tuning(),
+                                           bench::print_trial);
+    const std::filesystem::path path = tools::store_tuning(context.report(), best);
+    bench::print_tuning(best, path.string());
+}
+
+void measure(const Context& context, bench::Options options,
+             const std::vector<bench::NamedMesh>& meshes) {
+    if (const auto kept = tools::load_tuning(context.report())) {
+        options.runner.sampler.tuning = overridden(*kept, options.runner.sampler.tuning);
+    }
     Runner runner = tools::take(Runner::create(context.device(), context.queue(), options.runner));
     const bench::Circumstances circumstances = bench::find_circumstances(runner.sampler(), options);
     bench::print_heading(circumstances);
     const std::vector<bench::Series> series =
         bench::run_all(runner, options, meshes, {bench::print_row, bench::print_growth});
     bench::write_outputs(options, circumstances, series);
+}
+
+void run(const bench::Options& options) {
+    bench::check_outputs(options);
+    const std::vector<bench::NamedMesh> meshes = bench::read_meshes(options.meshes);
+    const Context context =
+        tools::take(Context::create({options.device, /* validation */ false, {}}));
+    if (options.tune) {
+        tune(context, options, meshes);
+    } else {
+        measure(context, options, meshes);
+    }
     if (!std::cout) {
         throw tools::UserError(tools::ExitCode::bad_output,
                                "the table cannot be written to standard output");

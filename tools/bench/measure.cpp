@@ -24,22 +24,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string case_text(const BenchMesh& mesh, double count) {
-    return mesh.name + ", " + tools::grouped(static_cast<std::uint64_t>(count)) + " samples";
-}
-
-SampleSet run_device(Runner& runner, const BenchMesh& mesh, const SampleParams& params,
-                     const std::string& what) {
-    auto result = runner.sample_and_wait(mesh.prepared, params,
-                                         [](const Progress&) { return !tools::is_interrupted(); });
-    tools::check_interrupted();
-    // The device was found good enough, so what it lacks here is room for this job.
-    if (!result && result.error().status == Status::device_lacks) {
-        throw UserError(ExitCode::out_of_memory, what + ": " + result.error().message);
-    }
-    return tools::take(std::move(result), what);
-}
-
 /// Candidates and tolerances as the device used them.
 struct ReferenceJob {
     std::uint32_t candidates;
@@ -77,6 +61,29 @@ void check_equal(const std::vector<Sample>& samples, const std::vector<std::uint
 
 } // namespace
 
+SampleParams params_for(const BenchMesh& mesh, double count) {
+    SampleParams params;
+    params.min_distance = distance_for_count(mesh.prepared.statistics().area, count);
+    params.seed = kSeed;
+    return params;
+}
+
+std::string case_text(const BenchMesh& mesh, double count) {
+    return mesh.name + ", " + tools::grouped(static_cast<std::uint64_t>(count)) + " samples";
+}
+
+SampleSet run_device(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
+                     const std::string& what) {
+    auto result = runner.sample_and_wait(mesh, params,
+                                         [](const Progress&) { return !tools::is_interrupted(); });
+    tools::check_interrupted();
+    // The device was found good enough, so what it lacks here is room for this job.
+    if (!result && result.error().status == Status::device_lacks) {
+        throw UserError(ExitCode::out_of_memory, what + ": " + result.error().message);
+    }
+    return tools::take(std::move(result), what);
+}
+
 BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int repeats) {
     BenchMesh result;
     result.name = name;
@@ -97,11 +104,9 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
                     const Repetition& repetition) {
     const std::string what = case_text(mesh, count);
     const MeshStatistics& statistics = mesh.prepared.statistics();
-    SampleParams params;
-    params.min_distance = distance_for_count(statistics.area, count);
-    params.seed = kSeed;
+    const SampleParams params = params_for(mesh, count);
 
-    SampleSet set = run_device(runner, mesh, params, what);
+    SampleSet set = run_device(runner, mesh.prepared, params, what);
     const ReferenceJob job{set.report.candidates, tolerances_for(mesh.prepared, params.min_distance,
                                                                  set.report.plan.chain)};
     check_equal(set.samples,
@@ -114,7 +119,7 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
     std::vector<double> readback;
     std::vector<double> reference;
     for (int i = -repetition.warm_ups; i < repetition.repeats; ++i) {
-        set = run_device(runner, mesh, params, what);
+        set = run_device(runner, mesh.prepared, params, what);
         const double reference_seconds = run_reference(surface, job).seconds;
         if (i >= 0) {
             upload.push_back(set.report.seconds.upload);

@@ -20,6 +20,16 @@ struct BenchMesh {
 /// Prepares `mesh` `repeats` times. Throws UserError(bad_input) if it is rejected.
 BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int repeats);
 
+/// What gives about `count` samples, with the seed of all measurements.
+SampleParams params_for(const BenchMesh& mesh, double count);
+
+/// "bunny.ply, 1,000 samples", for messages.
+std::string case_text(const BenchMesh& mesh, double count);
+
+/// One run. Throws UserError: `out_of_memory` if the job does not fit, or when interrupted.
+SampleSet run_device(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
+                     const std::string& what);
+
 struct Repetition {
     int warm_ups = 1;
     int repeats = 5;

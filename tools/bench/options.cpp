@@ -41,6 +41,10 @@ Options checked(const RawOptions& raw) {
         throw UserError(ExitCode::usage,
                         "options that begin with --scaling- need --scaling as well");
     }
+    if (options.tune && (options.scaling || !options.json.empty() || !options.csv.empty())) {
+        throw UserError(ExitCode::usage,
+                        "--tune measures nothing else and contradicts --scaling, --json and --csv");
+    }
     if (!options.scaling && !options.plot.empty()) {
         throw UserError(ExitCode::usage, "--plot draws sweeps, so it needs --scaling");
     }
@@ -89,12 +93,17 @@ Reads reads_from(const std::string& name) {
     throw CLI::ValidationError("--reads", "\"" + name + "\" is not auto, storage or texels");
 }
 
-void add_tuning(CLI::App& app, RunnerOptions& runner) {
-    const auto add = [&app](const char* name, std::uint32_t& value, const char* what) {
+void add_tuning(CLI::App& app, RunnerOptions& runner, bool& tune) {
+    constexpr const char* kGroup = "Tuning, does not change the samples";
+    const auto add = [&app, kGroup](const char* name, std::uint32_t& value, const char* what) {
         app.add_option(name, value, what)
             ->type_name("K")
-            ->group("Tuning, does not change the samples");
+            ->group(kGroup);
     };
+    app.add_flag("--tune", tune,
+                 "Find out what suits the device and keep it for\n"
+                 "geodisk sample and later runs")
+        ->group(kGroup);
     add("--slots", runner.plan.slots, "Candidates active at a time");
     add("--lanes", runner.plan.lanes, "Invocations that share the work on them");
     add("--passes", runner.plan.detect_passes, "Dispatches of detect per round");
@@ -108,7 +117,7 @@ void add_tuning(CLI::App& app, RunnerOptions& runner) {
            "--reads", [&tuning](const std::string& name) { tuning.reads = reads_from(name); },
            "Through which buffers: auto, storage or texels")
         ->type_name("KIND")
-        ->group("Tuning, does not change the samples");
+        ->group(kGroup);
 }
 
 } // namespace
@@ -139,7 +148,7 @@ void add_options(CLI::App& app, void (*run)(const Options&)) {
         ->type_name("FILE");
     app.add_option("--csv", options.csv, "Write rows and circumstances as CSV")->type_name("FILE");
     add_scaling(app, *raw);
-    add_tuning(app, options.runner);
+    add_tuning(app, options.runner, options.tune);
     app.callback([&app, raw, run] {
         raw->has_counts = app.count("--count") > 0;
         raw->has_sweep = app.count("--scaling-counts") + app.count("--scaling-samples") +

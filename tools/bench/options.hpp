@@ -20,6 +20,7 @@ struct Options {
     std::string device;
     RunnerOptions runner;
 
+    bool tune = false;
     bool scaling = false;
     double face_sweep_count = 0;  ///< Samples to aim at while triangles vary.
     std::uint64_t most_faces = 0; ///< Where the sweep of triangles ends.

@@ -86,9 +86,24 @@ void append_left(std::string& line, const std::string& text, std::size_t width) 
     line.append(width - std::min(width, text.size()), ' ');
 }
 
+std::string tuning_text(const Tuning& tuning) {
+    return "batches " + std::to_string(tuning.batches) + ", local size " +
+           std::to_string(tuning.local_size) + ", per slot " +
+           std::to_string(tuning.slot_local_size) + ", pool block " +
+           std::to_string(tuning.pool_block) + ", reads " + to_string(tuning.reads);
+}
+
+void print_circumstances(const Circumstances& run) {
+    std::cout << "device     " << tools::one_line(run.device) << ", " << tools::one_line(run.driver)
+              << "\nbuild      " << run.version << ", commit " << run.commit.substr(0, 12)
+              << (run.is_dirty ? " with changes" : "") << ", " << run.build_type << ", "
+              << run.compiler << "\ntuning     " << tuning_text(run.tuning) << '\n';
+}
+
 } // namespace
 
 void print_heading(const Circumstances& run) {
+    print_circumstances(run);
     std::string upper(kNameWidth, ' ');
     std::string lower;
     append_left(lower, "mesh", kNameWidth);
@@ -96,12 +111,9 @@ void print_heading(const Circumstances& run) {
         append_right(upper, column.above, column.width);
         append_right(lower, column.name, column.width);
     }
-    std::cout << "device     " << tools::one_line(run.device) << ", " << tools::one_line(run.driver)
-              << "\nreference  sequential, double precision, on " << tools::one_line(run.cpu)
-              << ", " << run.cores << " cores\nbuild      " << run.version << ", commit "
-              << run.commit.substr(0, 12) << (run.is_dirty ? " with changes" : "") << ", "
-              << run.build_type << ", " << run.compiler << "\nseconds    medians of " << run.repeats
-              << " runs after " << run.warm_ups << " to warm up; the sets were equal\n\n"
+    std::cout << "reference  sequential, double precision, on " << tools::one_line(run.cpu) << ", "
+              << run.cores << " cores\nseconds    medians of " << run.repeats << " runs after "
+              << run.warm_ups << " to warm up; the sets were equal\n\n"
               << upper << '\n'
               << lower << '\n'
               << std::flush;
@@ -138,6 +150,26 @@ void print_growth(const Series& series) {
         }
     }
     std::cout << std::flush;
+}
+
+void print_tune_heading(const Circumstances& run) {
+    print_circumstances(run);
+    std::cout << "ratio      device time over that of the best so far, medians of " << run.repeats
+              << " runs in turn\n\n"
+              << std::flush;
+}
+
+void print_trial(const Trial& trial) {
+    std::string line;
+    append_left(line, trial.setting, kNameWidth);
+    append_right(line, fixed(trial.ratio, 3), 8);
+    std::cout << line << (trial.is_kept ? "  kept\n" : "\n") << std::flush;
+}
+
+void print_tuning(const Tuning& tuning, const std::string& path) {
+    std::cout << "\nfound      " << tuning_text(tuning) << "\nkept in    " << tools::one_line(path)
+              << '\n'
+              << std::flush;
 }
 
 } // namespace geodisk::bench

@@ -32,19 +32,6 @@ std::string version_text(std::uint32_t version) {
            std::to_string(VK_API_VERSION_PATCH(version));
 }
 
-/// In the usual form, which `--device` accepts.
-std::string uuid_text(const std::array<std::uint8_t, VK_UUID_SIZE>& uuid) {
-    static constexpr char kDigits[] = "0123456789abcdef";
-    std::string text;
-    for (std::size_t i = 0; i < uuid.size(); ++i) {
-        if (i == 4 || i == 6 || i == 8 || i == 10)
-            text += '-';
-        text += kDigits[uuid[i] >> 4];
-        text += kDigits[uuid[i] & 15];
-    }
-    return text;
-}
-
 std::string timestamp_text(const DeviceReport& report) {
     if (report.timestamp_valid_bits == 0)
         return "none";

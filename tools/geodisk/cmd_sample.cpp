@@ -24,6 +24,7 @@
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_path.hpp"
+#include "program/tuning_file.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -162,9 +163,12 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     report.device = context.report();
     check_interrupted();
     progress.begin_stage("compiling the shaders");
+    RunnerOptions tuned = runner_options;
+    tuned.sampler.tuning = load_tuning(report.device).value_or(Tuning());
     Runner runner = timed(report.seconds.pipelines, [&] {
-        return take(Runner::create(context.device(), context.queue(), runner_options));
+        return take(Runner::create(context.device(), context.queue(), tuned));
     });
+    report.tuning = runner.sampler().tuning();
     check_interrupted();
     SampleSet set = run_sampler(runner, mesh, report.params, progress);
     check_validation(context);

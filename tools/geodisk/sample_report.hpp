@@ -24,6 +24,7 @@ struct SampleReport {
     double rho = 0;
     RunReport run;
     DeviceReport device;
+    Tuning tuning; ///< As used.
     struct {
         double load = 0, prepare = 0, device = 0, pipelines = 0, write = 0;
     } seconds; ///< Those of upload, sample and readback are in `run`.

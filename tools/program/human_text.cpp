@@ -70,6 +70,18 @@ const char* type_name(VkPhysicalDeviceType type) {
     }
 }
 
+std::string uuid_text(const std::array<std::uint8_t, VK_UUID_SIZE>& uuid) {
+    static constexpr char kDigits[] = "0123456789abcdef";
+    std::string text;
+    for (std::size_t i = 0; i < uuid.size(); ++i) {
+        if (i == 4 || i == 6 || i == 8 || i == 10)
+            text += '-';
+        text += kDigits[uuid[i] >> 4];
+        text += kDigits[uuid[i] & 15];
+    }
+    return text;
+}
+
 std::string driver_text(const DeviceReport& report) {
     if (report.driver_name.empty()) {
         return "version " + std::to_string(report.driver_version);

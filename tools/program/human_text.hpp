@@ -1,6 +1,7 @@
 // Numbers and names as people read them, whatever the locale.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ std::string seconds_text(double seconds);
 std::string size_text(std::uint64_t bytes);
 
 const char* type_name(VkPhysicalDeviceType type);
+
+/// A UUID in the usual form, which `--device` accepts.
+std::string uuid_text(const std::array<std::uint8_t, VK_UUID_SIZE>& uuid);
 
 /// The driver's name and version, as far as it tells.
 std::string driver_text(const DeviceReport& report);

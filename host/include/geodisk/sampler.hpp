@@ -68,6 +68,9 @@ struct Tuning {
 };
 inline constexpr std::uint32_t kMostPoolBlock = 128;
 
+/// `tuning` with all that `wanted` does not leave open in place of its own.
+GEODISK_API Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept;
+
 struct SamplerOptions {
     Tuning tuning;
     Rounding rounding = Rounding::automatic;

@@ -67,8 +67,7 @@ const char* to_string(Reads reads) noexcept {
     return kNames[static_cast<std::size_t>(reads)];
 }
 
-Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) {
-    Tuning tuning = default_tuning(report);
+Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept {
     const auto replace = [](std::uint32_t& field, std::uint32_t value) {
         field = value != 0 ? value : field;
     };
@@ -77,6 +76,11 @@ Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) {
     replace(tuning.pool_block, wanted.pool_block);
     replace(tuning.batches, wanted.batches);
     tuning.reads = wanted.reads != Reads::automatic ? wanted.reads : tuning.reads;
+    return tuning;
+}
+
+Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) {
+    const Tuning tuning = overridden(default_tuning(report), wanted);
     if (auto checked = check(tuning, report); !checked) {
         return checked.error();
     }
