@@ -84,14 +84,14 @@ GEODISK_CONST uint kTagMask = 0xc0000000u;
 // The loops of detect: most iterations of each in one trip of the main loop.
 GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
 GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
-GEODISK_CONST uint kRowsPerTrip = 6u;      // of cells
+GEODISK_CONST uint kRowsPerTrip = 2u;      // of cells
 GEODISK_CONST uint kScanPerRow = 12u;      // candidates
 // Together: an event taken and two vertices reached, two children left and pushed.
 GEODISK_CONST uint kIterationsPerTrip =
     1u + kCornersPerTrip + 3u * kMostProbes + 6u + kRowsPerTrip * (1u + kScanPerRow);
 // A step: once every few trips a lane that is done takes its next slot.
 GEODISK_CONST uint kTripsPerStep = 8u;
-GEODISK_CONST uint kClearPerStep = 128u;   // rows of the vertex table
+GEODISK_CONST uint kClearPerStep = 64u;    // rows of the vertex table
 GEODISK_CONST uint kIterationsPerStep = 1u + kClearPerStep + kTripsPerStep * kIterationsPerTrip;
 // List entries that block and resolve go through in one dispatch.
 GEODISK_CONST uint kListPerDispatch = 4096u;
