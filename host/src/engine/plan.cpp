@@ -168,9 +168,9 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         plan.slots = wanted_slots(disks, impl_->tuning.batches, report);
         plan.lanes = wanted_lanes(plan.slots, report);
         // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
-        const double spare = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 4 : 1;
-        plan.window_capacity = pow2_at_least(spare * 32 + 2 * faces_per_disk);
-        plan.table_capacity = pow2_at_least(spare * 64 + 4 * faces_per_disk);
+        const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+        plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces_per_disk);
+        plan.table_capacity = pow2_at_least((cpu ? 192 : 16) + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.step_budget = most_steps(report);
         // Borders, creases and thin parts hold more samples than their area tells.
