@@ -15,7 +15,8 @@ GEODISK_CONST uint kBindCells = 3u;      // the place where each cell's candidat
                                          // the last
 GEODISK_CONST uint kBindStates = 4u;     // a word per candidate, sorted by cell: its state and the
                                          // weight of its face's second corner
-GEODISK_CONST uint kBindWeights = 5u;    // likewise the weight of the third corner, in units of 2^-24
+GEODISK_CONST uint kBindWeights = 5u;    // likewise the weight of the third corner, in units of 2^-24;
+                                         // while binning, the rank
 GEODISK_CONST uint kBindPlaces = 6u;     // rank -> place in the sorted order
 GEODISK_CONST uint kBindSlots = 7u;      // SlotRec per slot of an active candidate
 GEODISK_CONST uint kBindPool = 8u;       // a slice per lane: LaneRec, windows, events, vertex table;

@@ -9,6 +9,8 @@ namespace {
 #include "activate_texels.spv.inc"
 #include "bin_fill.spv.inc"
 #include "bin_fill_texels.spv.inc"
+#include "bin_place.spv.inc"
+#include "bin_place_texels.spv.inc"
 #include "block.spv.inc"
 #include "block_texels.spv.inc"
 #include "candidates.spv.inc"
@@ -46,7 +48,10 @@ constexpr Binding kCandidates[] = {{kBindFaces, read}, {kBindAlias, read}, {kBin
 constexpr Binding kScanData[] = {{kBindMarks, storage}, {kBindSums, storage}};
 constexpr Binding kScanAdd[] = {{kBindMarks, storage}, {kBindSums, read}};
 constexpr Binding kScanSums[] = {{kBindSums, storage}};
-constexpr Binding kBinFill[] = {{kBindAlias, read}, {kBindCells, read}, {kBindStates, storage}, {kBindWeights, storage}, {kBindPlaces, storage}, {kBindMarks, read}};
+constexpr Binding kBinPlace[] = {
+    {kBindCells, read}, {kBindWeights, storage}, {kBindPlaces, storage}, {kBindMarks, read}};
+constexpr Binding kBinFill[] = {
+    {kBindAlias, read}, {kBindStates, storage}, {kBindWeights, storage}};
 constexpr Binding kFindIdle[] = {{kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindSums, storage}};
 constexpr Binding kSelect[] = {{kBindSlots, storage}, {kBindControl, storage}, {kBindSums, read}};
 constexpr Binding kActivate[] = {{kBindAlias, read}, {kBindStates, storage}, {kBindPlaces, read}, {kBindSlots, storage}, {kBindControl, storage}, {kBindMarks, storage}};
@@ -64,6 +69,7 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanData, false},
     {"scan_sums", k_scan_sums_spirv, k_scan_sums_texels_spirv, kScanSums, false},
     {"scan_add", k_scan_add_spirv, k_scan_add_texels_spirv, kScanAdd, false},
+    {"bin_place", k_bin_place_spirv, k_bin_place_texels_spirv, kBinPlace, false},
     {"bin_fill", k_bin_fill_spirv, k_bin_fill_texels_spirv, kBinFill, false},
     {"find_idle", k_find_idle_spirv, k_find_idle_texels_spirv, kFindIdle, false},
     {"select", k_select_spirv, k_select_texels_spirv, kSelect, true},

@@ -12,10 +12,10 @@
 namespace geodisk {
 
 enum class Kernel : std::uint32_t {
-    candidates, scan_blocks, scan_sums, scan_add, bin_fill, find_idle, select, activate, detect,
+    candidates, scan_blocks, scan_sums, scan_add, bin_place, bin_fill, find_idle, select, activate, detect,
     block, resolve, rewind, compact_mark, compact_gather, compact_fill, self_test,
 };
-inline constexpr std::size_t kKernels = 16;
+inline constexpr std::size_t kKernels = 17;
 
 /// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
 enum class Access : std::uint8_t {

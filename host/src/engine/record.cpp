@@ -99,6 +99,7 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     recorder.dispatch_per_candidate(Kernel::candidates);
     recorder.mark(Stage::draw);
     recorder.scan(starts, SetRole::cell_scan);
+    recorder.dispatch_per_candidate(Kernel::bin_place);
     recorder.dispatch_per_candidate(Kernel::bin_fill);
     recorder.mark(Stage::bin);
 }

@@ -24,7 +24,7 @@ double seconds_since(Clock::time_point start) {
 // Recorded dispatches per round: find_idle, select, activate, block and two passes of resolve; and
 // those of detect.
 constexpr std::uint32_t kDispatchesPerRound = 6;
-constexpr std::uint32_t kDispatchesToBegin = 5;
+constexpr std::uint32_t kDispatchesToBegin = 6;
 constexpr std::uint32_t kDispatchesToFinish = 6;
 // Submissions start small and grow towards this time, so that no watchdog bites and progress and
 // cancellation stay prompt.
