@@ -126,6 +126,11 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
 
     std::ofstream(kept) << "{}";
     check_fails(folder, 3, "is not as geodisk_bench --tune writes it", with_output("c.ply"), sampler);
+    std::ofstream(folder / "file") << "";
+    Setting nowhere = bench();
+    nowhere.environment = {{"XDG_CACHE_HOME", (folder / "file").string()},
+                           {"MESA_SHADER_CACHE_DISABLE", "true"}}; // Mesa would complain as well.
+    check_fails(folder, 4, "file/geodisk", {"builtin:cube", "--tune"}, nowhere);
     check_fails(folder, 2, "contradicts", {"builtin:cube", "--tune", "--json", "t.json"}, tuned);
 }
 

@@ -51,12 +51,13 @@ Whenever the status is not 0, no output file is written or replaced.)";
 
 void tune(const Context& context, const bench::Options& options,
           const std::vector<bench::NamedMesh>& meshes) {
+    const std::filesystem::path path = tools::writable_tuning_path(context.report());
     const Runner start =
         tools::take(Runner::create(context.device(), context.queue(), options.runner));
     bench::print_tune_heading(bench::find_circumstances(start.sampler(), options));
     const Tuning best = bench::find_tuning(context, options, meshes, start.sampler().tuning(),
                                            bench::print_trial);
-    const std::filesystem::path path = tools::store_tuning(context.report(), best);
+    tools::store_tuning(path, context.report(), best);
     bench::print_tuning(best, path.string());
 }
 

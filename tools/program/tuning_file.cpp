@@ -13,6 +13,7 @@
 #include "common/file_input.hpp"
 #include "common/user_error.hpp"
 #include "program/human_text.hpp"
+#include "program/output_path.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -80,7 +81,7 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
     fail_input(path, "is not as geodisk_bench --tune writes it; run that again, or remove the file");
 }
 
-std::filesystem::path store_tuning(const DeviceReport& device, const Tuning& tuning) {
+std::filesystem::path writable_tuning_path(const DeviceReport& device) {
     const std::filesystem::path path = tuning_path(device);
     if (path.empty()) {
         throw UserError(ExitCode::bad_output,
@@ -92,6 +93,12 @@ std::filesystem::path store_tuning(const DeviceReport& device, const Tuning& tun
         throw UserError(ExitCode::bad_output,
                         path.parent_path().string() + ": cannot be made: " + error.message());
     }
+    check_writable(path.string());
+    return path;
+}
+
+void store_tuning(const std::filesystem::path& path, const DeviceReport& device,
+                  const Tuning& tuning) {
     const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
                         {"device", device.name},
                         {"driver", driver_text(device)},
@@ -104,7 +111,6 @@ std::filesystem::path store_tuning(const DeviceReport& device, const Tuning& tun
     // Drivers name themselves as they like; text that is not UTF-8 must not end the program.
     file.write(document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
     file.commit();
-    return path;
 }
 
 } // namespace geodisk::tools

@@ -15,7 +15,11 @@ std::filesystem::path tuning_path(const DeviceReport& device);
 /// Nothing if none is kept. Throws UserError(bad_input) naming the file if it is not as written.
 std::optional<Tuning> load_tuning(const DeviceReport& device);
 
-/// Returns the path. Throws UserError(bad_output) if the file cannot be written.
-std::filesystem::path store_tuning(const DeviceReport& device, const Tuning& tuning);
+/// tuning_path(), in a folder that exists. Throws UserError(bad_output) if no file can be made there.
+std::filesystem::path writable_tuning_path(const DeviceReport& device);
+
+/// Throws UserError(bad_output) if the file cannot be written.
+void store_tuning(const std::filesystem::path& path, const DeviceReport& device,
+                  const Tuning& tuning);
 
 } // namespace geodisk::tools
