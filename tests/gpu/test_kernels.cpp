@@ -94,8 +94,8 @@ void compare_bins(const DeviceRun& run, const Twin& twin) {
             ranks.push_back(by_place[place]);
         }
         std::sort(ranks.begin(), ranks.end());
-        wrong += !std::equal(ranks.begin(), ranks.end(),
-                             twin.bins.order.begin() + twin.bins.starts[c]);
+        wrong +=
+            !std::equal(ranks.begin(), ranks.end(), twin.bins.order.begin() + twin.bins.starts[c]);
     }
     CHECK(wrong == 0);
 }
@@ -122,8 +122,7 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot
 }
 
 /// What the disks of one batch took and found, slot by slot.
-void compare_batch(const DeviceRun& run, Twin& twin,
-                   const std::vector<std::uint32_t>& by_place) {
+void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place) {
     const gpu::ControlRec control = run.control();
     const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
     // A batch may be shorter than there are slots, but never skips a rank.

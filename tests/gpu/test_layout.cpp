@@ -45,27 +45,26 @@ std::map<std::string, Offsets> struct_offsets(std::span<const std::uint32_t> spi
 }
 
 #define GEODISK_OFFSET(type, member)                                                               \
-    { #member, static_cast<std::uint32_t>(offsetof(gpu::type, member)) }
+    { #member, static_cast < std::uint32_t>(offsetof(gpu::type, member)) }
 
-const Offsets kPush{
-    GEODISK_OFFSET(Push, candidates),      GEODISK_OFFSET(Push, faces),
-    GEODISK_OFFSET(Push, vertices),        GEODISK_OFFSET(Push, cells),
-    GEODISK_OFFSET(Push, seed_low),        GEODISK_OFFSET(Push, seed_high),
-    GEODISK_OFFSET(Push, limit),           GEODISK_OFFSET(Push, margin),
-    GEODISK_OFFSET(Push, slack),           GEODISK_OFFSET(Push, splits_once),
-    GEODISK_OFFSET(Push, slots),             GEODISK_OFFSET(Push, lanes),
-    GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
-    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, lane_rows), GEODISK_OFFSET(Push, first_list_row),
-    GEODISK_OFFSET(Push, step_budget),     GEODISK_OFFSET(Push, scan_count),
-    GEODISK_OFFSET(Push, sample_capacity)};
+const Offsets kPush{GEODISK_OFFSET(Push, candidates),      GEODISK_OFFSET(Push, faces),
+                    GEODISK_OFFSET(Push, vertices),        GEODISK_OFFSET(Push, cells),
+                    GEODISK_OFFSET(Push, seed_low),        GEODISK_OFFSET(Push, seed_high),
+                    GEODISK_OFFSET(Push, limit),           GEODISK_OFFSET(Push, margin),
+                    GEODISK_OFFSET(Push, slack),           GEODISK_OFFSET(Push, splits_once),
+                    GEODISK_OFFSET(Push, slots),           GEODISK_OFFSET(Push, lanes),
+                    GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
+                    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, lane_rows),
+                    GEODISK_OFFSET(Push, first_list_row),  GEODISK_OFFSET(Push, step_budget),
+                    GEODISK_OFFSET(Push, scan_count),      GEODISK_OFFSET(Push, sample_capacity)};
 
 const Offsets kControl{
     GEODISK_OFFSET(ControlRec, groups_x),      GEODISK_OFFSET(ControlRec, groups_y),
     GEODISK_OFFSET(ControlRec, groups_z),      GEODISK_OFFSET(ControlRec, find_x),
     GEODISK_OFFSET(ControlRec, find_y),        GEODISK_OFFSET(ControlRec, find_z),
-    GEODISK_OFFSET(ControlRec, abi),
-    GEODISK_OFFSET(ControlRec, next_rank),     GEODISK_OFFSET(ControlRec, batch_rank),
-    GEODISK_OFFSET(ControlRec, slots_used), GEODISK_OFFSET(ControlRec, next_slot),    GEODISK_OFFSET(ControlRec, unfinished),
+    GEODISK_OFFSET(ControlRec, abi),           GEODISK_OFFSET(ControlRec, next_rank),
+    GEODISK_OFFSET(ControlRec, batch_rank),    GEODISK_OFFSET(ControlRec, slots_used),
+    GEODISK_OFFSET(ControlRec, next_slot),     GEODISK_OFFSET(ControlRec, unfinished),
     GEODISK_OFFSET(ControlRec, undecided),     GEODISK_OFFSET(ControlRec, overflow),
     GEODISK_OFFSET(ControlRec, done),          GEODISK_OFFSET(ControlRec, accepted),
     GEODISK_OFFSET(ControlRec, iterations),    GEODISK_OFFSET(ControlRec, disks),
@@ -102,8 +101,8 @@ TEST_SUITE("layout") {
             const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
             CAPTURE(info.name);
             for (const bool texels : {false, true}) {
-                const auto storage_buffers =
-                    std::count_if(info.bindings.begin(), info.bindings.end(), [&](const Binding& b) {
+                const auto storage_buffers = std::count_if(
+                    info.bindings.begin(), info.bindings.end(), [&](const Binding& b) {
                         return has_binding(b.access, texels) &&
                                descriptor_type(b.access, texels) ==
                                    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;

@@ -11,8 +11,8 @@
 namespace geodisk::test {
 
 TEST_SUITE("limits") {
-    // Disks of some 5,000 trips each, every one of many iterations: more than the 65,535 after which
-    // lavapipe silently ends all loops of a SIMD group.
+    // Disks of some 5,000 trips each, every one of many iterations: more than the 65,535 after
+    // which lavapipe silently ends all loops of a SIMD group.
     TEST_CASE("disks far beyond 65,535 loop iterations per SIMD group") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 6));
         const SampleParams params = params_for(mesh, 60);
@@ -146,8 +146,8 @@ TEST_SUITE("limits") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 4));
         Context& context = shared_context();
         Runner runner = expect(Runner::create(context.device(), context.queue()));
-        const auto result =
-            runner.sample_and_wait(mesh, params_for(mesh, 5000), [](const Progress&) { return false; });
+        const auto result = runner.sample_and_wait(mesh, params_for(mesh, 5000),
+                                                   [](const Progress&) { return false; });
         REQUIRE_FALSE(result);
         CHECK(result.error().status == Status::cancelled);
     }

@@ -32,9 +32,9 @@ void check_against_reference(const PreparedMesh& mesh, double count, std::uint64
 TEST_SUITE("pipeline") {
     TEST_CASE("generated surfaces equal sequential dart throwing") {
         const std::pair<const char*, int> shapes[] = {
-            {"cube", 1},          {"icosphere", 4},      {"torus-knot", 12}, {"plate", 8},
-            {"folded-sheet", 16}, {"unfolded-sheet", 16}, {"terrain", 48},    {"lattice", 1},
-            {"moebius", 8}};
+            {"cube", 1},     {"icosphere", 4},     {"torus-knot", 12},
+            {"plate", 8},    {"folded-sheet", 16}, {"unfolded-sheet", 16},
+            {"terrain", 48}, {"lattice", 1},       {"moebius", 8}};
         for (const auto& [name, resolution] : shapes) {
             CAPTURE(name);
             const PreparedMesh mesh = prepared(builtin(name, resolution));

@@ -55,8 +55,8 @@ void tune(const Context& context, const bench::Options& options,
     const Runner start =
         tools::take(Runner::create(context.device(), context.queue(), options.runner));
     bench::print_tune_heading(bench::find_circumstances(start.sampler(), options));
-    const Tuning best = bench::find_tuning(context, options, meshes, start.sampler().tuning(),
-                                           bench::print_trial);
+    const Tuning best =
+        bench::find_tuning(context, options, meshes, start.sampler().tuning(), bench::print_trial);
     tools::store_tuning(path, context.report(), best);
     bench::print_tuning(best, path.string());
 }

@@ -96,9 +96,7 @@ Reads reads_from(const std::string& name) {
 void add_tuning(CLI::App& app, RunnerOptions& runner, bool& tune) {
     constexpr const char* kGroup = "Tuning, does not change the samples";
     const auto add = [&app, kGroup](const char* name, std::uint32_t& value, const char* what) {
-        app.add_option(name, value, what)
-            ->type_name("K")
-            ->group(kGroup);
+        app.add_option(name, value, what)->type_name("K")->group(kGroup);
     };
     app.add_flag("--tune", tune,
                  "Find out what suits the device and keep it for\n"

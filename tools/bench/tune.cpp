@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "bench/measure.hpp"
@@ -27,8 +26,8 @@ std::vector<Job> jobs_of(const Options& options, const std::vector<NamedMesh>& m
     for (const NamedMesh& mesh : meshes) {
         for (const double count : options.counts) {
             const BenchMesh prepared = prepare_mesh(mesh.name, mesh.file, 1);
-            jobs.push_back({prepared.prepared, params_for(prepared, count),
-                            case_text(prepared, count), {}});
+            jobs.push_back(
+                {prepared.prepared, params_for(prepared, count), case_text(prepared, count), {}});
         }
     }
     return jobs;
@@ -79,8 +78,8 @@ struct Setting {
 };
 
 std::vector<Setting> settings_for(const DeviceReport& device) {
-    const std::uint32_t most = std::min(device.limits.max_workgroup_invocations,
-                                        device.limits.max_workgroup_size_x);
+    const std::uint32_t most =
+        std::min(device.limits.max_workgroup_invocations, device.limits.max_workgroup_size_x);
     std::vector<std::uint32_t> sizes;
     for (std::uint32_t size = 8; size <= std::min(most, 256u); size *= 2) {
         sizes.push_back(size);

@@ -78,7 +78,8 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
         }
     } catch (const Json::exception&) {
     }
-    fail_input(path, "is not as geodisk_bench --tune writes it; run that again, or remove the file");
+    fail_input(path,
+               "is not as geodisk_bench --tune writes it; run that again, or remove the file");
 }
 
 std::filesystem::path writable_tuning_path(const DeviceReport& device) {

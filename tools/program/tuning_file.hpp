@@ -15,7 +15,8 @@ std::filesystem::path tuning_path(const DeviceReport& device);
 /// Nothing if none is kept. Throws UserError(bad_input) naming the file if it is not as written.
 std::optional<Tuning> load_tuning(const DeviceReport& device);
 
-/// tuning_path(), in a folder that exists. Throws UserError(bad_output) if no file can be made there.
+/// tuning_path(), in a folder that exists. Throws UserError(bad_output) if no file can be made
+/// there.
 std::filesystem::path writable_tuning_path(const DeviceReport& device);
 
 /// Throws UserError(bad_output) if the file cannot be written.

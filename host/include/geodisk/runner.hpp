@@ -42,19 +42,19 @@ GEODISK_API const char* to_string(Stage stage) noexcept;
 /// How a run went. Seconds are wall time.
 struct RunReport {
     std::uint32_t candidates = 0;
-    std::uint32_t iterations = 0;   ///< Batches of active candidates.
-    std::uint32_t dispatches = 0;   ///< Recorded, empty ones included.
-    std::uint32_t disks = 0;        ///< Geodesic disks computed, more than samples.
-    std::uint32_t regrown = 0;      ///< Times a batch was repeated with more memory.
-    std::uint64_t windows = 0;      ///< Windows and vertex events of all disks.
-    std::uint64_t tested = 0;       ///< Candidate distances computed in all disks.
-    std::uint32_t most_waiting = 0; ///< Most windows, or vertex events, waiting in one disk.
+    std::uint32_t iterations = 0;     ///< Batches of active candidates.
+    std::uint32_t dispatches = 0;     ///< Recorded, empty ones included.
+    std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples.
+    std::uint32_t regrown = 0;        ///< Times a batch was repeated with more memory.
+    std::uint64_t windows = 0;        ///< Windows and vertex events of all disks.
+    std::uint64_t tested = 0;         ///< Candidate distances computed in all disks.
+    std::uint32_t most_waiting = 0;   ///< Most windows, or vertex events, waiting in one disk.
     std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
     std::uint32_t most_vertices = 0;  ///< Reached by one disk.
     std::uint32_t most_conflicts = 0; ///< Listed by one disk.
-    double guard = 0;               ///< Conflicts were tested against min_distance * (1 + guard).
-    std::uint64_t device_bytes = 0; ///< Memory allocated on the device.
-    RunPlan plan;                   ///< As it stood at the end.
+    double guard = 0;                 ///< Conflicts were tested against min_distance * (1 + guard).
+    std::uint64_t device_bytes = 0;   ///< Memory allocated on the device.
+    RunPlan plan;                     ///< As it stood at the end.
     struct {
         double upload = 0, sample = 0, readback = 0;
     } seconds;
@@ -78,8 +78,8 @@ struct RunnerOptions {
     /// Most bytes of the pool, which holds disks in progress and lists of conflicts; bounded by one
     /// binding of the device.
     std::uint64_t pool_bytes = std::uint64_t{256} << 20;
-    /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice changes
-    /// the samples, but `chain`, which widens or narrows the guard and with it the ties.
+    /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice
+    /// changes the samples, but `chain`, which widens or narrows the guard and with it the ties.
     RunPlan plan;
     /// Measures the device time of each stage by timestamps, where the queue has them.
     bool time_stages = false;
@@ -106,8 +106,8 @@ class GEODISK_API Runner {
     /// window chains outgrow the guard is repeated with a wider one.
     ///
     /// Errors: `invalid_argument`, `device_lacks` and `workspace_too_small` as Sampler's functions;
-    /// `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the runner refuses all
-    /// further work; when a submission was given up as hung, what it uses is never freed.
+    /// `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the runner refuses
+    /// all further work; when a submission was given up as hung, what it uses is never freed.
     Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;
 

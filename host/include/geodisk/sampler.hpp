@@ -12,9 +12,9 @@
 //                           Submit, read gpu::ControlRec from the control buffer, and record more
 //                           until `done`. With `overflow` set nothing was decided since; grow_plan,
 //                           set it on the job and record_rewind first.
-//   7. record_finish        gpu::SampleRec per accepted candidate, in rank order; if ControlRec tells
-//                           that more were accepted than the plan's sample_capacity, give the job a
-//                           larger buffer first (set_samples)
+//   7. record_finish        gpu::SampleRec per accepted candidate, in rank order; if more were
+//                           accepted than the plan's sample_capacity, as ControlRec tells, give the
+//                           job a larger buffer first (set_samples)
 #pragma once
 
 #include <array>
@@ -42,7 +42,8 @@ enum class Rounding : std::uint32_t {
 
 /// How shaders read what they do not write. Both ways return the same bits.
 enum class Reads : std::uint32_t {
-    automatic, ///< Texel buffers where they are known to be faster (llvmpipe), else storage buffers.
+    automatic, ///< Texel buffers where they are known to be faster (llvmpipe), else storage
+               ///< buffers.
     storage,
     texels,
 };
@@ -50,19 +51,19 @@ enum class Reads : std::uint32_t {
 /// "auto", "storage" or "texels".
 GEODISK_API const char* to_string(Reads reads) noexcept;
 
-/// What suits a device best. No choice changes the samples; 0 and `automatic` choose by the device's
-/// type and limits.
+/// What suits a device best. No choice changes the samples; 0 and `automatic` choose by the
+/// device's type and limits.
 struct Tuning {
     /// Invocations per work group of the kernels per candidate and per sample; a power of two up to
     /// the device's limit.
     std::uint32_t local_size = 0;
     /// The same for the kernels per slot and per lane.
     std::uint32_t slot_local_size = 0;
-    /// Lanes whose rows alternate in the pool, a power of two up to kMostPoolBlock: 1 keeps the rows
-    /// of a lane together, the subgroup's size lets a subgroup read side by side.
+    /// Lanes whose rows alternate in the pool, a power of two up to kMostPoolBlock: 1 keeps the
+    /// rows of a lane together, the subgroup's size lets a subgroup read side by side.
     std::uint32_t pool_block = 0;
-    /// Batches to aim at, of equal numbers of slots. More of them leave fewer disks that are computed
-    /// in vain, fewer are larger and cost fewer dispatches (paper section 5.3, N/T).
+    /// Batches to aim at, of equal numbers of slots. More of them leave fewer disks that are
+    /// computed in vain, fewer are larger and cost fewer dispatches (paper section 5.3, N/T).
     std::uint32_t batches = 0;
     Reads reads = Reads::automatic;
 };
@@ -78,7 +79,19 @@ struct SamplerOptions {
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
 enum class BufferRole : std::uint32_t {
-    faces, fans, alias, cells, states, weights, places, slots, pool, control, marks, sums, samples,
+    faces,
+    fans,
+    alias,
+    cells,
+    states,
+    weights,
+    places,
+    slots,
+    pool,
+    control,
+    marks,
+    sums,
+    samples,
 };
 inline constexpr std::size_t kBufferRoles = 13;
 
@@ -145,10 +158,11 @@ class Job;
 class GEODISK_API Sampler {
   public:
     /// Compiles the pipelines on the lent device.
-    /// Errors: `device_lacks` with every reason, or for Reads::texels on a device whose texel buffers
-    /// are too small; `invalid_argument` for a local size or a pool block that cannot be; or as
-    /// Vulkan fails.
-    static Result<Sampler> create(const DeviceRefs& device, const SamplerOptions& options = {}) noexcept;
+    /// Errors: `device_lacks` with every reason, or for Reads::texels on a device whose texel
+    /// buffers are too small; `invalid_argument` for a local size or a pool block that cannot be;
+    /// or as Vulkan fails.
+    static Result<Sampler> create(const DeviceRefs& device,
+                                  const SamplerOptions& options = {}) noexcept;
     Sampler(Sampler&&) noexcept;
     Sampler& operator=(Sampler&&) noexcept;
     ~Sampler();
@@ -162,19 +176,19 @@ class GEODISK_API Sampler {
     Result<RunPlan> plan_run(const PreparedMesh& mesh, const SampleParams& params,
                              std::uint64_t pool_bytes) const noexcept;
 
-    /// The plan after an overflow: the capacities named by `overflow` (gpu::kOverflow* bits) doubled,
-    /// slots and lanes fewer if the pool would grow past `pool_bytes`.
-    /// Errors: `workspace_too_small` naming the bytes one lane and one list of conflicts take.
+    /// The plan after an overflow: the capacities named by `overflow` (gpu::kOverflow* bits)
+    /// doubled, slots and lanes fewer if the pool would grow past `pool_bytes`. Errors:
+    /// `workspace_too_small` naming the bytes one lane and one list of conflicts take.
     Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
                               std::uint64_t pool_bytes) const noexcept;
 
-    /// Errors: `invalid_argument` as pool_size(), `device_lacks` when a buffer would exceed what the
-    /// device can bind, naming buffer, candidates and bytes.
+    /// Errors: `invalid_argument` as pool_size(), `device_lacks` when a buffer would exceed what
+    /// the device can bind, naming buffer, candidates and bytes.
     Result<WorkspaceNeeds> workspace_needs(const PreparedMesh& mesh, const SampleParams& params,
                                            const RunPlan& plan) const noexcept;
 
-    /// Writes the bytes of a mesh buffer (faces, fans or alias) for the caller to upload. `out` must
-    /// hold exactly as many bytes as `mesh_bytes_size` tells.
+    /// Writes the bytes of a mesh buffer (faces, fans or alias) for the caller to upload. `out`
+    /// must hold exactly as many bytes as `mesh_bytes_size` tells.
     Result<Done> mesh_bytes(const PreparedMesh& mesh, const SampleParams& params, BufferRole role,
                             std::span<std::byte> out) const noexcept;
     std::size_t mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept;
@@ -188,7 +202,8 @@ class GEODISK_API Sampler {
     // family with compute. Each call leaves compute pipeline, descriptor set 0 and push constants
     // changed, and begins and ends with its own barriers among the job's buffers.
     void record_begin(VkCommandBuffer commands, const Job& job) const noexcept;
-    void record_rounds(VkCommandBuffer commands, const Job& job, std::uint32_t rounds) const noexcept;
+    void record_rounds(VkCommandBuffer commands, const Job& job,
+                       std::uint32_t rounds) const noexcept;
     void record_rewind(VkCommandBuffer commands, const Job& job) const noexcept;
     void record_finish(VkCommandBuffer commands, const Job& job) const noexcept;
 
@@ -206,8 +221,8 @@ class GEODISK_API Sampler {
     std::unique_ptr<Impl> impl_;
 };
 
-/// A workspace made ready for one sampling job. Movable. One recording thread at a time; its command
-/// buffers must run one after the other, and it must outlive their execution.
+/// A workspace made ready for one sampling job. Movable. One recording thread at a time; its
+/// command buffers must run one after the other, and it must outlive their execution.
 class GEODISK_API Job {
   public:
     Job(Job&&) noexcept;

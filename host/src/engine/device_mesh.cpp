@@ -18,7 +18,9 @@ float scaled(double length, double unit) {
     return static_cast<float>(x < 0x1p-40 && x > -0x1p-40 ? 0.0 : x);
 }
 
-float direction(double cosine_or_sine) { return scaled(cosine_or_sine, 1); }
+float direction(double cosine_or_sine) {
+    return scaled(cosine_or_sine, 1);
+}
 
 constexpr std::uint64_t kTooMany = std::uint64_t{1} << 31;
 
@@ -43,9 +45,7 @@ Grid face_grid(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     const auto edges = mesh.half_edges().subspan(std::size_t{3} * face, 3);
     std::uint32_t corner = 0;
     for (std::uint32_t k = 1; k < 3; ++k) {
-        corner = scaled(edges[k].length, unit) > scaled(edges[corner].length, unit)
-                     ? k
-                     : corner;
+        corner = scaled(edges[k].length, unit) > scaled(edges[corner].length, unit) ? k : corner;
     }
     const float height =
         previous_length(mesh, 3 * face + corner, unit) * direction(edges[corner].sine);
@@ -130,8 +130,7 @@ void write_fans(const PreparedMesh& mesh, std::span<std::byte> out) {
     std::memset(out.data(), 0, out.size());
     for (std::size_t v = 0; v < mesh.fans().size(); ++v) {
         const VertexFan& fan = mesh.fans()[v];
-        store(out, v,
-              gpu::FanRec{fan.first_corner, fan.corner_count, fan.total_angle, fan.flags});
+        store(out, v, gpu::FanRec{fan.first_corner, fan.corner_count, fan.total_angle, fan.flags});
     }
     struct CornerRec {
         std::uint32_t half_edge, angles;

@@ -7,9 +7,9 @@
 #include <geodisk/sampler.hpp>
 
 #include "bindings.h"
-#include "records.h"
 #include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
+#include "records.h"
 #include "support/guard.hpp"
 #include "vk/result.hpp"
 
@@ -17,7 +17,8 @@ namespace geodisk {
 namespace {
 
 Error range_error(Status status, std::size_t role, const std::string& what) {
-    return Error{status, std::string("the workspace's buffer ") + to_string(static_cast<BufferRole>(role)) + ' ' + what};
+    return Error{status, std::string("the workspace's buffer ") +
+                             to_string(static_cast<BufferRole>(role)) + ' ' + what};
 }
 
 Result<Done> check_range(const BufferRange& range, std::size_t role, VkDeviceSize needed,
@@ -60,7 +61,8 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
         for (std::size_t k = 0; k < i; ++k) {
             if (overlap(workspace[i], workspace[k])) {
                 return range_error(Status::invalid_argument, i,
-                                   std::string("overlaps the buffer ") + to_string(static_cast<BufferRole>(k)));
+                                   std::string("overlaps the buffer ") +
+                                       to_string(static_cast<BufferRole>(k)));
             }
         }
     }
@@ -70,19 +72,20 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 /// What the shaders rely on without looking.
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
     constexpr std::uint32_t kMost = 1u << 26;
-    const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
-                      std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
-                      plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 &&
-                      plan.lanes >= 1 && plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
-                      plan.detect_passes <= 4096 && plan.sample_capacity >= 1 && plan.slots <= kMost &&
-                      plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
-                      plan.list_capacity <= kMost;
+    const bool fine =
+        plan.slots >= 1 && plan.window_capacity >= 2 && std::has_single_bit(plan.window_capacity) &&
+        std::has_single_bit(plan.table_capacity) && plan.list_capacity >= 4 &&
+        plan.list_capacity % 4 == 0 && plan.lanes >= 1 && plan.lanes <= kMost &&
+        plan.step_budget >= 1 && plan.detect_passes >= 1 && plan.detect_passes <= 4096 &&
+        plan.sample_capacity >= 1 && plan.slots <= kMost && plan.window_capacity <= kMost &&
+        plan.table_capacity <= kMost && plan.list_capacity <= kMost;
     if (!fine) {
-        return Error{Status::invalid_argument,
-                     "the plan is not as RunPlan asks: slots, lanes, step_budget, detect_passes and "
-                     "sample_capacity at least 1, "
-                     "window_capacity and table_capacity powers of two, list_capacity a "
-                     "multiple of 4, none of them 0 or more than 2^26"};
+        return Error{
+            Status::invalid_argument,
+            "the plan is not as RunPlan asks: slots, lanes, step_budget, detect_passes and "
+            "sample_capacity at least 1, "
+            "window_capacity and table_capacity powers of two, list_capacity a "
+            "multiple of 4, none of them 0 or more than 2^26"};
     }
     if (plan.pool_block != tuning.pool_block) {
         return Error{Status::invalid_argument,
@@ -101,9 +104,9 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning, VkDeviceSize 
     if (plan.pool_bytes() > pool || plan.slots > most_slots) {
         return Error{Status::workspace_too_small,
                      "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
-                         " bytes and " + std::to_string(plan.slots) +
-                         " slots; the workspace has " + std::to_string(pool) + " bytes and " +
-                         std::to_string(most_slots) + " slots"};
+                         " bytes and " + std::to_string(plan.slots) + " slots; the workspace has " +
+                         std::to_string(pool) + " bytes and " + std::to_string(most_slots) +
+                         " slots"};
     }
     return Done{};
 }
@@ -112,7 +115,7 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning, VkDeviceSize 
 std::size_t bound_as(SetRole role, std::uint32_t binding) {
     // The scan kernels work on whatever is bound as marks.
     return role == SetRole::cell_scan && binding == gpu::kBindMarks ? gpu::kBindCells
-           : binding == gpu::kBindPoolTexels                       ? gpu::kBindPool
+           : binding == gpu::kBindPoolTexels                        ? gpu::kBindPool
                                                                     : binding;
 }
 
@@ -168,8 +171,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked =
-                check_plan(plan, impl_->sampler->tuning,
+        if (auto checked = check_plan(plan, impl_->sampler->tuning,
                                       impl_->workspace[gpu::kBindPool].size, impl_->most_slots);
             !checked) {
             return checked;
@@ -186,7 +188,8 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
             !checked) {
             return checked;
         }
-        if (auto checked = check_plan(plan, impl_->sampler->tuning, pool.size, impl_->most_slots); !checked) {
+        if (auto checked = check_plan(plan, impl_->sampler->tuning, pool.size, impl_->most_slots);
+            !checked) {
             return checked;
         }
         if (auto replaced = impl_->replace_buffer(gpu::kBindPool, pool); !replaced) {
@@ -207,8 +210,8 @@ Result<Done> Job::set_samples(const BufferRange& samples) noexcept {
         if (auto replaced = impl_->replace_buffer(gpu::kBindSamples, samples); !replaced) {
             return replaced;
         }
-        impl_->plan.sample_capacity = static_cast<std::uint32_t>(std::min<VkDeviceSize>(
-            samples.size / sizeof(gpu::SampleRec), impl_->push.candidates));
+        impl_->plan.sample_capacity = static_cast<std::uint32_t>(
+            std::min<VkDeviceSize>(samples.size / sizeof(gpu::SampleRec), impl_->push.candidates));
         impl_->push.sample_capacity = impl_->plan.sample_capacity;
         return Done{};
     });

@@ -44,7 +44,11 @@ using namespace gpu;
 
 using enum Access;
 
-constexpr Binding kCandidates[] = {{kBindFaces, read}, {kBindAlias, read}, {kBindCells, storage}, {kBindPlaces, storage}, {kBindMarks, storage}};
+constexpr Binding kCandidates[] = {{kBindFaces, read},
+                                   {kBindAlias, read},
+                                   {kBindCells, storage},
+                                   {kBindPlaces, storage},
+                                   {kBindMarks, storage}};
 constexpr Binding kScanData[] = {{kBindMarks, storage}, {kBindSums, storage}};
 constexpr Binding kScanAdd[] = {{kBindMarks, storage}, {kBindSums, read}};
 constexpr Binding kScanSums[] = {{kBindSums, storage}};
@@ -52,16 +56,30 @@ constexpr Binding kBinPlace[] = {
     {kBindCells, read}, {kBindWeights, storage}, {kBindPlaces, storage}, {kBindMarks, read}};
 constexpr Binding kBinFill[] = {
     {kBindAlias, read}, {kBindStates, storage}, {kBindWeights, storage}};
-constexpr Binding kFindIdle[] = {{kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindSums, storage}};
+constexpr Binding kFindIdle[] = {
+    {kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindSums, storage}};
 constexpr Binding kSelect[] = {{kBindSlots, storage}, {kBindControl, storage}, {kBindSums, read}};
-constexpr Binding kActivate[] = {{kBindAlias, read}, {kBindStates, storage}, {kBindPlaces, read}, {kBindSlots, storage}, {kBindControl, storage}, {kBindMarks, storage}};
-constexpr Binding kDetect[] = {{kBindFaces, read}, {kBindFans, read}, {kBindCells, read}, {kBindStates, read}, {kBindWeights, read}, {kBindSlots, storage}, {kBindPool, storage}, {kBindControl, storage}, {kBindPoolTexels, read_own}};
-constexpr Binding kBlock[] = {{kBindSlots, storage}, {kBindPool, read}, {kBindControl, storage}, {kBindMarks, read}};
-constexpr Binding kResolve[] = {{kBindStates, storage}, {kBindSlots, storage}, {kBindPool, read}, {kBindControl, storage}, {kBindMarks, read}};
+constexpr Binding kActivate[] = {{kBindAlias, read},      {kBindStates, storage},
+                                 {kBindPlaces, read},     {kBindSlots, storage},
+                                 {kBindControl, storage}, {kBindMarks, storage}};
+constexpr Binding kDetect[] = {
+    {kBindFaces, read},   {kBindFans, read},       {kBindCells, read},
+    {kBindStates, read},  {kBindWeights, read},    {kBindSlots, storage},
+    {kBindPool, storage}, {kBindControl, storage}, {kBindPoolTexels, read_own}};
+constexpr Binding kBlock[] = {
+    {kBindSlots, storage}, {kBindPool, read}, {kBindControl, storage}, {kBindMarks, read}};
+constexpr Binding kResolve[] = {{kBindStates, storage},
+                                {kBindSlots, storage},
+                                {kBindPool, read},
+                                {kBindControl, storage},
+                                {kBindMarks, read}};
 constexpr Binding kRewind[] = {{kBindStates, storage}, {kBindSlots, read}, {kBindControl, storage}};
-constexpr Binding kCompactMark[] = {{kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindMarks, storage}};
-constexpr Binding kCompactGather[] = {{kBindControl, storage}, {kBindMarks, read}, {kBindSamples, storage}};
-constexpr Binding kCompactFill[] = {{kBindAlias, read}, {kBindControl, storage}, {kBindSamples, storage}};
+constexpr Binding kCompactMark[] = {
+    {kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindMarks, storage}};
+constexpr Binding kCompactGather[] = {
+    {kBindControl, storage}, {kBindMarks, read}, {kBindSamples, storage}};
+constexpr Binding kCompactFill[] = {
+    {kBindAlias, read}, {kBindControl, storage}, {kBindSamples, storage}};
 constexpr Binding kSelfTest[] = {{kBindSums, storage}};
 
 const std::array<KernelInfo, kKernels> kTable{{
@@ -79,7 +97,8 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"resolve", k_resolve_spirv, k_resolve_texels_spirv, kResolve, true},
     {"rewind", k_rewind_spirv, k_rewind_texels_spirv, kRewind, true},
     {"compact_mark", k_compact_mark_spirv, k_compact_mark_texels_spirv, kCompactMark, false},
-    {"compact_gather", k_compact_gather_spirv, k_compact_gather_texels_spirv, kCompactGather, false},
+    {"compact_gather", k_compact_gather_spirv, k_compact_gather_texels_spirv, kCompactGather,
+     false},
     {"compact_fill", k_compact_fill_spirv, k_compact_fill_texels_spirv, kCompactFill, false},
     {"self_test", k_self_test_spirv, k_self_test_texels_spirv, kSelfTest, false},
 }};

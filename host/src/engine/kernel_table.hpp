@@ -12,8 +12,23 @@
 namespace geodisk {
 
 enum class Kernel : std::uint32_t {
-    candidates, scan_blocks, scan_sums, scan_add, bin_place, bin_fill, find_idle, select, activate, detect,
-    block, resolve, rewind, compact_mark, compact_gather, compact_fill, self_test,
+    candidates,
+    scan_blocks,
+    scan_sums,
+    scan_add,
+    bin_place,
+    bin_fill,
+    find_idle,
+    select,
+    activate,
+    detect,
+    block,
+    resolve,
+    rewind,
+    compact_mark,
+    compact_gather,
+    compact_fill,
+    self_test,
 };
 inline constexpr std::size_t kKernels = 17;
 
@@ -56,9 +71,12 @@ constexpr VkFormat texel_format(std::uint32_t buffer) noexcept {
     case gpu::kBindFaces:
     case gpu::kBindFans:
     case gpu::kBindSlots:
-    case gpu::kBindPool: return VK_FORMAT_R32G32B32A32_UINT;
-    case gpu::kBindAlias: return VK_FORMAT_R32G32_UINT;
-    default: return VK_FORMAT_R32_UINT;
+    case gpu::kBindPool:
+        return VK_FORMAT_R32G32B32A32_UINT;
+    case gpu::kBindAlias:
+        return VK_FORMAT_R32G32_UINT;
+    default:
+        return VK_FORMAT_R32_UINT;
     }
 }
 

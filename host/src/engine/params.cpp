@@ -1,8 +1,8 @@
 #include "geodisk/params.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 #include "mesh/extent.hpp"
@@ -89,14 +89,12 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
 std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept {
     // A straight path crosses about the square root of the faces.
     const double guess = 8 + 4 * std::sqrt(faces_per_disk(mesh, min_distance));
-    return static_cast<std::uint32_t>(
-        std::clamp<double>(guess, kMinimumChain, kMaximumChain));
+    return static_cast<std::uint32_t>(std::clamp<double>(guess, kMinimumChain, kMaximumChain));
 }
 
 Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
                           std::uint32_t chain) noexcept {
-    const double longest =
-        mesh.statistics().longest_edge / working_distance(mesh, min_distance);
+    const double longest = mesh.statistics().longest_edge / working_distance(mesh, min_distance);
     Tolerances t{};
     t.chain = chain;
     t.guard = 0x1p-22 * (chain + 4 * std::ceil(longest));

@@ -41,8 +41,8 @@ std::uint32_t cpu_lanes(const DeviceReport& report) {
            std::max(1u, report.limits.subgroup_size);
 }
 
-/// As many as the tuning's batches ask for, and enough to fill the device; where that cannot be had,
-/// a CPU rather waits than computes disks for losers.
+/// As many as the tuning's batches ask for, and enough to fill the device; where that cannot be
+/// had, a CPU rather waits than computes disks for losers.
 std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const double least = cpu ? std::clamp<double>(disks / 8, 8, cpu_lanes(report)) : 64;
@@ -74,11 +74,11 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
     const std::uint64_t block = std::uint64_t{plan.pool_block} * plan.lane_rows() * 16;
     const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
     const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - block);
-    plan.slots = static_cast<std::uint32_t>(
-        std::clamp<std::uint64_t>(for_lists / list, 1, plan.slots));
+    plan.slots =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(for_lists / list, 1, plan.slots));
     const std::uint64_t blocks = (pool_bytes - plan.slots * list) / block;
-    plan.lanes = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
+    plan.lanes = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
 /// Dispatches of detect in which a batch should be done.
@@ -105,9 +105,9 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
 } // namespace
 
 const char* to_string(BufferRole role) noexcept {
-    constexpr const char* kNames[kBufferRoles] = {
-        "faces", "fans", "alias",   "cells", "states", "weights", "places",
-        "slots", "pool", "control", "marks", "sums",   "samples"};
+    constexpr const char* kNames[kBufferRoles] = {"faces",   "fans",   "alias",  "cells", "states",
+                                                  "weights", "places", "slots",  "pool",  "control",
+                                                  "marks",   "sums",   "samples"};
     return kNames[static_cast<std::size_t>(role)];
 }
 
@@ -174,8 +174,8 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.step_budget = most_steps(report);
         // Borders, creases and thin parts hold more samples than their area tells.
-        plan.sample_capacity = static_cast<std::uint32_t>(
-            std::min<double>(*candidates, std::ceil(1.5 * disks) + 64));
+        plan.sample_capacity =
+            static_cast<std::uint32_t>(std::min<double>(*candidates, std::ceil(1.5 * disks) + 64));
         plan.chain = provided_chain(mesh, params.min_distance);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
         fit(plan, pool_bytes);
@@ -199,8 +199,8 @@ Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
         grow(gpu::kOverflowConflicts, grown.list_capacity);
         pool_bytes = std::min(pool_bytes, impl_->report.limits.max_storage_buffer_range);
         fit(grown, pool_bytes);
-        const bool same = grown.lane_rows() == plan.lane_rows() &&
-                          grown.list_capacity == plan.list_capacity;
+        const bool same =
+            grown.lane_rows() == plan.lane_rows() && grown.list_capacity == plan.list_capacity;
         if (grown.lanes == 0 || same) {
             return slice_error(grown, pool_bytes);
         }
@@ -241,8 +241,7 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
             if (needs.bytes[i] > limit) {
                 return Error{Status::device_lacks,
                              std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) +
-                                 " for " +
-                                 std::to_string(count) + " candidates and " +
+                                 " for " + std::to_string(count) + " candidates and " +
                                  std::to_string(mesh.face_count()) + " faces takes " +
                                  std::to_string(needs.bytes[i]) + " bytes, but " +
                                  impl_->report.name + " binds at most " + std::to_string(limit) +

@@ -131,8 +131,7 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
     const Recorder recorder(commands, *impl_, *job.impl_);
     const BufferRange& slots = job.impl_->workspace[static_cast<std::size_t>(BufferRole::slots)];
     // No lane has a slot, and no row of a table a disk.
-    recorder.fill(BufferRole::pool,
-                  VkDeviceSize{job.impl_->push.first_list_row} * 16);
+    recorder.fill(BufferRole::pool, VkDeviceSize{job.impl_->push.first_list_row} * 16);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch(Kernel::rewind,
                       groups_for(slots.size / sizeof(gpu::SlotRec), impl_->tuning.slot_local_size),

@@ -33,7 +33,9 @@ constexpr std::uint32_t kMostRounds = 256;
 constexpr std::uint32_t kMostPasses = 64;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
-constexpr std::size_t index_of(BufferRole role) { return static_cast<std::size_t>(role); }
+constexpr std::size_t index_of(BufferRole role) {
+    return static_cast<std::size_t>(role);
+}
 
 } // namespace
 
@@ -62,8 +64,8 @@ void RunMemory::abandon() noexcept {
 
 namespace {
 
-Result<VkQueueFamilyProperties> check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device,
-                         const QueueRef& queue) {
+Result<VkQueueFamilyProperties>
+check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const QueueRef& queue) {
     if (queue.queue == VK_NULL_HANDLE) {
         return Error{Status::invalid_argument, "QueueRef::queue is null"};
     }
@@ -132,8 +134,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     if (plan->pool_bytes() > runner_.options.pool_bytes) {
         return Error{Status::workspace_too_small,
                      "the plan asked for takes a pool of " + std::to_string(plan->pool_bytes()) +
-                         " bytes, which may take " +
-                         std::to_string(runner_.options.pool_bytes)};
+                         " bytes, which may take " + std::to_string(runner_.options.pool_bytes)};
     }
     const auto needs = sampler.workspace_needs(mesh_, params_, *plan);
     if (!needs) {
@@ -249,8 +250,7 @@ Result<Done> Run::grow() {
     ++report_.regrown;
     DeviceBuffer& pool = memory_.buffers[index_of(BufferRole::pool)];
     if (grown->pool_bytes() > pool.size()) {
-        auto larger =
-            runner_.allocate(grown->pool_bytes(), kWorkspaceUsage, MemoryKind::device);
+        auto larger = runner_.allocate(grown->pool_bytes(), kWorkspaceUsage, MemoryKind::device);
         if (!larger) {
             return larger.error();
         }
@@ -259,7 +259,8 @@ Result<Done> Run::grow() {
     return job_->set_plan(*grown, {pool.handle(), 0, pool.size()});
 }
 
-/// Batches take more than a round: fewer of the other dispatches go idle when a round detects longer.
+/// Batches take more than a round: fewer of the other dispatches go idle when a round detects
+/// longer.
 Result<Done> Run::detect_longer() {
     RunPlan plan = job_->plan();
     plan.detect_passes = std::min(2 * plan.detect_passes, kMostPasses);
@@ -309,8 +310,7 @@ Result<Done> Run::sample(const ProgressCallback& progress) {
                 return grown.error();
             }
         }
-        if (progress &&
-            !progress({control_.next_rank, report_.candidates, control_.accepted})) {
+        if (progress && !progress({control_.next_rank, report_.candidates, control_.accepted})) {
             return Error{Status::cancelled, "cancelled"};
         }
     }
@@ -347,9 +347,10 @@ Result<std::vector<Sample>> Run::read_samples() {
         for (std::size_t i = 0; i < count; ++i) {
             gpu::SampleRec record;
             std::memcpy(&record, memory_.staging.bytes().data() + i * sizeof record, sizeof record);
-            samples.push_back({record.rank, record.face,
-                               {1.0f - record.weight1 - record.weight2, record.weight1,
-                                record.weight2}});
+            samples.push_back(
+                {record.rank,
+                 record.face,
+                 {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
         }
     }
     return samples;
@@ -398,7 +399,9 @@ Runner::Runner(Runner&&) noexcept = default;
 Runner& Runner::operator=(Runner&&) noexcept = default;
 Runner::~Runner() = default;
 
-const Sampler& Runner::sampler() const noexcept { return impl_->sampler; }
+const Sampler& Runner::sampler() const noexcept {
+    return impl_->sampler;
+}
 
 Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                             MemoryKind kind) const {

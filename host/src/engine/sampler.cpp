@@ -1,7 +1,5 @@
 #include <geodisk/sampler.hpp>
 
-#include <algorithm>
-#include <bit>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,8 +29,12 @@ Sampler::Sampler(Sampler&&) noexcept = default;
 Sampler& Sampler::operator=(Sampler&&) noexcept = default;
 Sampler::~Sampler() = default;
 
-const DeviceReport& Sampler::report() const noexcept { return impl_->report; }
-const Tuning& Sampler::tuning() const noexcept { return impl_->tuning; }
+const DeviceReport& Sampler::report() const noexcept {
+    return impl_->report;
+}
+const Tuning& Sampler::tuning() const noexcept {
+    return impl_->tuning;
+}
 
 Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& options) noexcept {
     return guarded([&]() -> Result<Sampler> {
@@ -56,8 +58,9 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
         auto impl = std::make_unique<Impl>();
         impl->device = device;
         impl->vk = *table;
-        impl->native_rounding = options.rounding == Rounding::native ||
-                                (options.rounding == Rounding::automatic && report->rounds_natively);
+        impl->native_rounding =
+            options.rounding == Rounding::native ||
+            (options.rounding == Rounding::automatic && report->rounds_natively);
         impl->tuning = *tuning;
         impl->report = std::move(*report);
         if (auto created = impl->create_pipelines(); !created) {
@@ -101,10 +104,10 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     set_info.pBindings = bindings.data();
-    VkResult result = null_unless_success(
-        vk.vkCreateDescriptorSetLayout(device.device, &set_info, device.host_allocator,
-                                       &set_layouts[k]),
-        set_layouts[k]);
+    VkResult result =
+        null_unless_success(vk.vkCreateDescriptorSetLayout(device.device, &set_info,
+                                                           device.host_allocator, &set_layouts[k]),
+                            set_layouts[k]);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateDescriptorSetLayout", result);
     }
@@ -150,10 +153,10 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     pipeline_info.stage.pName = "main";
     pipeline_info.stage.pSpecializationInfo = &specialization;
     pipeline_info.layout = layouts[k];
-    result = null_unless_success(
-        vk.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &pipeline_info,
-                                    device.host_allocator, &pipelines[k]),
-        pipelines[k]);
+    result = null_unless_success(vk.vkCreateComputePipelines(device.device, device.pipeline_cache,
+                                                             1, &pipeline_info,
+                                                             device.host_allocator, &pipelines[k]),
+                                 pipelines[k]);
     vk.vkDestroyShaderModule(device.device, module, device.host_allocator);
     if (result != VK_SUCCESS) {
         Error error = vk_error("vkCreateComputePipelines", result);
@@ -165,10 +168,14 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
 
 std::size_t Sampler::mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept {
     switch (role) {
-    case BufferRole::faces: return face_bytes(mesh);
-    case BufferRole::fans: return fan_bytes(mesh);
-    case BufferRole::alias: return alias_bytes(mesh);
-    default: return 0;
+    case BufferRole::faces:
+        return face_bytes(mesh);
+    case BufferRole::fans:
+        return fan_bytes(mesh);
+    case BufferRole::alias:
+        return alias_bytes(mesh);
+    default:
+        return 0;
     }
 }
 
@@ -179,9 +186,15 @@ Result<Done> Sampler::mesh_bytes(const PreparedMesh& mesh, const SampleParams& p
             return Error{Status::invalid_argument, "not a mesh buffer, or not of its size"};
         }
         switch (role) {
-        case BufferRole::faces: write_faces(mesh, params.min_distance, out); break;
-        case BufferRole::fans: write_fans(mesh, out); break;
-        default: write_alias(mesh, out); break;
+        case BufferRole::faces:
+            write_faces(mesh, params.min_distance, out);
+            break;
+        case BufferRole::fans:
+            write_fans(mesh, out);
+            break;
+        default:
+            write_alias(mesh, out);
+            break;
         }
         return Done{};
     });

@@ -53,10 +53,10 @@ Result<Done> compare(const std::vector<Vector>& operands, std::span<const std::b
         std::memcpy(got.data(), results.data() + i * sizeof(Vector), sizeof(Vector));
         for (std::size_t k = 0; k < want.size(); ++k) {
             if (std::bit_cast<std::uint32_t>(got[k]) != std::bit_cast<std::uint32_t>(want[k])) {
-                return Error{Status::device_lacks,
-                             device + " does not round " + kNames[k] +
-                                 " as IEEE 754 asks (test vector " + std::to_string(i) +
-                                 "); its samples could not be trusted"};
+                return Error{Status::device_lacks, device + " does not round " + kNames[k] +
+                                                       " as IEEE 754 asks (test vector " +
+                                                       std::to_string(i) +
+                                                       "); its samples could not be trusted"};
             }
         }
     }

@@ -13,7 +13,8 @@ constexpr std::uint32_t kQueries = 4096;
 } // namespace
 
 const char* to_string(Stage stage) noexcept {
-    constexpr const char* kNames[kStages] = {"draw", "bin", "select", "detect", "resolve", "gather"};
+    constexpr const char* kNames[kStages] = {"draw",   "bin",     "select",
+                                             "detect", "resolve", "gather"};
     return kNames[static_cast<std::size_t>(stage)];
 }
 

@@ -118,8 +118,7 @@ Result<Done> Submitter::wait() {
     const auto deadline = std::chrono::steady_clock::now() + stall_limit_;
     constexpr std::uint64_t kSlice = 50'000'000;
     for (;;) {
-        const VkResult status =
-            vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE, kSlice);
+        const VkResult status = vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE, kSlice);
         if (status == VK_SUCCESS) {
             return Done{};
         }
@@ -129,8 +128,8 @@ Result<Done> Submitter::wait() {
         if (std::chrono::steady_clock::now() > deadline) {
             abandoned_ = true;
             return Error{Status::device_lost,
-                         "the device has not answered for " +
-                             std::to_string(stall_limit_.count()) + " seconds",
+                         "the device has not answered for " + std::to_string(stall_limit_.count()) +
+                             " seconds",
                          kNoElement, status};
         }
         // A lack of memory ends the waiting but not the work, whose memory must not be freed yet.

@@ -19,9 +19,9 @@ class Submitter {
     Submitter& operator=(Submitter&&) = delete;
     ~Submitter();
 
-    /// Records with `record`, submits and waits until the device is done. A submission that does not
-    /// end within the stall limit is an error (`device_lost`), after which nothing may be freed that
-    /// it uses. After any other error nothing is running.
+    /// Records with `record`, submits and waits until the device is done. A submission that does
+    /// not end within the stall limit is an error (`device_lost`), after which nothing may be freed
+    /// that it uses. After any other error nothing is running.
     Result<Done> run(const std::function<void(VkCommandBuffer)>& record);
 
     /// An error (`device_lost`) once the device was lost or a submission given up. Nothing is

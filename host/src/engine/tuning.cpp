@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::uint32_t kDefaultLocalSize = 64;
 
-bool is_cpu(const DeviceReport& report) { return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+bool is_cpu(const DeviceReport& report) {
+    return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
 
 /// A texel buffer of words can be as large as a storage buffer.
 bool texels_reach(const DeviceLimits& limits) {
@@ -21,11 +23,12 @@ bool texels_reach(const DeviceLimits& limits) {
 /// that read side by side. Few batches fill a GPU, and most active candidates are still accepted
 /// (paper Table 1).
 Tuning default_tuning(const DeviceReport& report) {
-    const std::uint32_t subgroup = std::bit_floor(std::clamp(report.limits.subgroup_size, 1u, 128u));
+    const std::uint32_t subgroup =
+        std::bit_floor(std::clamp(report.limits.subgroup_size, 1u, 128u));
     Tuning tuning;
     tuning.local_size = kDefaultLocalSize;
-    tuning.slot_local_size = is_cpu(report) ? std::min(subgroup, kDefaultLocalSize)
-                                            : kDefaultLocalSize;
+    tuning.slot_local_size =
+        is_cpu(report) ? std::min(subgroup, kDefaultLocalSize) : kDefaultLocalSize;
     tuning.pool_block = is_cpu(report) ? 1 : subgroup;
     tuning.batches = is_cpu(report) ? 24 : 8;
     const bool fetches_fast = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE;

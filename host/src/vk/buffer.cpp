@@ -87,7 +87,9 @@ Result<DeviceBuffer> DeviceBuffer::create(const DeviceRefs& device, const Device
     return result;
 }
 
-DeviceBuffer::DeviceBuffer(DeviceBuffer&& other) noexcept { *this = std::move(other); }
+DeviceBuffer::DeviceBuffer(DeviceBuffer&& other) noexcept {
+    *this = std::move(other);
+}
 
 DeviceBuffer& DeviceBuffer::operator=(DeviceBuffer&& other) noexcept {
     std::swap(device_, other.device_);
