@@ -84,7 +84,7 @@ GEODISK_CONST uint kTagMask = 0xc0000000u;
 // The loops of detect: most iterations of each in one trip of the main loop.
 GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
 GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
-GEODISK_CONST uint kRowsPerTrip = 2u;      // of cells
+GEODISK_CONST uint kRowsPerTrip = 3u;      // of cells
 GEODISK_CONST uint kScanPerRow = 12u;      // candidates
 // Together: an event taken and two vertices reached, two children left and pushed.
 GEODISK_CONST uint kIterationsPerTrip =
