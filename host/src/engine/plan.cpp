@@ -170,7 +170,7 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
         const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
         plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces_per_disk);
-        plan.table_capacity = pow2_at_least((cpu ? 192 : 16) + 4 * faces_per_disk);
+        plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces_per_disk);
         plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
         plan.step_budget = most_steps(report);
         // Borders, creases and thin parts hold more samples than their area tells.
