@@ -1,0 +1,34 @@
+// Phase groups: cells so far apart that their darts cannot conflict are processed at the same time,
+// group after group in a fixed order. Here one after the other, with the same result.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "baselines/box.hpp"
+#include "baselines/disk_query.hpp"
+
+namespace geodisk::ref {
+
+/// On surfaces (Bowers, Wang, Wei and Maletz, "Parallel Poisson disk sampling with spectrum
+/// analysis on surfaces", 2010), with the metric that `disks` measures by, which must not be
+/// shorter than the one of space.
+///
+/// Cells of space with the minimum distance as diagonal, 3 x 3 x 3 groups. Group by group each cell
+/// throws one dart per trial, its next candidate in rank order, until it has none left. A dart that
+/// an accepted one has removed costs its trial. `positions` are those of the pool in space.
+/// In the order accepted.
+std::vector<std::uint32_t> throw_in_phase_groups(DiskQuery& disks,
+                                                 std::span<const std::array<double, 3>> positions,
+                                                 double min_distance, std::uint32_t trials);
+
+/// In a box (Wei, "Parallel Poisson disk sampling", 2008): level by level, from one cell around the
+/// box to cells with the minimum distance as diagonal, each cell without a sample throws up to
+/// `trials` darts, group by group. Returns the coordinates, point after point, in the order
+/// accepted. The box must not be periodic.
+std::vector<double> throw_in_phase_groups(const Box& box, double min_distance, std::uint32_t trials,
+                                          std::uint64_t seed);
+
+} // namespace geodisk::ref
