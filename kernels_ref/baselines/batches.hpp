@@ -14,11 +14,11 @@ struct BatchRun {
     std::vector<std::uint32_t> ranks; ///< Accepted candidates, ascending.
     std::uint64_t disks = 0;          ///< Computed, one per active candidate.
     std::uint32_t batches = 0;
-    CallHistogram calls; ///< Of all batches.
 };
 
 /// Activates up to `slots` (the paper's T) idle candidates at a time, in rank order: the lower rank
-/// has the higher priority. The set does not depend on `slots`.
-BatchRun run_batches(DiskQuery& disks, std::uint32_t slots);
+/// has the higher priority. The set does not depend on `slots`. Adds the calls of CheckStatus of
+/// all batches to `calls`, unless that is null.
+BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls = nullptr);
 
 } // namespace geodisk::ref

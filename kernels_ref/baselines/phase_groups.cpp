@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
+#include <numeric>
 
 #include "baselines/random.hpp"
 
@@ -20,7 +21,7 @@ struct GroupedCandidate {
 
 std::vector<GroupedCandidate> grouped(std::span<const std::array<double, 3>> positions,
                                       double side) {
-    // With side * sqrt(3) as the minimum distance, two cells between are enough.
+    // With side * sqrt(3) as the minimum distance, two cells between those of a group are enough.
     constexpr std::int64_t kPerAxis = 3;
     std::vector<GroupedCandidate> candidates;
     for (std::uint32_t rank = 0; rank < positions.size(); ++rank) {
@@ -34,17 +35,6 @@ std::vector<GroupedCandidate> grouped(std::span<const std::array<double, 3>> pos
     }
     std::sort(candidates.begin(), candidates.end());
     return candidates;
-}
-
-/// One past the last of those from `first` on for which `is_same(first, other)` holds.
-template <class IsSame>
-std::size_t run_end(const std::vector<GroupedCandidate>& candidates, std::size_t first,
-                    IsSame is_same) {
-    std::size_t end = first + 1;
-    while (end < candidates.size() && is_same(candidates[first], candidates[end])) {
-        ++end;
-    }
-    return end;
 }
 
 /// The cells of one level in a box, all of one width, by group.
@@ -128,42 +118,49 @@ void throw_level(const Box& box, const Level& level, std::uint32_t trials, Rando
 
 } // namespace
 
-std::vector<std::uint32_t> throw_in_phase_groups(DiskQuery& disks,
-                                                 std::span<const std::array<double, 3>> positions,
-                                                 double min_distance, std::uint32_t trials) {
+PhaseGroups::PhaseGroups(std::span<const std::array<double, 3>> positions, double min_distance) {
     const std::vector<GroupedCandidate> candidates =
         grouped(positions, min_distance / std::sqrt(3.0));
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const bool is_first = i == 0;
+        if (is_first || candidates[i].group != candidates[i - 1].group) {
+            groups_.push_back(static_cast<std::uint32_t>(cells_.size()));
+        }
+        if (is_first || candidates[i].cell != candidates[i - 1].cell) {
+            cells_.push_back(static_cast<std::uint32_t>(i));
+        }
+        ranks_.push_back(candidates[i].rank);
+    }
+    groups_.push_back(static_cast<std::uint32_t>(cells_.size()));
+    cells_.push_back(static_cast<std::uint32_t>(candidates.size()));
+}
+
+std::vector<std::uint32_t> PhaseGroups::throw_darts(DiskQuery& disks, std::uint32_t trials) const {
     std::vector<std::uint32_t> accepted;
     std::vector<std::uint32_t> disk;
     std::vector<std::uint8_t> remains(disks.size(), 1);
-    for (std::size_t group = 0; group < candidates.size();) {
-        const std::size_t group_end = run_end(
-            candidates, group, [](const auto& a, const auto& b) { return a.group == b.group; });
-        bool has_darts = true;
-        for (std::uint32_t trial = 0; trial < trials && has_darts; ++trial) {
-            has_darts = false;
-            for (std::size_t cell = group; cell < group_end;) {
-                const std::size_t cell_end =
-                    run_end(candidates, cell,
-                            [](const auto& a, const auto& b) { return a.cell == b.cell; });
-                const std::size_t dart = cell + trial;
-                cell = cell_end;
-                if (dart >= cell_end) {
-                    continue;
-                }
-                has_darts = true;
-                const std::uint32_t rank = candidates[dart].rank;
-                if (remains[rank]) {
-                    remains[rank] = 0;
-                    accepted.push_back(rank);
-                    disks.find(rank, remains, disk);
-                    for (const std::uint32_t other : disk) {
-                        remains[other] = 0;
-                    }
-                }
+    const auto throw_dart = [&](std::uint32_t rank) {
+        if (!remains[rank]) {
+            return;
+        }
+        remains[rank] = 0;
+        accepted.push_back(rank);
+        disks.find(rank, remains, disk);
+        for (const std::uint32_t other : disk) {
+            remains[other] = 0;
+        }
+    };
+    for (std::size_t group = 0; group + 1 < groups_.size(); ++group) {
+        std::vector<std::uint32_t> cells(groups_[group + 1] - groups_[group]);
+        std::iota(cells.begin(), cells.end(), groups_[group]);
+        for (std::uint32_t trial = 0; trial < trials && !cells.empty(); ++trial) {
+            std::erase_if(cells, [&](std::uint32_t cell) {
+                return cells_[cell] + trial >= cells_[std::size_t{cell} + 1];
+            });
+            for (const std::uint32_t cell : cells) {
+                throw_dart(ranks_[cells_[cell] + trial]);
             }
         }
-        group = group_end;
     }
     return accepted;
 }

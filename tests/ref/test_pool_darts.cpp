@@ -98,14 +98,15 @@ void check_methods(const Scene& scene, ref::DiskQuery& disks) {
     CHECK(eliminated == ref::eliminate_pool(disks, 3));
     CHECK(eliminated != ref::eliminate_pool(disks, 4));
 
-    const double distance = scene.darts.min_distance;
-    const auto all = ref::throw_in_phase_groups(disks, scene.positions, distance, count);
+    const ref::PhaseGroups phases(scene.positions, scene.darts.min_distance);
+    const auto all = phases.throw_darts(disks, count);
     check_apart(conflicts, all);
     CHECK(gaps(conflicts, all, count) == 0);
-    const auto few = ref::throw_in_phase_groups(disks, scene.positions, distance, 1);
+    CHECK(all == phases.throw_darts(disks, count));
+    const auto few = phases.throw_darts(disks, 1);
     check_apart(conflicts, few);
     CHECK(gaps(conflicts, few, count) > 0);
-    CHECK(ref::throw_in_phase_groups(disks, scene.positions, distance, 0).empty());
+    CHECK(phases.throw_darts(disks, 0).empty());
 }
 
 } // namespace
