@@ -1,5 +1,6 @@
 #include "paper/pool.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "kernels/candidates.hpp"
@@ -8,17 +9,17 @@
 
 namespace geodisk::paper {
 
-PaperMesh load_mesh(const std::string& name) {
-    tools::MeshFile file = tools::read_mesh(name);
+PaperMesh load_mesh(const std::string& path) {
+    tools::MeshFile file = tools::read_mesh(path);
     PreparedMesh prepared =
-        tools::take(PreparedMesh::prepare({file.positions, file.triangles}), name);
-    return {name, std::move(file), std::move(prepared)};
+        tools::take(PreparedMesh::prepare({file.positions, file.triangles}), path);
+    return {std::filesystem::path(path).filename().string(), std::move(file), std::move(prepared)};
 }
 
-std::vector<PaperMesh> load_meshes(const std::vector<std::string>& names) {
+std::vector<PaperMesh> load_meshes(const std::vector<std::string>& paths) {
     std::vector<PaperMesh> meshes;
-    for (const std::string& name : names) {
-        meshes.push_back(load_mesh(name));
+    for (const std::string& path : paths) {
+        meshes.push_back(load_mesh(path));
     }
     return meshes;
 }

@@ -15,7 +15,7 @@
 namespace geodisk::paper {
 
 struct PaperMesh {
-    std::string name; ///< As given.
+    std::string name; ///< Without its folder.
     tools::MeshFile file;
     PreparedMesh prepared;
 
@@ -23,8 +23,8 @@ struct PaperMesh {
     double area() const { return prepared.statistics().area; }
 };
 
-PaperMesh load_mesh(const std::string& name);
-std::vector<PaperMesh> load_meshes(const std::vector<std::string>& names);
+PaperMesh load_mesh(const std::string& path);
+std::vector<PaperMesh> load_meshes(const std::vector<std::string>& paths);
 
 /// A run's candidates, as geodisk draws them.
 struct Pool {

@@ -45,9 +45,10 @@ std::vector<std::string> columns() {
     return names;
 }
 
-void add_line(bench::LogPlot& plot, const std::string& label, bool is_printed,
+/// `group` is that of the ratio: measured and printed lines share a colour.
+void add_line(bench::LogPlot& plot, const std::string& label, std::size_t group, bool is_printed,
               const std::array<double, 10>& percent) {
-    bench::LogPlot::Line line{label, plot.lines.size(), is_printed, {}};
+    bench::LogPlot::Line line{label, group, is_printed, {}};
     for (std::size_t i = 0; i < percent.size(); ++i) {
         line.points.push_back({static_cast<double>(i + 1), percent[i]});
     }
@@ -55,7 +56,7 @@ void add_line(bench::LogPlot& plot, const std::string& label, bool is_printed,
 }
 
 /// Adds the printed row for the same ratio where there is one.
-void add_printed(Table& table, bench::LogPlot& plot, double ratio) {
+void add_printed(Table& table, bench::LogPlot& plot, double ratio, std::size_t group) {
     for (const PrintedRow& printed : kPrinted) {
         if (printed.ratio != ratio) {
             continue;
@@ -68,7 +69,8 @@ void add_printed(Table& table, bench::LogPlot& plot, double ratio) {
         }
         cells.insert(cells.end(), {fixed(mean, 3), ""});
         table.add(std::move(cells));
-        add_line(plot, "N/T = " + tools::rounded(ratio, 4) + ", paper", true, printed.percent);
+        add_line(plot, "N/T = " + tools::rounded(ratio, 4) + ", paper", group, true,
+                 printed.percent);
     }
 }
 
@@ -94,10 +96,11 @@ Measured measure(const PaperMesh& mesh, const CommonOptions& common, double coun
     return sum;
 }
 
-void add_measured(Table& table, bench::LogPlot& plot, double ratio, double pool_ratio,
-                  const Measured& measured) {
-    const std::string pool_text = tools::rounded(pool_ratio, 4);
-    std::vector<std::string> cells{tools::rounded(ratio, 4), "geodisk", pool_text};
+/// Returns the percentages.
+std::array<double, 10> add_measured(Table& table, double ratio, double pool_ratio,
+                                    const Measured& measured) {
+    std::vector<std::string> cells{tools::rounded(ratio, 4), "geodisk",
+                                   tools::rounded(pool_ratio, 4)};
     std::array<double, 10> percent{};
     for (std::size_t i = 0; i < percent.size(); ++i) {
         percent[i] = 100 * measured.calls.share(i);
@@ -106,7 +109,7 @@ void add_measured(Table& table, bench::LogPlot& plot, double ratio, double pool_
     cells.insert(cells.end(),
                  {fixed(measured.calls.mean(), 3), fixed(measured.disks / measured.samples, 3)});
     table.add(std::move(cells));
-    add_line(plot, "N/T = " + tools::rounded(ratio, 4) + ", |P|/N = " + pool_text, false, percent);
+    return percent;
 }
 
 void run(const Options& options) {
@@ -118,15 +121,21 @@ void run(const Options& options) {
 
     Table table(columns());
     bench::LogPlot plot;
-    plot.title = "Calls of CheckStatus per active candidate, " + mesh.name;
+    plot.title = "Calls of CheckStatus, " + mesh.name +
+                 ", |P|/N = " + tools::rounded(pool_ratios.front(), 4);
     plot.x_label = "calls, the last point for 10 and more";
     plot.y_label = "active candidates in percent";
-    for (const double ratio : ratios) {
+    for (std::size_t group = 0; group < ratios.size(); ++group) {
+        const double ratio = ratios[group];
         for (const double pool_ratio : pool_ratios) {
-            add_measured(table, plot, ratio, pool_ratio,
-                         measure(mesh, options.common, count, ratio, pool_ratio));
+            const std::array<double, 10> percent = add_measured(
+                table, ratio, pool_ratio, measure(mesh, options.common, count, ratio, pool_ratio));
+            // One pool is enough to draw.
+            if (pool_ratio == pool_ratios.front()) {
+                add_line(plot, "N/T = " + tools::rounded(ratio, 4), group, false, percent);
+            }
         }
-        add_printed(table, plot, ratio);
+        add_printed(table, plot, ratio, group);
     }
     std::cout
         << "Calls of CheckStatus, percent of active candidates\n\n"
