@@ -87,6 +87,27 @@ TEST_CASE("ticks are short") {
     CHECK(tick_text(5e7, "B") == "50 MB");
 }
 
+TEST_CASE("ticks of a linear axis are in full") {
+    CHECK(linear_tick_text(0.72, 0.02, "") == "0.72");
+    CHECK(linear_tick_text(0.7, 0.05, "") == "0.70");
+    CHECK(linear_tick_text(80, 20, "%") == "80 %");
+    CHECK(linear_tick_text(0.1, 0.1, "") == "0.1");
+}
+
+TEST_CASE("a linear axis reaches from the least to the greatest value") {
+    LogPlot plot;
+    plot.is_linear_y = true;
+    plot.lines.push_back({"rho", 0, false, {{10, 0.701}, {100, 0.778}}});
+    const std::string svg = svg_text(plot);
+    for (const char* const text : {">0.70<", ">0.74<", ">0.78<"}) {
+        INFO(text);
+        CHECK(contains(svg, text));
+    }
+    CHECK_FALSE(contains(svg, ">0.80<"));
+    plot.lines[0].points = {{10, 0.5}};
+    CHECK_FALSE(contains(svg_text(plot), "nan"));
+}
+
 TEST_CASE("a plot draws every line and escapes its texts") {
     LogPlot plot;
     plot.title = "a < b & c";

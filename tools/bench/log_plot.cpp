@@ -61,14 +61,20 @@ bool is_drawable(const Point& point) {
     return point.x > 0 && point.y > 0 && std::isfinite(point.x) && std::isfinite(point.y);
 }
 
-/// A logarithmic axis from `low` to `high`, at pixels `start` to `end`.
+/// An axis from `low` to `high`, at pixels `start` to `end`.
 struct Axis {
     double low, high;
     double start, end;
     std::vector<double> ticks;
+    double step = 0; ///< From tick to tick of a linear axis; 0 where it is logarithmic.
 
     double place(double value) const {
-        return start + (end - start) * std::log(value / low) / std::log(high / low);
+        const double part = step > 0 ? (value - low) / (high - low)
+                                     : std::log(value / low) / std::log(high / low);
+        return start + (end - start) * part;
+    }
+    std::string text(double tick, const std::string& unit) const {
+        return step > 0 ? linear_tick_text(tick, step, unit) : tick_text(tick, unit);
     }
 };
 
@@ -90,8 +96,23 @@ double round_to_step(double value, bool up) {
     return best * decade;
 }
 
-Axis make_axis(double least, double most, double start, double end) {
-    Axis axis{round_to_step(least, false), round_to_step(most, true), start, end, {}};
+Axis make_linear_axis(double least, double most, double start, double end) {
+    constexpr double kTicks = 6;
+    const double extent = most > least ? most - least : 0.2 * most;
+    const double step = round_to_step(extent / kTicks, true);
+    Axis axis{step * std::floor(least / step), step * std::ceil(most / step), start, end, {}, step};
+    if (!(axis.low < axis.high)) {
+        axis.high += step;
+    }
+    const double count = std::round((axis.high - axis.low) / step);
+    for (double i = 0; i <= count; ++i) {
+        axis.ticks.push_back(axis.low + i * step);
+    }
+    return axis;
+}
+
+Axis make_log_axis(double least, double most, double start, double end) {
+    Axis axis{round_to_step(least, false), round_to_step(most, true), start, end, {}, 0};
     if (!(axis.low < axis.high)) {
         axis.low /= 10;
         axis.high *= 10;
@@ -131,8 +152,9 @@ class Drawing {
             low_x = low_y = 1;
             high_x = high_y = 10;
         }
-        x_ = make_axis(low_x, high_x, kLeft, kWidth - kRight);
-        y_ = make_axis(low_y, high_y, kTop + kPlotHeight, kTop);
+        x_ = make_log_axis(low_x, high_x, kLeft, kWidth - kRight);
+        y_ = (plot.is_linear_y ? make_linear_axis : make_log_axis)(low_y, high_y,
+                                                                   kTop + kPlotHeight, kTop);
     }
 
     std::string run() && {
@@ -189,12 +211,12 @@ class Drawing {
         for (const double tick : x_.ticks) {
             add_rule(x_.place(tick), kTop, x_.place(tick), bottom);
             add_text(x_.place(tick), bottom + 20, "text-anchor=\"middle\"",
-                     tick_text(tick, plot_.x_unit));
+                     x_.text(tick, plot_.x_unit));
         }
         for (const double tick : y_.ticks) {
             add_rule(kLeft, y_.place(tick), kWidth - kRight, y_.place(tick));
             add_text(kLeft - 8, y_.place(tick) + 4, "text-anchor=\"end\"",
-                     tick_text(tick, plot_.y_unit));
+                     y_.text(tick, plot_.y_unit));
         }
         svg_ += "<rect class=\"frame\" x=\"" + number(kLeft) + "\" y=\"" + number(kTop) +
                 "\" width=\"" + number(kWidth - kLeft - kRight) + "\" height=\"" +
@@ -293,6 +315,15 @@ std::string tick_text(double value, const std::string& unit) {
     const auto end = std::to_chars(digits, std::end(digits), value / prefix->factor,
                                    std::chars_format::general, 3);
     return std::string(digits, end.ptr) + (unit.empty() ? "" : " ") + prefix->name + unit;
+}
+
+std::string linear_tick_text(double value, double step, const std::string& unit) {
+    constexpr double kSame = 1e-9; // Powers of ten are not exact.
+    const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - kSame)));
+    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
+    const auto end =
+        std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, decimals);
+    return std::string(digits, end.ptr) + (unit.empty() ? "" : " ") + unit;
 }
 
 } // namespace geodisk::bench

@@ -1,4 +1,4 @@
-// Line plots with logarithmic axes, as SVG.
+// Line plots with logarithmic axes, or a linear one upwards, as SVG.
 #pragma once
 
 #include <string>
@@ -21,6 +21,7 @@ struct LogPlot {
     std::string title;
     std::string x_label, y_label;
     std::string x_unit, y_unit; ///< Follow each tick's number, like "s"; may be empty.
+    bool is_linear_y = false;   ///< For values that differ by less than a factor of two or so.
     std::vector<Line> lines;
 };
 
@@ -30,5 +31,9 @@ std::string svg_text(const LogPlot& plot);
 /// A number with at most three digits and a prefix from n to T: "300", "1k", "2 m" with unit "" or
 /// "s" following: "3 ms".
 std::string tick_text(double value, const std::string& unit);
+
+/// A number in full, with as many decimals as a tick of this distance to the next one needs:
+/// "0.72", "80 %".
+std::string linear_tick_text(double value, double step, const std::string& unit);
 
 } // namespace geodisk::bench

@@ -1,0 +1,56 @@
+#include "baselines/batches.hpp"
+
+#include "constants.h"
+#include "kernels/resolve.hpp"
+#include "kernels/select.hpp"
+
+namespace geodisk::ref {
+
+BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls) {
+    constexpr std::uint32_t kNotActive = ~0u;
+    BatchRun run;
+    std::vector<std::uint8_t> states(disks.size(), gpu::kIdle);
+    std::vector<std::uint8_t> is_open(disks.size(), 1);
+    std::vector<std::uint32_t> slot_of(disks.size(), kNotActive);
+    std::vector<std::uint32_t> disk;
+    for (std::uint32_t first = 0;;) {
+        const std::vector<std::uint32_t> ranks = select_idle(states, first, slots);
+        if (ranks.empty()) {
+            return run;
+        }
+        first = ranks.back() + 1;
+        for (std::uint32_t slot = 0; slot < ranks.size(); ++slot) {
+            slot_of[ranks[slot]] = slot;
+        }
+        std::vector<std::vector<std::uint32_t>> conflicts(ranks.size());
+        std::vector<std::vector<std::uint32_t>> above(ranks.size());
+        for (std::size_t slot = 0; slot < ranks.size(); ++slot) {
+            disks.find(ranks[slot], is_open, disk);
+            for (const std::uint32_t other : disk) {
+                if (other > ranks[slot]) {
+                    conflicts[slot].push_back(other);
+                } else {
+                    above[slot].push_back(slot_of[other]);
+                }
+            }
+        }
+        resolve_batch(ranks, conflicts, states);
+        for (std::size_t slot = 0; slot < ranks.size(); ++slot) {
+            is_open[ranks[slot]] = 0;
+            slot_of[ranks[slot]] = kNotActive;
+            if (states[ranks[slot]] == gpu::kAccepted) {
+                run.ranks.push_back(ranks[slot]);
+                for (const std::uint32_t other : conflicts[slot]) {
+                    is_open[other] = 0;
+                }
+            }
+        }
+        if (calls) {
+            calls->add(count_check_calls(above));
+        }
+        run.disks += ranks.size();
+        ++run.batches;
+    }
+}
+
+} // namespace geodisk::ref

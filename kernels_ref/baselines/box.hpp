@@ -1,0 +1,127 @@
+// Boxes of R^n, and points in them sorted into cells.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace geodisk::ref {
+
+inline constexpr std::uint32_t kMostDimensions = 6;
+
+/// [0, sides[0]) x [0, sides[1]) x ..., of 1 to kMostDimensions sides, each positive.
+struct Box {
+    std::vector<double> sides;
+    bool is_periodic = false; ///< Opposite sides are glued together.
+
+    std::uint32_t dimension() const { return static_cast<std::uint32_t>(sides.size()); }
+    double volume() const;
+
+    /// Square of the shortest distance of two points, around the box where that is periodic.
+    double distance2(std::span<const double> a, std::span<const double> b) const;
+};
+
+/// Cells of a box, each at least `reach` wide, so that everything within `reach` of a point lies in
+/// the 3^n cells around it. There are at most 2^24 of them, so they may be wider.
+class BoxCells {
+  public:
+    BoxCells(const Box& box, double reach);
+
+    std::uint32_t count() const { return count_; }
+    std::uint32_t cell_of(std::span<const double> point) const;
+
+    /// Calls `visit(cell)` for each cell around the point's once, until it returns false.
+    template <class Visit>
+    void for_around(std::span<const double> point, Visit&& visit) const;
+
+  private:
+    std::uint32_t place_on(std::size_t axis, double x) const;
+
+    /// The places of one axis that are to be visited.
+    struct Places {
+        std::array<std::uint32_t, 3> at{};
+        std::size_t count = 0;
+    };
+    Places places_around(std::size_t axis, double x) const;
+
+    bool is_periodic_;
+    std::size_t axes_;
+    std::array<std::uint32_t, kMostDimensions> counts_{};
+    std::array<double, kMostDimensions> per_length_{};
+    std::uint32_t count_ = 1;
+};
+
+/// A growing set of points, asked for those closer than `distance` to another point.
+class BoxGrid {
+  public:
+    BoxGrid(const Box& box, double distance);
+
+    /// As many coordinates as the box has sides, all within it.
+    void add(std::span<const double> point);
+
+    const Box& box() const { return box_; }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(next_.size()); }
+    std::span<const double> point(std::uint32_t index) const {
+        return std::span(coordinates_)
+            .subspan(std::size_t{index} * box_.dimension(), box_.dimension());
+    }
+    const std::vector<double>& coordinates() const { return coordinates_; }
+
+    /// Calls `visit(index)` for each point closer than the distance, until it returns false.
+    template <class Visit>
+    void for_near(std::span<const double> at, Visit&& visit) const;
+
+    /// Whether no point is closer than the distance.
+    bool is_free(std::span<const double> at) const;
+
+  private:
+    static constexpr std::uint32_t kNone = ~0u;
+
+    Box box_;
+    double distance2_;
+    BoxCells cells_;
+    std::vector<std::uint32_t> first_; ///< Per cell, the last point added.
+    std::vector<std::uint32_t> next_;  ///< Per point, the one added to its cell before.
+    std::vector<double> coordinates_;
+};
+
+template <class Visit>
+void BoxCells::for_around(std::span<const double> point, Visit&& visit) const {
+    std::array<Places, kMostDimensions> places;
+    for (std::size_t axis = 0; axis < axes_; ++axis) {
+        places[axis] = places_around(axis, point[axis]);
+    }
+    std::array<std::size_t, kMostDimensions> turn{};
+    for (;;) {
+        std::uint32_t cell = 0;
+        for (std::size_t axis = 0; axis < axes_; ++axis) {
+            cell = cell * counts_[axis] + places[axis].at[turn[axis]];
+        }
+        if (!visit(cell)) {
+            return;
+        }
+        std::size_t axis = axes_;
+        while (axis > 0 && ++turn[axis - 1] == places[axis - 1].count) {
+            turn[--axis] = 0;
+        }
+        if (axis == 0) {
+            return;
+        }
+    }
+}
+
+template <class Visit>
+void BoxGrid::for_near(std::span<const double> at, Visit&& visit) const {
+    cells_.for_around(at, [&](std::uint32_t cell) {
+        for (std::uint32_t i = first_[cell]; i != kNone; i = next_[i]) {
+            if (box_.distance2(at, point(i)) < distance2_ && !visit(i)) {
+                return false;
+            }
+        }
+        return true;
+    });
+}
+
+} // namespace geodisk::ref

@@ -1,0 +1,156 @@
+#include "baselines/curve_disks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace geodisk::ref {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector difference(const Vector& a, const Vector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+void add_scaled(Vector& sum, double factor, const Vector& v) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        sum[axis] += factor * v[axis];
+    }
+}
+
+Vector unit(const Vector& v, const Vector& otherwise) {
+    const double length = std::sqrt(dot(v, v));
+    return length > 0 ? Vector{v[0] / length, v[1] / length, v[2] / length} : otherwise;
+}
+
+/// The corners of face f.
+std::array<Vector, 3> corners_of(const MeshView& mesh, std::uint32_t f) {
+    std::array<Vector, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = std::size_t{3} * mesh.triangles[std::size_t{3} * f + k];
+        corners[k] = {mesh.positions[at], mesh.positions[at + 1], mesh.positions[at + 2]};
+    }
+    return corners;
+}
+
+/// Normal of a face, of twice its area in length.
+Vector face_normal(const std::array<Vector, 3>& corners) {
+    const Vector u = difference(corners[1], corners[0]);
+    const Vector v = difference(corners[2], corners[0]);
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// The bounding box, moved to the origin. A flat one is given some thickness.
+Box bounds(std::span<const OrientedPoint> points, double thickness, Vector& corner) {
+    constexpr double kFarther = 1 + 1e-9; // The farthest points lie inside.
+    corner.fill(std::numeric_limits<double>::infinity());
+    Vector most;
+    most.fill(-std::numeric_limits<double>::infinity());
+    for (const OrientedPoint& point : points) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            corner[axis] = std::min(corner[axis], point.position[axis]);
+            most[axis] = std::max(most[axis], point.position[axis]);
+        }
+    }
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.sides.push_back(std::max((most[axis] - corner[axis]) * kFarther, thickness));
+    }
+    return box;
+}
+
+} // namespace
+
+double curve_length(const OrientedPoint& a, const OrientedPoint& b) {
+    // Below it the quotient loses more digits than its limit is off.
+    constexpr double kSameAngle = 1e-6;
+    const Vector way = difference(b.position, a.position);
+    const double straight = std::sqrt(dot(way, way));
+    if (straight == 0) {
+        return 0;
+    }
+    const double from = std::clamp(dot(a.normal, way) / straight, -1.0, 1.0);
+    const double to = std::clamp(dot(b.normal, way) / straight, -1.0, 1.0);
+    if (std::abs(from - to) < kSameAngle) {
+        const double middle = 0.5 * (from + to);
+        return straight / std::sqrt(std::max(1 - middle * middle, 1e-12));
+    }
+    return straight * (std::asin(from) - std::asin(to)) / (from - to);
+}
+
+std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
+                                           std::span<const FacePoint<double>> points) {
+    std::vector<Vector> normals(mesh.positions.size() / 3, Vector{});
+    for (std::uint32_t f = 0; f < mesh.triangles.size() / 3; ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            add_scaled(normals[mesh.triangles[std::size_t{3} * f + k]], 1,
+                       face_normal(corners_of(mesh, f)));
+        }
+    }
+    std::vector<OrientedPoint> result;
+    result.reserve(points.size());
+    for (const FacePoint<double>& point : points) {
+        const std::array<Vector, 3> corners = corners_of(mesh, point.face);
+        const Vector flat = unit(face_normal(corners), {0, 0, 1});
+        const double weights[3] = {1 - point.weight1 - point.weight2, point.weight1, point.weight2};
+        Vector position{};
+        Vector normal{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            add_scaled(position, weights[k], corners[k]);
+            add_scaled(normal, weights[k],
+                       unit(normals[mesh.triangles[std::size_t{3} * point.face + k]], flat));
+        }
+        result.push_back({position, unit(normal, flat)});
+    }
+    return result;
+}
+
+CurveDisks::CurveDisks(std::span<const OrientedPoint> by_rank, double min_distance)
+    : min_distance_(min_distance), cells_(bounds(by_rank, min_distance, corner_), min_distance),
+      starts_(std::size_t{cells_.count()} + 1, 0), ranks_(by_rank.size()), places_(by_rank.size()) {
+    for (const OrientedPoint& point : by_rank) {
+        ++starts_[std::size_t{cells_.cell_of(in_box(point))} + 1];
+    }
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    std::vector<std::uint32_t> cursor(starts_.begin(), starts_.end() - 1);
+    points_.resize(by_rank.size());
+    for (std::uint32_t rank = 0; rank < by_rank.size(); ++rank) {
+        const std::uint32_t place = cursor[cells_.cell_of(in_box(by_rank[rank]))]++;
+        ranks_[place] = rank;
+        points_[place] = by_rank[rank];
+        places_[rank] = place;
+    }
+}
+
+std::array<double, 3> CurveDisks::in_box(const OrientedPoint& point) const {
+    return difference(point.position, corner_);
+}
+
+void CurveDisks::find(std::uint32_t center, std::span<const std::uint8_t> wanted,
+                      std::vector<std::uint32_t>& found) {
+    found.clear();
+    const OrientedPoint& from = points_[places_[center]];
+    cells_.for_around(in_box(from), [&](std::uint32_t cell) {
+        for (std::uint32_t place = starts_[cell]; place < starts_[std::size_t{cell} + 1]; ++place) {
+            const std::uint32_t rank = ranks_[place];
+            if (!wanted[rank] || rank == center) {
+                continue;
+            }
+            const OrientedPoint& to = points_[place];
+            const Vector way = difference(to.position, from.position);
+            if (dot(way, way) < min_distance_ * min_distance_ &&
+                curve_length(from, to) < min_distance_) {
+                found.push_back(rank);
+            }
+        }
+        return true;
+    });
+}
+
+} // namespace geodisk::ref

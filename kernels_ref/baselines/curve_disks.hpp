@@ -1,0 +1,50 @@
+// Disks by the closed form that approximates geodesic distance from two points and their normals
+// (Bowers, Wang, Wei and Maletz 2010). The paper compares with it in sections 5.2, 5.6 and 6.1.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "baselines/box.hpp"
+#include "baselines/disk_query.hpp"
+#include "geodisk/mesh.hpp"
+#include "lib/surface.hpp"
+
+namespace geodisk::ref {
+
+/// A point of a surface in space, with its unit normal.
+struct OrientedPoint {
+    std::array<double, 3> position, normal;
+};
+
+/// Length of a curve between both points whose normals turn evenly: exact on planes and spheres,
+/// never shorter than the straight line.
+double curve_length(const OrientedPoint& a, const OrientedPoint& b);
+
+/// Positions and smoothly interpolated normals of points of a mesh in space.
+std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
+                                           std::span<const FacePoint<double>> points);
+
+class CurveDisks : public DiskQuery {
+  public:
+    CurveDisks(std::span<const OrientedPoint> by_rank, double min_distance);
+
+    std::uint32_t size() const override { return static_cast<std::uint32_t>(places_.size()); }
+    void find(std::uint32_t center, std::span<const std::uint8_t> wanted,
+              std::vector<std::uint32_t>& found) override;
+
+  private:
+    std::array<double, 3> in_box(const OrientedPoint& point) const;
+
+    double min_distance_;
+    std::array<double, 3> corner_{}; ///< Of the bounding box.
+    BoxCells cells_;
+    std::vector<std::uint32_t> starts_; ///< One more than cells.
+    std::vector<std::uint32_t> ranks_;  ///< By cell.
+    std::vector<OrientedPoint> points_; ///< In the order of `ranks_`.
+    std::vector<std::uint32_t> places_; ///< By rank.
+};
+
+} // namespace geodisk::ref

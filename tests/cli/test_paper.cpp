@@ -1,0 +1,100 @@
+// The program that redraws the paper's figures: its files, what it prints beside them, its
+// failures. What the figures say is nothing a test could know.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+Setting paper() {
+    Setting setting;
+    setting.program = GEODISK_PAPER;
+    return setting;
+}
+
+/// Runs it and checks that it writes `name`.csv, with so many rows below the columns, and plots.
+Outcome check_figure(const std::string& name, const std::vector<std::string>& plots,
+                     std::ptrdiff_t rows, const std::vector<std::string>& arguments) {
+    INFO(name);
+    const TemporaryFolder folder;
+    Outcome outcome = run(folder, arguments, paper());
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    std::vector<std::string> expected = plots;
+    expected.push_back(name + ".csv");
+    std::sort(expected.begin(), expected.end());
+    CHECK(files_in(folder) == expected);
+
+    std::vector<std::string> lines = lines_of(bytes_of(folder / (name + ".csv")));
+    REQUIRE_FALSE(lines.empty());
+    CHECK(contains(lines[0], ", commit "));
+    std::erase_if(lines, [](const std::string& line) { return line.starts_with("# "); });
+    CHECK(std::ssize(lines) == rows + 1);
+    for (const std::string& line : lines) {
+        CHECK(std::count(line.begin(), line.end(), ',') ==
+              std::count(lines[0].begin(), lines[0].end(), ','));
+    }
+    for (const std::string& plot : plots) {
+        CHECK(bytes_of(folder / plot).starts_with("<svg "));
+        CHECK_FALSE(contains(bytes_of(folder / plot), "nan"));
+    }
+    CHECK(contains(outcome.out, name + ".csv"));
+    return outcome;
+}
+
+} // namespace
+
+TEST_CASE("table1 stands beside the printed rows") {
+    const Outcome outcome = check_figure("table1", {"table1.svg"}, 5,
+                                         {"table1", "builtin:icosphere:2", "-n", "100", "--ratios",
+                                          "7,20", "--pool-ratios", "5,10", "--repeats", "2"});
+    CHECK(contains(outcome.out, "91.39"));
+    CHECK_FALSE(contains(outcome.out, "75.94"));
+}
+
+TEST_CASE("fig5 sweeps samples and candidates") {
+    const Outcome outcome = check_figure("fig5", {"fig5a.svg", "fig5b.svg", "fig5c.svg"}, 5,
+                                         {"fig5", "builtin:cube", "--counts", "20,60", "--ratios",
+                                          "2,5,10", "--ratio-count", "40", "--repeats", "1"});
+    CHECK(contains(outcome.out, "0.70 and 0.76"));
+}
+
+TEST_CASE("fig8 has a row for each mesh") {
+    const Outcome outcome = check_figure(
+        "fig8", {"fig8.svg"}, 2,
+        {"fig8", "builtin:icosphere:1", "builtin:icosphere:3", "-n", "60", "--repeats", "2"});
+    CHECK(contains(outcome.out, "1280"));
+}
+
+TEST_CASE("fig13 compares metrics and methods") {
+    check_figure("fig13", {"fig13a.svg", "fig13b.svg"}, 2,
+                 {"fig13", "builtin:icosphere:3", "--counts", "30,60", "--repeats", "1"});
+    check_figure("fig13", {"fig13a.svg", "fig13b.svg"}, 1,
+                 {"fig13", "builtin:icosphere:3", "--counts", "30", "--repeats", "1", "--trials",
+                  "2", "--ratio", "5"});
+}
+
+TEST_CASE("fig14 approaches the maximal density") {
+    const Outcome outcome =
+        check_figure("fig14", {"fig14.svg"}, 6,
+                     {"fig14", "--radius", "0.03", "--ratios", "2,5", "--repeats", "2"});
+    // Printed for one radius alone.
+    CHECK_FALSE(contains(outcome.out, "0.7791"));
+}
+
+TEST_CASE("the paper's figures explain their failures") {
+    const TemporaryFolder folder;
+    check_fails(folder, 2, "subcommand", {}, paper());
+    check_fails(folder, 2, "MESH is required", {"table1"}, paper());
+    check_fails(folder, 2, "--count", {"fig8", "builtin:cube", "-n", "few"}, paper());
+    check_fails(folder, 2, "--ratios", {"fig14", "--ratios", "0.5"}, paper());
+    check_fails(folder, 3, "missing.obj", {"fig13", "missing.obj"}, paper());
+    check_fails(folder, 4, "cannot write", {"fig14", "--out", "none"}, paper());
+    check_fails(folder, 5, "none of them", {"fig5", "builtin:cube", "--device", "none of them"},
+                paper());
+}
+
+} // namespace geodisk::test

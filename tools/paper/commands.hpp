@@ -1,0 +1,14 @@
+// The subcommands, each of which draws a figure or table of the paper.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace geodisk::paper {
+
+void add_table1(CLI::App& app);
+void add_fig5(CLI::App& app);
+void add_fig8(CLI::App& app);
+void add_fig13(CLI::App& app);
+void add_fig14(CLI::App& app);
+
+} // namespace geodisk::paper

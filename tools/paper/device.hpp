@@ -1,0 +1,40 @@
+// Runs of the sampler on a device.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <geodisk/context.hpp>
+#include <geodisk/runner.hpp>
+
+#include "paper/pool.hpp"
+
+namespace geodisk::paper {
+
+struct DeviceRun {
+    double samples = 0; ///< Mean over the repetitions.
+    double candidates = 0;
+    double rho = 0; ///< Mean packing density.
+    double least_rho = 0, most_rho = 0;
+    double seconds = 0; ///< Median, from the candidates to the finished set.
+};
+
+/// A device with the tuning that is kept for it.
+class Device {
+  public:
+    /// An empty name for the default one.
+    explicit Device(const std::string& name);
+
+    const std::string& name() const { return context_.report().name; }
+
+    /// One run to warm up and `repeats` with ascending seeds.
+    DeviceRun sample(const PaperMesh& mesh, SampleParams params, int repeats);
+
+  private:
+    SampleSet run(const PaperMesh& mesh, const SampleParams& params);
+
+    Context context_;
+    Runner runner_;
+};
+
+} // namespace geodisk::paper

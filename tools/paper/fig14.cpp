@@ -1,0 +1,147 @@
+// Fig. 14: packing density against |P|/|S| in the unit square, beside that of maximal sampling
+// (section 6.4).
+#include "paper/commands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include <geodisk/params.hpp>
+
+#include "baselines/box_darts.hpp"
+#include "paper/options.hpp"
+#include "paper/outputs.hpp"
+#include "program/arguments.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::paper {
+namespace {
+
+/// Of the program of Ebeida et al. 2012, the mean of ten runs.
+constexpr double kPrintedRho = 0.7791;
+constexpr double kPrintedRadius = 0.005;
+
+struct Options {
+    CommonOptions common;
+    std::string radius = "0.005";
+    NumberList ratios{"", {"5", "10", "20", "40", "80", "160", "320"}};
+};
+
+/// What repeated runs gave.
+struct Densities {
+    double samples = 0; ///< Mean.
+    double mean = 0, least = 1e9, most = 0;
+
+    void add(double count, double rho, int repeats) {
+        samples += count / repeats;
+        mean += rho / repeats;
+        least = std::min(least, rho);
+        most = std::max(most, rho);
+    }
+};
+
+/// `sample(box, seed)` returns coordinates.
+template <class Sample>
+Densities measured(const Options& options, const ref::Box& box, double min_distance,
+                   Sample&& sample) {
+    Densities densities;
+    for (int i = 0; i < options.common.repeats; ++i) {
+        tools::check_interrupted();
+        const std::vector<double> points =
+            sample(box, options.common.seed + static_cast<std::uint64_t>(i));
+        const auto count = static_cast<double>(points.size() / 2);
+        densities.add(count, packing_density(1, min_distance, count), options.common.repeats);
+    }
+    return densities;
+}
+
+void add_row(Table& table, const std::string& method, const std::string& domain,
+             const std::string& candidates, double pool, const Densities& densities) {
+    table.add({method, domain, candidates, pool > 0 ? fixed(pool / densities.samples, 1) : "",
+               fixed(densities.samples, 0), fixed(densities.mean, 4), fixed(densities.least, 4),
+               fixed(densities.most, 4)});
+}
+
+void add_level(bench::LogPlot& plot, const std::string& label, double rho,
+               const std::vector<bench::Point>& along) {
+    if (!along.empty()) {
+        plot.lines.push_back(
+            {label, plot.lines.size(), true, {{along.front().x, rho}, {along.back().x, rho}}});
+    }
+}
+
+void run(const Options& options) {
+    Outputs outputs(options.common.out, "fig14");
+    const double radius = tools::parse_ratio("--radius", options.radius, 1e-4, 0.2);
+    const std::vector<double> ratios = options.ratios.ratios(1, 10000);
+    const double min_distance = 2 * radius;
+    const double expected = expected_count(1, min_distance);
+
+    Table table({"method", "square", "|P|", "|P|/|S|", "samples", "rho", "least", "most"});
+    bench::LogPlot plot;
+    plot.title = "Packing density in the unit square, r = " + options.radius;
+    plot.x_label = "candidates per sample";
+    plot.y_label = "rho";
+    plot.is_linear_y = true;
+    for (const bool is_periodic : {false, true}) {
+        const std::string domain = is_periodic ? "periodic" : "open";
+        const ref::Box box{{1, 1}, is_periodic};
+        bench::LogPlot::Line line{"from a pool, " + domain, plot.lines.size(), false, {}};
+        for (const double ratio : ratios) {
+            const auto size = static_cast<std::uint32_t>(std::min(ratio * expected, 4e9));
+            const Densities densities =
+                measured(options, box, min_distance, [&](const ref::Box& in, std::uint64_t seed) {
+                    return ref::throw_in_order(in, min_distance, ref::draw_points(in, size, seed));
+                });
+            add_row(table, "pool", domain, std::to_string(size), size, densities);
+            line.points.push_back({size / densities.samples, densities.mean});
+        }
+        const std::vector<bench::Point> along = line.points;
+        plot.lines.push_back(std::move(line));
+        const Densities maximal =
+            measured(options, box, min_distance, [&](const ref::Box& in, std::uint64_t seed) {
+                return ref::throw_until_maximal(in, min_distance, seed);
+            });
+        add_row(table, "maximal", domain, "", 0, maximal);
+        add_level(plot, "maximal, " + domain, maximal.mean, along);
+        if (!is_periodic && radius == kPrintedRadius) {
+            add_row(table, "maximal, r apart", domain, "", 0,
+                    measured(options, box, radius, [&](const ref::Box& in, std::uint64_t seed) {
+                        return ref::throw_until_maximal(in, radius, seed);
+                    }));
+            table.add({"maximal, paper", "", "", "", "", "0.7791", "0.778", "0.780"});
+            add_level(plot, "maximal, paper", kPrintedRho, along);
+        }
+    }
+    std::cout
+        << "Packing density in the unit square, r = " << options.radius << ", "
+        << options.common.repeats << " runs each\n\n"
+        << table.text()
+        << "\nIn an open square rho profits from samples near the border, whose disks reach out,"
+           "\nthe less the smaller they are. The paper does not name its square's kind; its"
+           "\nmaximal value is that of an open one whose samples are r apart, not 2 r.\n";
+    outputs.add_table(table, {"radius " + options.radius,
+                              "repeats " + std::to_string(options.common.repeats) + " from seed " +
+                                  std::to_string(options.common.seed)});
+    outputs.add_plot("", plot);
+    outputs.write();
+}
+
+} // namespace
+
+void add_fig14(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    options->common.repeats = 10;
+    CLI::App* const command =
+        app.add_subcommand("fig14", "Fig. 14: rho against |P|/|S| in the unit square");
+    command->add_option("--radius", options->radius, "Half of the minimum distance, 0.0001 to 0.2")
+        ->type_name("R")
+        ->capture_default_str();
+    add_list(*command, options->ratios, "--ratios", "Candidates per expected sample, 1 to 10000");
+    add_common_options(*command, options->common);
+    command->callback([options] { run(*options); });
+}
+
+} // namespace geodisk::paper

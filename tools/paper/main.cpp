@@ -1,0 +1,39 @@
+// The command `geodisk_paper`: tables and figures of the paper measured anew, beside the values it
+// gives.
+#include <CLI/CLI.hpp>
+
+#include <geodisk/version.hpp>
+
+#include "paper/commands.hpp"
+#include "program/interrupt.hpp"
+#include "program/program.hpp"
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(The paper is Ying, Xin, Sun and He, "An Intrinsic Algorithm for Parallel Poisson Disk Sampling
+on Arbitrary Surfaces", IEEE TVCG 19(9), 2013. Each subcommand prints a table and writes it as CSV,
+with plots as SVG, into the folder --out. fig5 and fig8 run on a Vulkan device; the others are
+sequential, in double precision, on one core.
+
+Examples:
+  geodisk_paper table1 gargoyle.obj
+  geodisk_paper fig14 --out results
+
+The exit status is that of geodisk_bench. Whenever it is not 0, no file is written or replaced.)";
+
+} // namespace
+
+int main(int argc, char** argv) {
+    geodisk::tools::install_signal_handlers();
+    CLI::App app("Measures what the paper's tables and figures show", "geodisk_paper");
+    app.set_version_flag("--version", "geodisk_paper " GEODISK_VERSION_STRING);
+    app.footer(kFooter);
+    app.require_subcommand(1);
+    geodisk::paper::add_table1(app);
+    geodisk::paper::add_fig5(app);
+    geodisk::paper::add_fig8(app);
+    geodisk::paper::add_fig13(app);
+    geodisk::paper::add_fig14(app);
+    return geodisk::tools::run_program(app, argc, argv);
+}

@@ -1,0 +1,56 @@
+#include "paper/outputs.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <list>
+
+#include <geodisk/version.hpp>
+
+#include "common/atomic_file.hpp"
+#include "common/user_error.hpp"
+#include "paper/commit.hpp"
+#include "program/human_text.hpp"
+#include "program/output_path.hpp"
+
+namespace geodisk::paper {
+
+Outputs::Outputs(const std::string& folder, const std::string& name)
+    : prefix_((std::filesystem::path(folder) / name).string()) {
+    tools::check_writable(prefix_ + ".csv");
+}
+
+void Outputs::add_table(const Table& table, const std::vector<std::string>& circumstances) {
+    std::string text = "# geodisk " GEODISK_VERSION_STRING ", commit ";
+    text += kCommit;
+    text += kCommitIsDirty ? " with changes\n" : "\n";
+    for (const std::string& line : circumstances) {
+        text += "# " + tools::one_line(line) + '\n';
+    }
+    files_.push_back({prefix_ + ".csv", text + table.csv()});
+}
+
+void Outputs::add_plot(const std::string& ending, const bench::LogPlot& plot) {
+    files_.push_back({prefix_ + ending + ".svg", bench::svg_text(plot)});
+}
+
+void Outputs::write() const {
+    std::list<tools::AtomicFile> written;
+    for (const File& file : files_) {
+        written.emplace_back(file.path).write(file.text);
+        written.back().sync();
+    }
+    for (tools::AtomicFile& file : written) {
+        file.commit();
+    }
+    std::cout << '\n';
+    for (const File& file : files_) {
+        std::cout << "file  " << tools::one_line(file.path) << '\n';
+    }
+    std::cout << std::flush;
+    if (!std::cout) {
+        throw tools::UserError(tools::ExitCode::bad_output,
+                               "the table cannot be written to standard output");
+    }
+}
+
+} // namespace geodisk::paper

@@ -1,0 +1,35 @@
+// The files of a figure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/log_plot.hpp"
+#include "paper/table.hpp"
+
+namespace geodisk::paper {
+
+/// Files that appear together, NAME.csv and plots.
+class Outputs {
+  public:
+    /// Throws UserError(bad_output) if `folder` cannot take a file `name`.csv.
+    Outputs(const std::string& folder, const std::string& name);
+
+    /// `name`.csv, below comment lines that tell program and circumstances.
+    void add_table(const Table& table, const std::vector<std::string>& circumstances);
+
+    /// `name` + `ending`.svg.
+    void add_plot(const std::string& ending, const bench::LogPlot& plot);
+
+    /// Writes all of them, or throws and writes none. Prints their names.
+    void write() const;
+
+  private:
+    struct File {
+        std::string path, text;
+    };
+    std::string prefix_; ///< Folder and name.
+    std::vector<File> files_;
+};
+
+} // namespace geodisk::paper

@@ -1,0 +1,39 @@
+#include "paper/pool.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include "kernels/candidates.hpp"
+#include "program/failure.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::paper {
+
+PaperMesh load_mesh(const std::string& path) {
+    tools::MeshFile file = tools::read_mesh(path);
+    PreparedMesh prepared =
+        tools::take(PreparedMesh::prepare({file.positions, file.triangles}), path);
+    return {std::filesystem::path(path).filename().string(), std::move(file), std::move(prepared)};
+}
+
+std::vector<PaperMesh> load_meshes(const std::vector<std::string>& paths) {
+    std::vector<PaperMesh> meshes;
+    for (const std::string& path : paths) {
+        meshes.push_back(load_mesh(path));
+    }
+    return meshes;
+}
+
+SampleParams params_for(const PaperMesh& mesh, double count, double ratio, std::uint64_t seed) {
+    return {distance_for_count(mesh.area(), count), seed, ratio};
+}
+
+Pool draw_pool(const PaperMesh& mesh, const SampleParams& params) {
+    tools::check_interrupted();
+    const std::uint32_t size = tools::take(pool_size(mesh.prepared, params), mesh.name);
+    const std::uint32_t chain = provided_chain(mesh.prepared, params.min_distance);
+    return {params, tolerances_for(mesh.prepared, params.min_distance, chain),
+            ref::draw_candidates<double>(mesh.prepared.alias_columns(), params.seed, size)};
+}
+
+} // namespace geodisk::paper

@@ -1,0 +1,49 @@
+// Meshes and pools of candidates on them, and the time of work on these.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+
+#include "common/mesh_file.hpp"
+#include "lib/surface.hpp"
+
+namespace geodisk::paper {
+
+struct PaperMesh {
+    std::string name; ///< Without its folder.
+    tools::MeshFile file;
+    PreparedMesh prepared;
+
+    MeshView view() const { return {file.positions, file.triangles}; }
+    double area() const { return prepared.statistics().area; }
+};
+
+PaperMesh load_mesh(const std::string& path);
+std::vector<PaperMesh> load_meshes(const std::vector<std::string>& paths);
+
+/// A run's candidates, as geodisk draws them.
+struct Pool {
+    SampleParams params;
+    Tolerances tolerances;
+    std::vector<ref::FacePoint<double>> by_rank;
+};
+
+/// The parameters that should give about `count` samples of `ratio` times as many candidates.
+SampleParams params_for(const PaperMesh& mesh, double count, double ratio, std::uint64_t seed);
+
+Pool draw_pool(const PaperMesh& mesh, const SampleParams& params);
+
+/// Wall time of `work()`.
+template <class Work>
+double seconds_of(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace geodisk::paper

@@ -1,0 +1,84 @@
+#include "paper/table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+
+namespace geodisk::paper {
+namespace {
+
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"#\n") == std::string::npos) {
+        return text;
+    }
+    std::string cell = "\"";
+    for (const char character : text) {
+        cell += character;
+        cell += character == '"' ? "\"" : "";
+    }
+    return cell + '"';
+}
+
+std::string csv_line(const std::vector<std::string>& cells) {
+    std::string line;
+    for (const std::string& cell : cells) {
+        line += line.empty() ? "" : ",";
+        line += csv_cell(cell);
+    }
+    return line + '\n';
+}
+
+const std::string& shown(const std::string& cell) {
+    static const std::string missing = "-";
+    return cell.empty() ? missing : cell;
+}
+
+} // namespace
+
+std::string Table::text() const {
+    std::vector<std::size_t> widths;
+    for (std::size_t column = 0; column < columns_.size(); ++column) {
+        std::size_t width = columns_[column].size();
+        for (const auto& row : rows_) {
+            width = std::max(width, shown(row[column]).size());
+        }
+        widths.push_back(width);
+    }
+    std::string text;
+    const auto add_line = [&](const std::vector<std::string>& cells) {
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+            const std::string& cell = shown(cells[column]);
+            const std::size_t blanks = widths[column] - cell.size();
+            if (column == 0) {
+                text += cell;
+                text.append(blanks, ' ');
+            } else {
+                text.append(2 + blanks, ' ');
+                text += cell;
+            }
+        }
+        text += '\n';
+    };
+    add_line(columns_);
+    for (const auto& row : rows_) {
+        add_line(row);
+    }
+    return text;
+}
+
+std::string Table::csv() const {
+    std::string text = csv_line(columns_);
+    for (const auto& row : rows_) {
+        text += csv_line(row);
+    }
+    return text;
+}
+
+std::string fixed(double value, int decimals) {
+    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
+    const auto end =
+        std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, decimals);
+    return {digits, end.ptr};
+}
+
+} // namespace geodisk::paper

@@ -1,0 +1,33 @@
+// A table of results, for people and as CSV.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace geodisk::paper {
+
+/// Rows of cells under the names of their columns. An empty cell is a value that does not exist.
+class Table {
+  public:
+    explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+
+    /// As many cells as columns.
+    void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+
+    const std::vector<std::vector<std::string>>& rows() const { return rows_; }
+
+    /// Aligned lines: the first column to the left, all others to the right; '-' for an empty cell.
+    std::string text() const;
+
+    /// Quoted where needed (RFC 4180).
+    std::string csv() const;
+
+  private:
+    std::vector<std::string> columns_;
+    std::vector<std::vector<std::string>> rows_;
+};
+
+/// `value` in decimals, whatever the locale.
+std::string fixed(double value, int decimals);
+
+} // namespace geodisk::paper
