@@ -76,12 +76,12 @@ std::optional<TestMesh> shared_mesh(const std::string& name) {
         return std::nullopt;
     }
     tools::MeshFile file = tools::read_mesh((folder / name).string());
-    return TestMesh{std::move(file.positions), std::move(file.triangles)};
+    return TestMesh{std::move(file.positions), std::move(file.triangles), file.dimension};
 }
 
 TestMesh builtin(std::string_view name, int resolution) {
     tools::MeshFile file = tools::make_builtin(name, resolution);
-    return {std::move(file.positions), std::move(file.triangles)};
+    return {std::move(file.positions), std::move(file.triangles), file.dimension};
 }
 
 Point face_point(std::uint32_t face, double weight1, double weight2) {

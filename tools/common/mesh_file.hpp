@@ -13,6 +13,7 @@ namespace geodisk::tools {
 struct MeshFile {
     std::vector<double> positions;
     std::vector<std::uint32_t> triangles;
+    std::uint32_t dimension = 3;
     std::vector<std::string>
         warnings; ///< One line each: what was repaired or ignored, with counts.
 };
