@@ -93,7 +93,7 @@ BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int
         result.prepared = PreparedMesh(); // The memory of two at once is not part of the question.
         const auto start = Clock::now();
         result.prepared =
-            tools::take(PreparedMesh::prepare({mesh.positions, mesh.triangles}), name);
+            tools::take(PreparedMesh::prepare({mesh.positions, mesh.triangles, mesh.dimension}), name);
         seconds.push_back(seconds_since(start));
     }
     result.prepare_seconds = median(seconds);
