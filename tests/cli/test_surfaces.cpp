@@ -88,6 +88,10 @@ TEST_CASE("edge lengths alone make the surface") {
     folder.write("lengths.txt", kLengths);
     const Arguments surface{"mesh.obj", "--edge-lengths", "lengths.txt"};
     CHECK(check_passes(folder, surface).dimension == 0);
+    const Outcome report =
+        run(folder, joined(joined({"sample"}, surface), {"-n", "9", "-o", "a.csv", "--json", "-"}));
+    CHECK(contains(report.out, "\"edge_lengths\": \"lengths.txt\""));
+    CHECK(contains(report.out, "\"diagonal\": null"));
     const auto fails = [&](int status, const std::string& part, const Arguments& more) {
         check_fails(folder, status, part, joined(joined({"sample"}, surface), more));
     };
@@ -122,6 +126,16 @@ TEST_CASE("a lift measures in the lifted surface and keeps the coordinates") {
     fails(2, "'much' is not a finite weight", {"--lift", "normals:much"});
     fails(2, "makes 9 coordinates of 3", {"--lift", "normals:1", "--lift", "normals:1"});
     fails(3, "only PLY files do", {"--lift", "attribute:quality:1"});
+}
+
+TEST_CASE("faces turned over against each other are warned of before a lift by normals") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3\nf 1 4 3\n");
+    const Outcome outcome =
+        run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q", "--lift", "normals:1"});
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.err, "mesh.obj: 1 edge has faces turned over against each other"));
+    CHECK(run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q"}).err.empty());
 }
 
 TEST_CASE("an attribute of a PLY file is a lift") {

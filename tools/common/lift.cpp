@@ -70,7 +70,8 @@ Columns normal_columns(const std::string& path, const MeshFile& mesh, double wei
         const bool has_normal = length(sums[v]) > kCancelled;
         if (used[v] && !has_normal) {
             fail_input(path, "vertex " + std::to_string(v) +
-                                 " (from 0) has no normal: its faces have no area or cancel out");
+                                 " (from 0) has no normal: its faces have no area, or are "
+                                 "turned over against each other");
         }
         const Vec3 normal = has_normal ? normalized(sums[v]) : Vec3{};
         columns.values.insert(columns.values.end(),

@@ -27,6 +27,10 @@ void print_warnings(const std::string& path, const MeshInput& mesh) {
     for (const std::string& warning : mesh.file.warnings) {
         print_warning(path + ": " + warning);
     }
+    const std::uint64_t flat = mesh.prepared.statistics().zero_area_faces;
+    if (flat > 0 && !mesh.file.lengths.empty()) { // Which the reader does not judge.
+        print_warning(path + ": triangles without area kept: " + std::to_string(flat));
+    }
     if (const std::uint64_t edges = mesh.prepared.statistics().nonmanifold_edges; edges > 0) {
         print_warning(
             path + ": " +

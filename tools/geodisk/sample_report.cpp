@@ -51,6 +51,7 @@ std::string mesh_text(const MeshStatistics& mesh) {
 
 /// Lifts may be several, so they make a list.
 Json mesh_json(const SampleReport& report) {
+    const bool has_box = report.mesh.diagonal > 0; // Edge lengths have none.
     Json mesh{{"path", report.mesh_path}};
     for (const auto& [name, value] : report.mesh_additions) {
         if (name == "lift") {
@@ -65,7 +66,7 @@ Json mesh_json(const SampleReport& report) {
                  {"boundary_edges", report.mesh.boundary_edges},
                  {"nonmanifold_edges", report.mesh.nonmanifold_edges},
                  {"area", report.mesh.area},
-                 {"diagonal", report.mesh.diagonal}});
+                 {"diagonal", has_box ? Json(report.mesh.diagonal) : Json(nullptr)}});
     return mesh;
 }
 
