@@ -31,8 +31,8 @@ bool outside_circle(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const double p2 = dot(p, p);
     const double q2 = dot(q, q);
     const double r2 = dot(r, r);
-    const double sum = p.x * (q.y * r2 - q2 * r.y) - p.y * (q.x * r2 - q2 * r.x) +
-                       p2 * (q.x * r.y - q.y * r.x);
+    const double sum =
+        p.x * (q.y * r2 - q2 * r.y) - p.y * (q.x * r2 - q2 * r.x) + p2 * (q.x * r.y - q.y * r.x);
     return sum <= 0;
 }
 
@@ -241,8 +241,8 @@ TestMesh prism_tube(std::uint32_t sides, double side, double height, std::uint32
     const double radius = side / (2 * std::sin(step / 2));
     for (std::uint32_t j = 0; j <= rows; ++j) {
         for (std::uint32_t i = 0; i < sides; ++i) {
-            mesh.add_vertex({radius * std::cos(step * i), radius * std::sin(step * i),
-                             height * j / rows});
+            mesh.add_vertex(
+                {radius * std::cos(step * i), radius * std::sin(step * i), height * j / rows});
         }
     }
     for (std::uint32_t j = 0; j < rows; ++j) {

@@ -294,7 +294,8 @@ TEST_CASE("samples keep as many coordinates as their mesh has") {
     write_samples(folder / "b.csv", {}, std::vector<SampleRow>{row_of(0)}, false, 0);
     CHECK(bytes_of(folder / "b.csv") == "face_index,bary_u,bary_v,bary_w,candidate\n3,1,0,0,9\n");
     write_samples(folder / "b.ply", {}, std::vector<SampleRow>{row_of(4)}, true, 4);
-    CHECK(contains(bytes_of(folder / "b.ply"), "double y\nproperty double z\nproperty double x0\n"));
+    CHECK(
+        contains(bytes_of(folder / "b.ply"), "double y\nproperty double z\nproperty double x0\n"));
     CHECK(contains(bytes_of(folder / "b.ply"), "\n0.5 1.5 2.5 0.5 1.5 2.5 3.5 3 1 0 0 9\n"));
     check_fails(ExitCode::bad_input, "no column z", [&] {
         read_samples(folder.write("c.csv", "x,y,face_index,bary_u,bary_v,bary_w\n"));
