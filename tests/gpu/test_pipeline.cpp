@@ -32,9 +32,9 @@ void check_against_reference(const PreparedMesh& mesh, double count, std::uint64
 TEST_SUITE("pipeline") {
     TEST_CASE("generated surfaces equal sequential dart throwing") {
         const std::pair<const char*, int> shapes[] = {
-            {"cube", 1},     {"icosphere", 4},     {"torus-knot", 12},
-            {"plate", 8},    {"folded-sheet", 16}, {"unfolded-sheet", 16},
-            {"terrain", 48}, {"lattice", 1},       {"moebius", 8}};
+            {"cube", 1},          {"icosphere", 4},       {"torus-knot", 12},   {"plate", 8},
+            {"folded-sheet", 16}, {"unfolded-sheet", 16}, {"terrain", 48},      {"lattice", 1},
+            {"moebius", 8},       {"clifford-torus", 24}, {"klein-bottle", 20}, {"veronese", 4}};
         for (const auto& [name, resolution] : shapes) {
             CAPTURE(name);
             const PreparedMesh mesh = prepared(builtin(name, resolution));
@@ -43,6 +43,20 @@ TEST_SUITE("pipeline") {
                 check_against_reference(mesh, count);
             }
         }
+    }
+
+    TEST_CASE("edge lengths alone give the set of the coordinates they come from") {
+        const TestMesh mesh = builtin("klein-bottle", 20);
+        const PreparedMesh model = prepared(mesh);
+        std::vector<double> lengths;
+        for (const HalfEdge& edge : model.half_edges()) {
+            lengths.push_back(edge.length);
+        }
+        const PreparedMesh surface =
+            expect(PreparedMesh::prepare({mesh.triangles, lengths, mesh.vertex_count()}));
+        check_against_reference(surface, 1000);
+        CHECK(ranks_of(sample(surface, params_for(model, 1000))) ==
+              ranks_of(sample(model, params_for(model, 1000))));
     }
 
     TEST_CASE("a cube of 12 triangles with 20,000 samples") {

@@ -31,8 +31,8 @@ bool outside_circle(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const double p2 = dot(p, p);
     const double q2 = dot(q, q);
     const double r2 = dot(r, r);
-    const double sum = p.x * (q.y * r2 - q2 * r.y) - p.y * (q.x * r2 - q2 * r.x) +
-                       p2 * (q.x * r.y - q.y * r.x);
+    const double sum =
+        p.x * (q.y * r2 - q2 * r.y) - p.y * (q.x * r2 - q2 * r.x) + p2 * (q.x * r.y - q.y * r.x);
     return sum <= 0;
 }
 
@@ -76,12 +76,12 @@ std::optional<TestMesh> shared_mesh(const std::string& name) {
         return std::nullopt;
     }
     tools::MeshFile file = tools::read_mesh((folder / name).string());
-    return TestMesh{std::move(file.positions), std::move(file.triangles)};
+    return TestMesh{std::move(file.positions), std::move(file.triangles), file.dimension};
 }
 
 TestMesh builtin(std::string_view name, int resolution) {
     tools::MeshFile file = tools::make_builtin(name, resolution);
-    return {std::move(file.positions), std::move(file.triangles)};
+    return {std::move(file.positions), std::move(file.triangles), file.dimension};
 }
 
 Point face_point(std::uint32_t face, double weight1, double weight2) {
@@ -241,8 +241,8 @@ TestMesh prism_tube(std::uint32_t sides, double side, double height, std::uint32
     const double radius = side / (2 * std::sin(step / 2));
     for (std::uint32_t j = 0; j <= rows; ++j) {
         for (std::uint32_t i = 0; i < sides; ++i) {
-            mesh.add_vertex({radius * std::cos(step * i), radius * std::sin(step * i),
-                             height * j / rows});
+            mesh.add_vertex(
+                {radius * std::cos(step * i), radius * std::sin(step * i), height * j / rows});
         }
     }
     for (std::uint32_t j = 0; j < rows; ++j) {

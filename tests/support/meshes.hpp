@@ -16,14 +16,17 @@ namespace geodisk::test {
 using Point = ref::FacePoint<double>;
 using tools::Vec3;
 
-/// A triangle mesh in space that owns its arrays.
+/// A triangle mesh that owns its arrays; what takes or returns a Vec3 is for meshes in space.
 struct TestMesh {
     std::vector<double> positions;
     std::vector<std::uint32_t> triangles;
+    std::uint32_t dimension = 3;
 
-    MeshView view() const { return {positions, triangles, 3}; }
+    MeshView view() const { return {positions, triangles, dimension}; }
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(triangles.size() / 3); }
-    std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
+    std::uint32_t vertex_count() const {
+        return static_cast<std::uint32_t>(positions.size() / dimension);
+    }
     Vec3 vertex(std::uint32_t v) const;
     Vec3 corner(std::uint32_t face, std::uint32_t k) const {
         return vertex(triangles[std::size_t{3} * face + k]);

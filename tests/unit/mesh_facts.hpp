@@ -5,6 +5,7 @@
 #include "common/vec3.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <numeric>
@@ -13,15 +14,41 @@
 
 namespace geodisk::tools {
 
+/// Of a mesh in space.
 inline Vec3 position_at(const MeshFile& mesh, std::size_t vertex) {
     const double* p = &mesh.positions[3 * vertex];
     return {p[0], p[1], p[2]};
 }
 
+/// From one vertex to another, with any number of coordinates.
+inline std::vector<double> side(const MeshFile& mesh, std::size_t from, std::size_t to) {
+    std::vector<double> side(mesh.dimension);
+    for (std::size_t axis = 0; axis < side.size(); ++axis) {
+        side[axis] = mesh.positions[to * mesh.dimension + axis] -
+                     mesh.positions[from * mesh.dimension + axis];
+    }
+    return side;
+}
+
+inline double dot_product(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
 inline double triangle_area(const MeshFile& mesh, std::size_t triangle) {
     const std::uint32_t* corner = &mesh.triangles[3 * triangle];
-    const Vec3 a = position_at(mesh, corner[0]);
-    return 0.5 * length(cross(position_at(mesh, corner[1]) - a, position_at(mesh, corner[2]) - a));
+    std::vector<double> a = side(mesh, corner[0], corner[1]);
+    std::vector<double> b = side(mesh, corner[0], corner[2]);
+    if (dot_product(a, a) < dot_product(b, b)) {
+        std::swap(a, b);
+    }
+    // Height times base: of a needle, the difference of products would leave nothing.
+    const double part = dot_product(a, b) / dot_product(a, a);
+    double height2 = 0;
+    for (std::size_t axis = 0; axis < a.size(); ++axis) {
+        const double d = b[axis] - part * a[axis];
+        height2 += d * d;
+    }
+    return 0.5 * std::sqrt(dot_product(a, a) * height2);
 }
 
 inline double total_area(const MeshFile& mesh) {
@@ -72,9 +99,9 @@ class Groups {
 inline double flatness(const MeshFile& mesh, std::size_t triangle) {
     double longest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 a = position_at(mesh, mesh.triangles[3 * triangle + i]);
-        const Vec3 b = position_at(mesh, mesh.triangles[3 * triangle + (i + 1) % 3]);
-        longest = std::max(longest, length(b - a));
+        const std::vector<double> edge = side(mesh, mesh.triangles[3 * triangle + i],
+                                              mesh.triangles[3 * triangle + (i + 1) % 3]);
+        longest = std::max(longest, std::sqrt(dot_product(edge, edge)));
     }
     return triangle_area(mesh, triangle) / (longest * longest);
 }
@@ -138,7 +165,7 @@ class EdgeTable {
 
 inline MeshFacts measure(const MeshFile& mesh) {
     MeshFacts facts;
-    facts.vertices = mesh.positions.size() / 3;
+    facts.vertices = mesh.positions.size() / mesh.dimension;
     facts.triangles = mesh.triangles.size() / 3;
 
     Groups components(facts.vertices);

@@ -92,8 +92,8 @@ BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int
         tools::check_interrupted();
         result.prepared = PreparedMesh(); // The memory of two at once is not part of the question.
         const auto start = Clock::now();
-        result.prepared =
-            tools::take(PreparedMesh::prepare({mesh.positions, mesh.triangles}), name);
+        result.prepared = tools::take(
+            PreparedMesh::prepare({mesh.positions, mesh.triangles, mesh.dimension}), name);
         seconds.push_back(seconds_since(start));
     }
     result.prepare_seconds = median(seconds);

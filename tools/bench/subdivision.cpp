@@ -14,6 +14,7 @@ class Subdivider {
   public:
     Subdivider(const MeshFile& mesh, std::uint32_t parts) : mesh_(mesh), parts_(parts) {
         result_.positions = mesh.positions;
+        result_.dimension = mesh.dimension;
         row_starts_.resize(std::size_t{parts} + 2);
         for (std::uint32_t row = 0; row <= parts; ++row) {
             row_starts_[row + 1] = row_starts_[row] + parts - row + 1;
@@ -36,14 +37,14 @@ class Subdivider {
     }
 
     std::uint32_t vertex_count() const {
-        return static_cast<std::uint32_t>(result_.positions.size() / 3);
+        return static_cast<std::uint32_t>(result_.positions.size() / mesh_.dimension);
     }
 
     void add_vertex(const std::uint32_t (&corners)[3], const std::uint32_t (&steps)[3]) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < mesh_.dimension; ++axis) {
             double sum = 0;
             for (int k = 0; k < 3; ++k) {
-                sum += steps[k] * mesh_.positions[3 * std::size_t{corners[k]} + axis];
+                sum += steps[k] * mesh_.positions[std::size_t{corners[k]} * mesh_.dimension + axis];
             }
             result_.positions.push_back(sum / parts_);
         }

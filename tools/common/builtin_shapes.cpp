@@ -30,6 +30,11 @@ constexpr Entry kEntries[] = {
      make_unfolded_sheet},
     {{"terrain", "square of hills; parts per edge", 160, 1, 3000}, make_terrain},
     {{"moebius", "one-sided strip; parts across the strip", 12, 1, 800}, make_moebius},
+    {{"clifford-torus", "flat torus in R^4; points around each circle", 64, 3, 3000},
+     make_clifford_torus},
+    {{"klein-bottle", "one-sided, closed, in R^4; points around the tube", 48, 3, 2000},
+     make_klein_bottle},
+    {{"veronese", "projective plane in R^4; subdivision steps", 5, 0, 9}, make_veronese},
 };
 
 constexpr std::size_t kShapeCount = std::size(kEntries);

@@ -4,18 +4,22 @@
 #include "common/file_input.hpp"
 #include "common/obj_reader.hpp"
 #include "common/ply_reader.hpp"
+#include "common/polygon_flattening.hpp"
 #include "common/polygon_mesh.hpp"
 #include "common/polygon_triangulation.hpp"
+#include "common/sidecar_files.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
-#include "common/vec3.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace geodisk::tools {
 
@@ -24,20 +28,29 @@ namespace {
 using Path = std::filesystem::path;
 
 bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
-    const double* p = &mesh.positions[3 * vertex];
-    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+    const auto coordinates =
+        std::span(mesh.positions).subspan(vertex * mesh.dimension, mesh.dimension);
+    return std::all_of(coordinates.begin(), coordinates.end(),
+                       [](double x) { return std::isfinite(x); });
+}
+
+/// The number the mesh file gives its first vertex.
+std::uint32_t first_vertex_of(const PolygonMesh& mesh) {
+    return mesh.face_lines.empty() ? 0 : 1;
+}
+
+std::string place_of_face(const PolygonMesh& mesh, std::size_t face) {
+    return mesh.face_lines.empty() ? "element face, record " + std::to_string(face)
+                                   : "line " + std::to_string(mesh.face_lines[face]);
 }
 
 /// OBJ users count vertices from 1 and look for lines, PLY users count records from 0.
 [[noreturn]] void fail_index(const Path& path, const PolygonMesh& mesh, std::size_t face,
                              std::uint32_t vertex) {
-    const bool has_lines = !mesh.face_lines.empty();
-    const std::string place = has_lines ? "line " + std::to_string(mesh.face_lines[face])
-                                        : "element face, record " + std::to_string(face);
-    fail_input(path, place + ": vertex index " +
-                         std::to_string(std::uint64_t{vertex} + (has_lines ? 1u : 0u)) +
-                         " is out of range, the file has " +
-                         std::to_string(mesh.positions.size() / 3) + " vertices");
+    fail_input(path, place_of_face(mesh, face) + ": vertex index " +
+                         std::to_string(std::uint64_t{vertex} + first_vertex_of(mesh)) +
+                         " is out of range, the file has " + std::to_string(mesh.vertex_count()) +
+                         " vertices");
 }
 
 [[noreturn]] void fail_not_finite(const Path& path, const PolygonMesh& mesh, std::size_t vertex) {
@@ -54,9 +67,22 @@ void warn(MeshFile& mesh, const std::string& what, std::size_t count) {
     }
 }
 
+/// A face may name any vertex then, so that their number has to be bounded.
+void check_bare_corners(const Path& path, const PolygonMesh& polygons) {
+    const std::uint64_t bound = polygons.corners.size();
+    for (const std::uint32_t vertex : polygons.corners) {
+        if (vertex >= bound) {
+            fail_input(path, "vertex index " +
+                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
+                                 " is out of range: without coordinates, a mesh of " +
+                                 std::to_string(bound) + " corners has at most so many vertices");
+        }
+    }
+}
+
 /// Checks every face against the vertices; warns of unused vertices that are not finite.
 void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
-    const std::size_t vertex_count = polygons.positions.size() / 3;
+    const std::size_t vertex_count = polygons.vertex_count();
     if (vertex_count > std::numeric_limits<std::uint32_t>::max()) {
         fail_input(path, "has more vertices than a face can refer to");
     }
@@ -80,6 +106,21 @@ void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh
     warn(mesh, "unused vertices that are not finite", not_finite);
 }
 
+/// Appends the triangles of a polygon to `parts`.
+void split_polygon(const PolygonMesh& mesh, const std::vector<std::uint32_t>& corners,
+                   std::vector<std::uint32_t>& parts) {
+    if (mesh.dimension == 3 || corners.size() <= 3) {
+        triangulate_polygon(mesh.positions, corners, parts);
+        return;
+    }
+    std::vector<std::uint32_t> places(corners.size());
+    std::iota(places.begin(), places.end(), 0u);
+    triangulate_polygon(flattened_polygon(mesh.positions, mesh.dimension, corners), places, parts);
+    for (std::uint32_t& part : parts) {
+        part = corners[part];
+    }
+}
+
 /// Splits all faces. Faces that repeat a vertex keep what is left of them without the repetition.
 void split_faces(const PolygonMesh& polygons, MeshFile& mesh) {
     std::size_t too_small = 0;
@@ -100,7 +141,7 @@ void split_faces(const PolygonMesh& polygons, MeshFile& mesh) {
             corners.pop_back();
         }
         parts.clear();
-        triangulate_polygon(mesh.positions, corners, parts);
+        split_polygon(polygons, corners, parts);
         const std::size_t size_before = mesh.triangles.size();
         for (std::size_t i = 0; i < parts.size(); i += 3) {
             const std::uint32_t a = parts[i], b = parts[i + 1], c = parts[i + 2];
@@ -148,36 +189,43 @@ void drop_copies(MeshFile& mesh) {
 
 /// Whether the triangle is more than a line or point, up to rounding, at any scale.
 bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
-    Vec3 points[3];
+    const auto coordinate = [&](int k, std::size_t axis) {
+        return mesh.positions[std::size_t{corner[k]} * mesh.dimension + axis];
+    };
     double largest = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double* p = &mesh.positions[3 * std::size_t{corner[i]}];
-        points[i] = {p[0], p[1], p[2]};
-        largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
+        for (int k = 0; k < 3; ++k) {
+            largest = std::max(largest, std::abs(coordinate(k, axis)));
+        }
     }
     if (largest == 0) {
         return false;
     }
-    const Vec3 a = (1 / largest) * points[0];
-    const Vec3 ab = (1 / largest) * points[1] - a;
-    const Vec3 ac = (1 / largest) * points[2] - a;
+    std::array<double, kMostCoordinates> longer{}, shorter{}; // Two sides.
+    double longer2 = 0, shorter2 = 0, product = 0;
+    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
+        const double a = 1 / largest * coordinate(0, axis);
+        longer[axis] = 1 / largest * coordinate(1, axis) - a;
+        shorter[axis] = 1 / largest * coordinate(2, axis) - a;
+        longer2 += longer[axis] * longer[axis];
+        shorter2 += shorter[axis] * shorter[axis];
+        product += longer[axis] * shorter[axis];
+    }
+    if (longer2 < shorter2) {
+        std::swap(longer, shorter);
+        std::swap(longer2, shorter2);
+    }
+    double height2 = 0; // Of the shorter side above the longer one.
+    for (std::size_t axis = 0; axis < mesh.dimension && longer2 > 0; ++axis) {
+        const double part = shorter[axis] - product / longer2 * longer[axis];
+        height2 += part * part;
+    }
     constexpr double kFlat = 1e-15; // Less height is the rounding of coordinates, which are <= 1.
-    return length(cross(ab, ac)) > kFlat * std::max(length(ab), length(ac));
+    return height2 > kFlat * kFlat;
 }
 
-MeshFile to_triangles(const Path& path, PolygonMesh&& polygons) {
-    MeshFile mesh;
-    mesh.warnings = std::move(polygons.warnings);
-    if (polygons.face_ends.empty()) {
-        fail_input(path, "has no faces");
-    }
-    check_corners(path, polygons, mesh);
-    mesh.positions = std::move(polygons.positions);
-    split_faces(polygons, mesh);
-    if (mesh.triangles.size() / 3 > std::numeric_limits<std::uint32_t>::max()) {
-        fail_input(path, "has too many triangles");
-    }
-    drop_copies(mesh);
+/// Refuses a mesh all of whose faces are flat.
+void check_areas(const Path& path, MeshFile& mesh) {
     std::size_t without_area = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
         without_area += has_area(mesh, &mesh.triangles[i]) ? 0u : 1u;
@@ -186,6 +234,76 @@ MeshFile to_triangles(const Path& path, PolygonMesh&& polygons) {
         fail_input(path, "has no face with an area");
     }
     warn(mesh, "triangles without area kept", without_area);
+}
+
+/// Polygons have sides but no diagonals.
+void check_triangles(const Path& path, const PolygonMesh& polygons) {
+    std::size_t begin = 0;
+    for (std::size_t face = 0; face < polygons.face_ends.size(); ++face) {
+        const std::size_t size = polygons.face_ends[face] - begin;
+        begin = polygons.face_ends[face];
+        if (size > 3) {
+            fail_input(path, place_of_face(polygons, face) + ": has " + std::to_string(size) +
+                                 " corners; with edge lengths all faces must be triangles");
+        }
+    }
+}
+
+void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            mesh.lengths.push_back(
+                lengths.between(mesh.triangles[i + k], mesh.triangles[i + (k + 1) % 3]));
+        }
+    }
+    warn(mesh, "lengths of edges that no face has ignored", lengths.unused());
+}
+
+void take_coordinates(const MeshSources& sources, PolygonMesh& polygons) {
+    Coordinates given = read_coordinates(sources.coordinates);
+    const std::size_t count = given.positions.size() / given.dimension;
+    if (!polygons.positions.empty() && count != polygons.vertex_count()) {
+        fail_input(sources.coordinates, "has the coordinates of " + std::to_string(count) +
+                                            " vertices, but " + sources.mesh + " has " +
+                                            std::to_string(polygons.vertex_count()));
+    }
+    polygons.positions = std::move(given.positions);
+    polygons.dimension = given.dimension;
+}
+
+MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
+    const Path path = sources.mesh;
+    const bool has_lengths = !sources.edge_lengths.empty();
+    MeshFile mesh;
+    mesh.warnings = std::move(polygons.warnings);
+    if (polygons.face_ends.empty()) {
+        fail_input(path, "has no faces");
+    }
+    if (!sources.coordinates.empty()) {
+        take_coordinates(sources, polygons);
+    }
+    if (has_lengths) {
+        check_triangles(path, polygons);
+    }
+    if (has_lengths && polygons.positions.empty()) {
+        check_bare_corners(path, polygons);
+    } else {
+        check_corners(path, polygons, mesh);
+    }
+    split_faces(polygons, mesh);
+    if (mesh.triangles.size() / 3 > std::numeric_limits<std::uint32_t>::max()) {
+        fail_input(path, "has too many triangles");
+    }
+    mesh.positions = std::move(polygons.positions);
+    mesh.dimension = polygons.dimension;
+    mesh.attributes = std::move(polygons.attributes);
+    drop_copies(mesh);
+    if (has_lengths) {
+        EdgeLengths lengths(sources.edge_lengths, first_vertex_of(polygons));
+        take_lengths(lengths, mesh);
+    } else {
+        check_areas(path, mesh);
+    }
     return mesh;
 }
 
@@ -204,21 +322,46 @@ MeshFile read_builtin(std::string_view spec) {
     return make_builtin(spec.substr(0, colon), resolution);
 }
 
+void check_no_attributes(const MeshSources& sources) {
+    if (!sources.attributes.empty()) {
+        fail_input(sources.mesh, "has no vertex properties, so no " +
+                                     in_quotes(sources.attributes.front()) + "; only PLY files do");
+    }
+}
+
 } // namespace
 
-MeshFile read_mesh(const std::string& path) {
+MeshFile read_mesh(const MeshSources& sources) {
+    const std::string& path = sources.mesh;
     constexpr std::string_view kBuiltin = "builtin:";
+    if (!sources.coordinates.empty() && !sources.edge_lengths.empty()) {
+        throw UserError(ExitCode::usage,
+                        "--coordinates and --edge-lengths contradict each other; give just one");
+    }
     if (path.starts_with(kBuiltin)) {
+        if (!sources.coordinates.empty() || !sources.edge_lengths.empty()) {
+            throw UserError(ExitCode::usage, path + " is complete; --coordinates and "
+                                                    "--edge-lengths are for mesh files");
+        }
+        check_no_attributes(sources);
         return read_builtin(std::string_view(path).substr(kBuiltin.size()));
     }
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {
-        return to_triangles(path, read_obj(path));
+        check_no_attributes(sources);
+        return to_triangles(sources, read_obj(path));
     }
     if (extension == ".ply") {
-        return to_triangles(path, read_ply(path));
+        const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
+        return to_triangles(sources, read_ply(path, {!has_other_source, sources.attributes}));
     }
     fail_input(path, "unknown mesh format; known are .obj, .ply and builtin:NAME");
+}
+
+MeshFile read_mesh(const std::string& path) {
+    MeshSources sources;
+    sources.mesh = path;
+    return read_mesh(sources);
 }
 
 } // namespace geodisk::tools

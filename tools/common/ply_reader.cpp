@@ -2,29 +2,89 @@
 
 #include "common/file_input.hpp"
 #include "common/ply_file.hpp"
+#include "common/sidecar_files.hpp"
 #include "common/text.hpp"
 
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace geodisk::tools {
 
 namespace {
 
-void read_vertices(const std::filesystem::path& path, PlyFile& file, const PlyElement& element,
-                   PolygonMesh& mesh) {
-    std::size_t columns[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        const char name[] = {"xyz"[axis], '\0'};
+/// The properties x0, x1 and so on.
+std::vector<std::size_t> numbered_columns(const std::filesystem::path& path,
+                                          const PlyElement& element) {
+    std::vector<std::size_t> columns;
+    for (std::uint32_t i = 0; i <= kMostCoordinates; ++i) {
+        const char name[] = {'x', static_cast<char>('0' + i), '\0'};
         const std::optional<std::size_t> column = element.find_scalar(name);
-        if (!column) {
-            fail_input(path, std::string("element vertex has no property ") + name);
+        if (column && columns.size() < i) {
+            fail_input(path, std::string("element vertex has a property ") + name + " but no x" +
+                                 std::to_string(columns.size()));
         }
-        columns[axis] = *column;
+        if (column) {
+            columns.push_back(*column);
+        }
     }
-    mesh.positions.reserve(3 * file.possible_records(element));
+    if (columns.size() < kFewestCoordinates || columns.size() > kMostCoordinates) {
+        fail_input(path, "element vertex has properties x0 to x" +
+                             std::to_string(columns.size() - 1) +
+                             "; a vertex has 3 to 8 coordinates");
+    }
+    return columns;
+}
+
+/// Where the coordinates stand; nowhere if the element has none and need not.
+std::vector<std::size_t> coordinate_columns(const std::filesystem::path& path,
+                                            const PlyElement& element, bool must_exist) {
+    if (element.find_scalar("x0")) {
+        return numbered_columns(path, element);
+    }
+    std::vector<std::size_t> columns;
+    std::string missing;
+    for (const char* const name : {"x", "y", "z"}) {
+        if (const std::optional<std::size_t> column = element.find_scalar(name)) {
+            columns.push_back(*column);
+        } else if (missing.empty()) {
+            missing = name;
+        }
+    }
+    if (!missing.empty() && (must_exist || !columns.empty())) {
+        fail_input(path, "element vertex has no property " + missing);
+    }
+    return columns;
+}
+
+std::size_t attribute_column(const std::filesystem::path& path, const PlyElement& element,
+                             const std::string& name) {
+    const std::optional<std::size_t> column = element.find_scalar(name);
+    if (!column) {
+        fail_input(path, "element vertex has no " +
+                             std::string(element.find_list(name) ? "scalar " : "") + "property " +
+                             in_quotes(name));
+    }
+    return *column;
+}
+
+void read_vertices(const std::filesystem::path& path, PlyFile& file, const PlyElement& element,
+                   const PlyWanted& wanted, PolygonMesh& mesh) {
+    const std::vector<std::size_t> columns =
+        coordinate_columns(path, element, wanted.has_coordinates);
+    std::vector<std::size_t> attributes;
+    for (const std::string& name : wanted.attributes) {
+        attributes.push_back(attribute_column(path, element, name));
+    }
+    mesh.dimension = columns.empty() ? 3 : static_cast<std::uint32_t>(columns.size());
+    mesh.attributes.resize(attributes.size());
+    mesh.positions.reserve(columns.size() * file.possible_records(element));
     file.read_records(element, [&](std::uint64_t, const PlyRecord& record) {
         for (const std::size_t column : columns) {
             mesh.positions.push_back(record.scalars[column]);
+        }
+        for (std::size_t i = 0; i < attributes.size(); ++i) {
+            mesh.attributes[i].push_back(record.scalars[attributes[i]]);
         }
     });
 }
@@ -56,7 +116,7 @@ void read_faces(const std::filesystem::path& path, PlyFile& file, const PlyEleme
 
 } // namespace
 
-PolygonMesh read_ply(const std::filesystem::path& path) {
+PolygonMesh read_ply(const std::filesystem::path& path, const PlyWanted& wanted) {
     PlyFile file(path);
     PolygonMesh mesh;
     bool has_vertices = false;
@@ -64,7 +124,7 @@ PolygonMesh read_ply(const std::filesystem::path& path) {
     for (const PlyElement& element : file.elements()) {
         if (element.name == "vertex") {
             has_vertices = true;
-            read_vertices(path, file, element, mesh);
+            read_vertices(path, file, element, wanted, mesh);
         } else if (element.name == "face") {
             has_faces = true;
             read_faces(path, file, element, mesh);

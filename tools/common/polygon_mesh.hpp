@@ -10,7 +10,9 @@
 namespace geodisk::tools {
 
 struct PolygonMesh {
-    std::vector<double> positions;      ///< x y z per vertex.
+    std::vector<double> positions; ///< `dimension` coordinates per vertex, if any.
+    std::uint32_t dimension = 3;
+    std::vector<std::vector<double>> attributes; ///< Those asked for, a value per vertex each.
     std::vector<std::uint32_t> corners; ///< Vertex indices of all faces, one face after another.
     std::vector<std::size_t> face_ends; ///< For each face, the end of its corners.
     std::vector<std::string> warnings;
@@ -18,6 +20,8 @@ struct PolygonMesh {
     /// 1-based line of each vertex and face for messages; empty where records have no lines.
     std::vector<std::uint32_t> vertex_lines;
     std::vector<std::uint32_t> face_lines;
+
+    std::size_t vertex_count() const { return positions.size() / dimension; }
 };
 
 } // namespace geodisk::tools

@@ -25,4 +25,8 @@ enum class SampleColumn : std::size_t {
 inline constexpr std::array<std::string_view, 11> kSampleColumnNames{
     "x", "y", "z", "nx", "ny", "nz", "face_index", "bary_u", "bary_v", "bary_w", "candidate"};
 
+/// The coordinates of samples that have more than three.
+inline constexpr std::array<std::string_view, 8> kNumberedColumnNames{"x0", "x1", "x2", "x3",
+                                                                      "x4", "x5", "x6", "x7"};
+
 } // namespace geodisk::tools

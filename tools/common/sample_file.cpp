@@ -2,14 +2,13 @@
 
 #include "common/atomic_file.hpp"
 #include "common/file_input.hpp"
+#include "common/little_endian.hpp"
 #include "common/sample_columns.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace geodisk::tools {
 
@@ -45,10 +44,10 @@ void write_entries(AtomicFile& file, const SampleHeader& header, const char* pre
 }
 
 /// Whether rounding to float moves no position by more than a millionth of the set's extent.
-bool float_is_enough(std::span<const SampleRow> rows) {
+bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
     double largest = 0;
     double extent = 0;
-    for (int axis = 0; axis < 3 && !rows.empty(); ++axis) {
+    for (std::uint32_t axis = 0; axis < dimension && !rows.empty(); ++axis) {
         const auto [low, high] = std::minmax_element(
             rows.begin(), rows.end(), [axis](const SampleRow& a, const SampleRow& b) {
                 return a.position[axis] < b.position[axis];
@@ -63,51 +62,82 @@ bool float_is_enough(std::span<const SampleRow> rows) {
     return in_range && largest <= 16 * extent;
 }
 
+/// What the columns of a file are.
+struct Layout {
+    std::uint32_t dimension;
+    bool has_xyz; ///< The first three coordinates by these names.
+    bool has_float_positions;
+
+    bool has_numbered() const { return dimension > 3; }
+    bool has_normals() const { return dimension == 3; }
+};
+
+struct Column {
+    std::string_view name;
+    const char* ply_type;
+};
+
+/// In the order of for_each_value().
+std::vector<Column> columns_of(const Layout& layout) {
+    std::vector<Column> columns;
+    const auto add = [&](SampleColumn first, SampleColumn last, const char* type) {
+        for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
+            columns.push_back({kSampleColumnNames[i], type});
+        }
+    };
+    const char* const coordinate = layout.has_float_positions ? "float" : "double";
+    if (layout.has_xyz) {
+        add(SampleColumn::x, SampleColumn::z, coordinate);
+    }
+    for (std::size_t axis = 0; axis < layout.dimension && layout.has_numbered(); ++axis) {
+        columns.push_back({kNumberedColumnNames[axis], coordinate});
+    }
+    if (layout.has_normals()) {
+        add(SampleColumn::nx, SampleColumn::nz, "float");
+    }
+    add(SampleColumn::face_index, SampleColumn::face_index, "int");
+    add(SampleColumn::bary_u, SampleColumn::bary_w, "float");
+    add(SampleColumn::candidate, SampleColumn::candidate, "uint");
+    return columns;
+}
+
 void write_ply_header(AtomicFile& file, const SampleHeader& header, std::size_t count, bool ascii,
-                      bool float_positions) {
+                      const Layout& layout) {
     file.write(ascii ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
     write_entries(file, header, "comment ");
     file.write("element vertex " + std::to_string(count) + "\n");
-    for (std::size_t i = 0; i < kSampleColumnNames.size(); ++i) {
-        const SampleColumn column{i};
-        const char* type = "float ";
-        if (column <= SampleColumn::z && !float_positions) {
-            type = "double ";
-        } else if (column == SampleColumn::face_index) {
-            type = "int ";
-        } else if (column == SampleColumn::candidate) {
-            type = "uint ";
-        }
+    for (const Column& column : columns_of(layout)) {
         file.write("property ");
-        file.write(type);
-        file.write(kSampleColumnNames[i]);
+        file.write(column.ply_type);
+        file.write(" ");
+        file.write(column.name);
         file.write("\n");
     }
     file.write("end_header\n");
 }
 
-template <typename Value>
-void append_little_endian(std::string& bytes, Value value) {
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    if constexpr (std::endian::native == std::endian::big) {
-        std::reverse(raw, raw + sizeof raw);
-    }
-    bytes.append(raw, sizeof raw);
-}
-
-/// Calls append(value) with every value of the row in the order of kSampleColumnNames.
+/// Calls append(value) with every value of the row in the order of columns_of().
 template <typename Append>
-void for_each_value(const SampleRow& row, bool float_positions, const Append& append) {
-    for (const double coordinate : row.position) {
-        if (float_positions) {
-            append(static_cast<float>(coordinate));
-        } else {
+void for_each_value(const SampleRow& row, const Layout& layout, const Append& append) {
+    const auto append_coordinates = [&](std::size_t count) {
+        for (const double coordinate : std::span(row.position).first(count)) {
+            if (layout.has_float_positions) {
+                append(static_cast<float>(coordinate));
+            } else {
+                append(coordinate);
+            }
+        }
+    };
+    if (layout.has_xyz) {
+        append_coordinates(3);
+    }
+    if (layout.has_numbered()) {
+        append_coordinates(layout.dimension);
+    }
+    if (layout.has_normals()) {
+        for (const float coordinate : row.normal) {
             append(coordinate);
         }
-    }
-    for (const float coordinate : row.normal) {
-        append(coordinate);
     }
     append(row.face);
     for (const float weight : row.bary) {
@@ -116,9 +146,9 @@ void for_each_value(const SampleRow& row, bool float_positions, const Append& ap
     append(row.candidate);
 }
 
-void append_text_row(std::string& line, const SampleRow& row, bool float_positions,
+void append_text_row(std::string& line, const SampleRow& row, const Layout& layout,
                      char separator) {
-    for_each_value(row, float_positions, [&](auto value) {
+    for_each_value(row, layout, [&](auto value) {
         append_number(line, value);
         line += separator;
     });
@@ -126,33 +156,34 @@ void append_text_row(std::string& line, const SampleRow& row, bool float_positio
 }
 
 void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               bool ascii) {
-    const bool float_positions = float_is_enough(rows);
-    write_ply_header(file, header, rows.size(), ascii, float_positions);
+               bool ascii, std::uint32_t dimension) {
+    const Layout layout{dimension, dimension >= 3, float_is_enough(rows, dimension)};
+    write_ply_header(file, header, rows.size(), ascii, layout);
     std::string record;
     for (const SampleRow& row : rows) {
         record.clear();
         if (ascii) {
-            append_text_row(record, row, float_positions, ' ');
+            append_text_row(record, row, layout, ' ');
         } else {
-            for_each_value(row, float_positions,
-                           [&](auto value) { append_little_endian(record, value); });
+            for_each_value(row, layout, [&](auto value) { append_little_endian(record, value); });
         }
         file.write(record);
     }
 }
 
-void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows) {
+void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               std::uint32_t dimension) {
+    const Layout layout{dimension, dimension == 3, false};
     write_entries(file, header, "# ");
     std::string line;
-    for (const std::string_view name : kSampleColumnNames) {
+    for (const Column& column : columns_of(layout)) {
         line += line.empty() ? "" : ",";
-        line += name;
+        line += column.name;
     }
     file.write(line + "\n");
     for (const SampleRow& row : rows) {
         line.clear();
-        append_text_row(line, row, false, ',');
+        append_text_row(line, row, layout, ',');
         file.write(line);
     }
 }
@@ -161,7 +192,7 @@ void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
     std::string line;
     for (const SampleRow& row : rows) {
         line.clear();
-        for (const double coordinate : row.position) {
+        for (const double coordinate : std::span(row.position).first(3)) {
             append_number(line, coordinate);
             line += ' ';
         }
@@ -173,21 +204,21 @@ void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
 } // namespace
 
 void write_samples(const std::filesystem::path& path, const SampleHeader& header,
-                   std::span<const SampleRow> rows, bool ascii_ply) {
-    format_of(path); // Before a file appears.
+                   std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension) {
+    check_dimension(path, dimension); // Before a file appears.
     AtomicFile file(path);
-    write_samples(file, path, header, rows, ascii_ply);
+    write_samples(file, path, header, rows, ascii_ply, dimension);
     file.commit();
 }
 
 void write_samples(AtomicFile& file, const std::filesystem::path& path, const SampleHeader& header,
-                   std::span<const SampleRow> rows, bool ascii_ply) {
+                   std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension) {
     switch (format_of(path)) {
     case Format::ply:
-        write_ply(file, header, rows, ascii_ply);
+        write_ply(file, header, rows, ascii_ply, dimension);
         break;
     case Format::csv:
-        write_csv(file, header, rows);
+        write_csv(file, header, rows, dimension);
         break;
     case Format::xyz:
         write_xyz(file, rows);
@@ -198,6 +229,17 @@ void write_samples(AtomicFile& file, const std::filesystem::path& path, const Sa
 void check_output_path(const std::filesystem::path& path) {
     format_of(path);
     const AtomicFile probe(path); // Creates and removes the temporary file.
+}
+
+void check_dimension(const std::filesystem::path& path, std::uint32_t dimension) {
+    if (format_of(path) == Format::xyz && dimension != 3) {
+        throw UserError(ExitCode::usage,
+                        path.string() +
+                            ": an .xyz file holds three coordinates, and these samples "
+                            "have " +
+                            (dimension == 0 ? "none" : std::to_string(dimension)) +
+                            "; use .ply or .csv");
+    }
 }
 
 } // namespace geodisk::tools

@@ -5,28 +5,67 @@
 #include "common/sample_columns.hpp"
 #include "common/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace geodisk::tools {
 
 namespace {
 
 /// Where each column of a sample stands in the file.
-using ColumnPlaces = std::array<std::optional<std::size_t>, kSampleColumnNames.size()>;
+struct ColumnPlaces {
+    std::array<std::optional<std::size_t>, kSampleColumnNames.size()> named;
+    std::vector<std::size_t> coordinates;
+    bool is_numbered = false; ///< The coordinates are x0 x1 ... rather than x y z.
 
-bool is_required(SampleColumn column) {
-    return column <= SampleColumn::z ||
-           (column >= SampleColumn::face_index && column <= SampleColumn::bary_w);
+    std::uint32_t dimension() const { return static_cast<std::uint32_t>(coordinates.size()); }
+};
+
+bool is_coordinate(SampleColumn column) {
+    return column <= SampleColumn::z;
 }
 
-void check_columns(const std::filesystem::path& path, const ColumnPlaces& places) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!places[i] && is_required(SampleColumn{i})) {
+bool is_required(SampleColumn column) {
+    return column >= SampleColumn::face_index && column <= SampleColumn::bary_w;
+}
+
+/// `place_of(name)` is where the column of that name stands, if the file has it.
+template <typename PlaceOf>
+ColumnPlaces find_places(const std::filesystem::path& path, const PlaceOf& place_of) {
+    ColumnPlaces places;
+    for (const std::string_view name : kNumberedColumnNames) {
+        const std::optional<std::size_t> place = place_of(name);
+        if (!place) {
+            break;
+        }
+        places.coordinates.push_back(*place);
+    }
+    places.is_numbered = !places.coordinates.empty();
+    if (places.is_numbered && places.coordinates.size() < 3) {
+        fail_input(path,
+                   "has no column " + std::string(kNumberedColumnNames[places.coordinates.size()]));
+    }
+    std::string_view missing;
+    for (std::size_t i = 0; i < kSampleColumnNames.size(); ++i) {
+        const std::optional<std::size_t> place = place_of(kSampleColumnNames[i]);
+        if (!place && is_required(SampleColumn{i})) {
             fail_input(path, "has no column " + std::string(kSampleColumnNames[i]));
         }
+        if (!is_coordinate(SampleColumn{i})) {
+            places.named[i] = place;
+        } else if (place && !places.is_numbered) {
+            places.coordinates.push_back(*place);
+        } else if (!place && missing.empty()) {
+            missing = kSampleColumnNames[i];
+        }
     }
+    if (!places.is_numbered && !missing.empty() && !places.coordinates.empty()) {
+        fail_input(path, "has no column " + std::string(missing));
+    }
+    return places;
 }
 
 bool set_index(std::uint32_t& index, double value) {
@@ -44,8 +83,7 @@ bool set_value(SampleRow& row, SampleColumn column, double value) {
     case SampleColumn::x:
     case SampleColumn::y:
     case SampleColumn::z:
-        row.position[i] = value;
-        return std::isfinite(value);
+        break; // Read as coordinates.
     case SampleColumn::nx:
     case SampleColumn::ny:
     case SampleColumn::nz:
@@ -68,8 +106,16 @@ bool set_value(SampleRow& row, SampleColumn column, double value) {
 template <typename ValueAt, typename Fail>
 SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fail& fail) {
     SampleRow row;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (places[i] && !set_value(row, SampleColumn{i}, value_at(*places[i]))) {
+    for (std::size_t axis = 0; axis < places.coordinates.size(); ++axis) {
+        row.position[axis] = value_at(places.coordinates[axis]);
+        if (!std::isfinite(row.position[axis])) {
+            fail(std::string(places.is_numbered ? kNumberedColumnNames[axis]
+                                                : kSampleColumnNames[axis]) +
+                 " is out of range");
+        }
+    }
+    for (std::size_t i = 0; i < places.named.size(); ++i) {
+        if (places.named[i] && !set_value(row, SampleColumn{i}, value_at(*places.named[i]))) {
             fail(std::string(kSampleColumnNames[i]) + " is out of range");
         }
     }
@@ -95,11 +141,9 @@ SampleFile read_ply_samples(const std::filesystem::path& path) {
             continue;
         }
         has_vertices = true;
-        ColumnPlaces places;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            places[i] = element.find_scalar(kSampleColumnNames[i]);
-        }
-        check_columns(path, places);
+        const ColumnPlaces places =
+            find_places(path, [&](std::string_view name) { return element.find_scalar(name); });
+        samples.dimension = places.dimension();
         samples.rows.reserve(file.possible_records(element));
         file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
             samples.rows.push_back(make_row(
@@ -139,6 +183,7 @@ class CsvReader {
             if (column_count == 0) {
                 column_count = cells_.size();
                 places = find_columns();
+                samples.dimension = places.dimension();
                 continue;
             }
             if (cells_.size() != column_count) {
@@ -175,16 +220,12 @@ class CsvReader {
     }
 
     ColumnPlaces find_columns() const {
-        ColumnPlaces places;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            for (std::size_t place = 0; place < cells_.size(); ++place) {
-                if (cells_[place] == kSampleColumnNames[i]) {
-                    places[i] = place;
-                }
-            }
-        }
-        check_columns(path_, places);
-        return places;
+        return find_places(path_, [this](std::string_view name) {
+            const auto cell = std::find(cells_.begin(), cells_.end(), name);
+            return cell == cells_.end()
+                       ? std::nullopt
+                       : std::optional(static_cast<std::size_t>(cell - cells_.begin()));
+        });
     }
 
     double value_at(std::size_t place) const {

@@ -53,4 +53,9 @@ MeshFile make_folded_sheet(int resolution);
 MeshFile make_unfolded_sheet(int resolution);
 MeshFile make_terrain(int resolution);
 
+// shapes_r4.cpp: closed surfaces with four coordinates
+MeshFile make_clifford_torus(int resolution);
+MeshFile make_klein_bottle(int resolution);
+MeshFile make_veronese(int resolution);
+
 } // namespace geodisk::tools

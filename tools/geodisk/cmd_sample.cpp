@@ -1,6 +1,7 @@
 #include "geodisk/cmd_sample.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "common/atomic_file.hpp"
 #include "common/sample_file.hpp"
 #include "geodisk/mesh_input.hpp"
+#include "geodisk/mesh_options.hpp"
 #include "geodisk/progress.hpp"
 #include "geodisk/sample_report.hpp"
 #include "program/arguments.hpp"
@@ -33,7 +35,8 @@ using Clock = std::chrono::steady_clock;
 
 /// As given on the command line.
 struct SampleOptions {
-    std::string mesh, output, json, device;
+    MeshOptions mesh;
+    std::string output, json, device;
     std::string min_distance, radius, count;
     std::string seed = "0", pool_ratio = "20", memory = "256M";
     bool ascii = false, quiet = false, validate = false;
@@ -47,7 +50,7 @@ struct SampleRequest {
     RunnerOptions runner;
 
     double distance_on(const MeshStatistics& mesh) const {
-        return min_distance ? min_distance->in_mesh_units(mesh.diagonal)
+        return min_distance ? distance_on_mesh(*min_distance, mesh)
                             : distance_for_count(mesh.area, count);
     }
 };
@@ -92,11 +95,14 @@ SampleRequest parse_request(const SampleOptions& options) {
 /// Finds out before the work that it would be in vain.
 void check_outputs(const SampleOptions& options) {
     const bool has_json_file = !options.json.empty() && options.json != "-";
-    if (is_same_file(options.output, options.mesh)) {
-        throw UserError(ExitCode::usage, options.output + ": the output would replace the mesh");
-    }
-    if (has_json_file && is_same_file(options.json, options.mesh)) {
-        throw UserError(ExitCode::usage, options.json + ": the report would replace the mesh");
+    for (const std::string& file : options.mesh.files()) {
+        if (is_same_file(options.output, file)) {
+            throw UserError(ExitCode::usage,
+                            options.output + ": the output would replace the mesh");
+        }
+        if (has_json_file && is_same_file(options.json, file)) {
+            throw UserError(ExitCode::usage, options.json + ": the report would replace the mesh");
+        }
     }
     if (has_json_file && is_same_file(options.json, options.output)) {
         throw UserError(ExitCode::usage, options.json + ": the report would replace the samples");
@@ -183,12 +189,10 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>&
     std::vector<SampleRow> rows;
     rows.reserve(samples.size());
     for (const Sample& sample : samples) {
-        const Vec3 position = mesh.point(sample.face, sample.weights);
+        const std::array<double, 8> position = mesh.point(sample.face, sample.weights);
         const Vec3 normal = mesh.normal(sample.face);
         SampleRow row;
-        row.position[0] = position.x;
-        row.position[1] = position.y;
-        row.position[2] = position.z;
+        std::copy(position.begin(), position.end(), row.position);
         row.normal[0] = static_cast<float>(normal.x);
         row.normal[1] = static_cast<float>(normal.y);
         row.normal[2] = static_cast<float>(normal.z);
@@ -209,11 +213,11 @@ void print_or_fail(const std::string& what) {
 
 /// Brings everything to the disk before anything appears under its name.
 void write_outputs(const SampleOptions& options, const std::vector<SampleRow>& rows,
-                   SampleReport& report, ProgressLine& progress) {
+                   std::uint32_t dimension, SampleReport& report, ProgressLine& progress) {
     progress.begin_stage("writing the samples");
     const auto start = Clock::now();
     AtomicFile samples(options.output);
-    write_samples(samples, options.output, sample_header(report), rows, options.ascii);
+    write_samples(samples, options.output, sample_header(report), rows, options.ascii, dimension);
     samples.sync();
     report.seconds.write = std::chrono::duration<double>(Clock::now() - start).count();
     progress.clear();
@@ -242,9 +246,11 @@ void run_sample(const SampleOptions& options) {
     check_outputs(options);
     ProgressLine progress(options.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
+    check_dimension(options.output, mesh.dimension());
 
     SampleReport report;
-    report.mesh_path = options.mesh;
+    report.mesh_path = options.mesh.mesh;
+    report.mesh_additions = options.mesh.additions();
     report.output_path = options.output;
     report.mesh = mesh.prepared.statistics();
     report.params = request.params;
@@ -256,7 +262,7 @@ void run_sample(const SampleOptions& options) {
 
     const std::vector<Sample> samples =
         sample_on_device(options, request.runner, mesh.prepared, report, progress);
-    write_outputs(options, to_rows(mesh, samples), report, progress);
+    write_outputs(options, to_rows(mesh, samples), mesh.dimension(), report, progress);
 }
 
 } // namespace
@@ -265,9 +271,7 @@ void add_sample_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("sample", "Put samples on a mesh and write them to a file");
     const auto options = std::make_shared<SampleOptions>();
-    command->add_option("MESH", options->mesh, "Mesh to sample: *.obj, *.ply or builtin:NAME")
-        ->type_name("")
-        ->required();
+    add_mesh_argument(*command, options->mesh, "Mesh to sample");
     command
         ->add_option("-o,--output", options->output,
                      "File to write: *.ply (binary), *.csv or *.xyz (positions only)")
@@ -289,6 +293,8 @@ void add_sample_command(CLI::App& app) {
                      "Choose the distance that should give about N samples")
         ->type_name("N")
         ->group(distance);
+
+    add_mesh_options(*command, options->mesh);
 
     command->add_option("--seed", options->seed, "64-bit seed; equal seeds give equal samples")
         ->type_name("S")

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "common/builtin_shapes.hpp"
+#include "common/mesh_file.hpp"
+#include "common/mesh_writer.hpp"
 #include "common/user_error.hpp"
 
 namespace geodisk::tools {
@@ -17,7 +20,11 @@ std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-void run_shapes() {
+struct ShapesOptions {
+    std::string shape, output;
+};
+
+void list_shapes() {
     std::size_t name_width = 0;
     for (const BuiltinShape& shape : builtin_shapes()) {
         name_width = std::max(name_width, shape.name.size());
@@ -39,11 +46,37 @@ void run_shapes() {
     }
 }
 
+/// The prefix of names elsewhere may be left out.
+void write_shape(const ShapesOptions& options) {
+    const std::string prefix = "builtin:";
+    const bool has_prefix = options.shape.starts_with(prefix);
+    const std::string name = has_prefix ? options.shape : prefix + options.shape;
+    write_mesh(options.output, read_mesh(name));
+}
+
+void run_shapes(const ShapesOptions& options) {
+    if (options.shape.empty() != options.output.empty()) {
+        throw UserError(ExitCode::usage, options.output.empty()
+                                             ? "no file given to write the shape to; give --output"
+                                             : "no shape given to write");
+    }
+    if (options.shape.empty()) {
+        list_shapes();
+    } else {
+        write_shape(options);
+    }
+}
+
 } // namespace
 
 void add_shapes_command(CLI::App& app) {
-    app.add_subcommand("shapes", "List the built-in surfaces, which need no mesh file")
-        ->callback(run_shapes);
+    CLI::App* command = app.add_subcommand(
+        "shapes", "List the built-in surfaces, which need no mesh file, or write one");
+    const auto options = std::make_shared<ShapesOptions>();
+    command->add_option("SHAPE", options->shape, "Surface to write: NAME or NAME:RESOLUTION")
+        ->type_name("");
+    command->add_option("-o,--output", options->output, "File to write: *.ply")->type_name("OUT");
+    command->callback([options] { run_shapes(*options); });
 }
 
 } // namespace geodisk::tools

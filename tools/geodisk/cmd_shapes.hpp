@@ -8,7 +8,8 @@ class App;
 namespace geodisk::tools {
 
 /// Adds the subcommand `shapes` to `app`. When chosen, it lists the built-in surfaces on standard
-/// output; it throws UserError(bad_output) if that cannot be written.
+/// output, or writes one of them to a PLY file; it throws UserError(bad_output) if that cannot be
+/// written.
 void add_shapes_command(CLI::App& app);
 
 } // namespace geodisk::tools

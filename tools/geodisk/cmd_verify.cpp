@@ -1,6 +1,7 @@
 #include "geodisk/cmd_verify.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "common/text.hpp"
 #include "common/user_error.hpp"
 #include "geodisk/mesh_input.hpp"
+#include "geodisk/mesh_options.hpp"
 #include "geodisk/progress.hpp"
 #include "geodisk/spacing_check.hpp"
 #include "program/arguments.hpp"
@@ -28,7 +30,8 @@ namespace {
 constexpr std::size_t kNamedViolations = 10;
 
 struct VerifyOptions {
-    std::string mesh, samples, min_distance;
+    MeshOptions mesh;
+    std::string samples, min_distance;
     bool quiet = false;
 };
 
@@ -43,6 +46,42 @@ std::string row_text(const SampleFile& samples, std::uint32_t row) {
            std::to_string(samples.rows[row].candidate) + ")";
 }
 
+std::string coordinates_text(std::uint32_t dimension) {
+    return dimension == 0 ? "no coordinates" : std::to_string(dimension) + " coordinates";
+}
+
+void check_dimensions(const VerifyOptions& options, const SampleFile& samples,
+                      const MeshInput& mesh) {
+    if (samples.dimension != mesh.dimension()) {
+        fail_input(options.samples, "its samples have " + coordinates_text(samples.dimension) +
+                                        ", the vertices of " + options.mesh.mesh + " have " +
+                                        coordinates_text(mesh.dimension()));
+    }
+}
+
+/// A sample of another surface would show as a violation, or worse, would not.
+void warn_of_other_surface(const VerifyOptions& options, const SampleFile& samples) {
+    const auto lifts_of = [](const auto& entries) {
+        std::vector<std::string> lifts;
+        for (const auto& [key, value] : entries) {
+            if (key == "lift") {
+                lifts.push_back(value);
+            }
+        }
+        return lifts;
+    };
+    const std::vector<std::string> used = lifts_of(samples.header.entries);
+    if (used == lifts_of(options.mesh.additions())) {
+        return;
+    }
+    std::string text;
+    for (const std::string& lift : used) {
+        text += " --lift " + lift;
+    }
+    print_warning(options.samples + ": made with" + (used.empty() ? " no --lift" : text) +
+                  ", which is not what is verified here");
+}
+
 /// The rows must at least name points of the mesh.
 void check_rows(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
     constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
@@ -51,7 +90,7 @@ void check_rows(const VerifyOptions& options, const SampleFile& samples, const M
         if (row.face >= mesh.prepared.face_count()) {
             fail_input(options.samples,
                        row_text(samples, i) + ": face " + std::to_string(row.face) +
-                           " is out of range, " + options.mesh + " has " +
+                           " is out of range, " + options.mesh.mesh + " has " +
                            counted(mesh.prepared.face_count(), "triangle", "triangles"));
         }
         double sum = 0;
@@ -70,7 +109,7 @@ void check_rows(const VerifyOptions& options, const SampleFile& samples, const M
 double distance_of(const VerifyOptions& options, const SampleFile& samples,
                    const MeshStatistics& mesh) {
     if (!options.min_distance.empty()) {
-        return parse_length("--min-distance", options.min_distance).in_mesh_units(mesh.diagonal);
+        return distance_on_mesh(parse_length("--min-distance", options.min_distance), mesh);
     }
     for (const auto& [key, value] : samples.header.entries) {
         if (key != "min_distance") {
@@ -88,21 +127,30 @@ double distance_of(const VerifyOptions& options, const SampleFile& samples,
                                                        "--min-distance");
 }
 
+/// Without coordinates there is nothing to be off.
 std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh) {
     double largest = 0;
-    for (const std::uint32_t vertex : mesh.file.triangles) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            largest =
-                std::max(largest, std::abs(mesh.file.positions[3 * std::size_t{vertex} + axis]));
+    double diagonal = 0;
+    for (std::size_t axis = 0; axis < mesh.dimension(); ++axis) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const std::uint32_t vertex : mesh.file.triangles) {
+            const double x = mesh.file.positions[std::size_t{vertex} * mesh.dimension() + axis];
+            low = std::min(low, x);
+            high = std::max(high, x);
         }
+        largest = std::max({largest, std::abs(low), std::abs(high)});
+        diagonal = std::hypot(diagonal, high - low);
     }
     // Files hold floats, or doubles where the mesh is farther from the origin than this.
-    const double allowed = 0x1p-22 * std::min(largest, 16 * mesh.prepared.statistics().diagonal);
+    const double allowed = 0x1p-22 * std::min(largest, 16 * diagonal);
     std::vector<StrayRow> strays;
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         const SampleRow& row = samples.rows[i];
-        const Vec3 stored{row.position[0], row.position[1], row.position[2]};
-        const double offset = length(stored - mesh.point(row.face, row.bary));
+        const std::array<double, 8> point = mesh.point(row.face, row.bary);
+        double offset = 0;
+        for (std::size_t axis = 0; axis < point.size(); ++axis) {
+            offset = std::hypot(offset, row.position[axis] - point[axis]);
+        }
         if (!(offset <= allowed)) {
             strays.push_back({i, offset});
         }
@@ -125,7 +173,7 @@ std::string count_text(std::size_t count, bool is_complete) {
 void print_result(std::ostream& out, const VerifyOptions& options, const SampleFile& samples,
                   const MeshStatistics& mesh, double min_distance, const SpacingResult& spacing,
                   const std::vector<StrayRow>& strays) {
-    out << "mesh          " << one_line(options.mesh) << '\n'
+    out << "mesh          " << one_line(options.mesh.mesh) << '\n'
         << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
         << '\n'
         << "min distance  " << rounded(min_distance, 9) << " in mesh units\n"
@@ -183,7 +231,9 @@ void run_verify(const VerifyOptions& options) {
     progress.clear();
     const MeshStatistics& statistics = mesh.prepared.statistics();
     const double min_distance = distance_of(options, samples, statistics);
+    check_dimensions(options, samples, mesh);
     check_rows(options, samples, mesh);
+    warn_of_other_surface(options, samples);
 
     const std::vector<StrayRow> strays = find_strays(samples, mesh);
     const SpacingResult spacing = check_spacing(mesh, samples.rows, min_distance, progress);
@@ -199,10 +249,7 @@ void add_verify_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "verify", "Check the distances in a sample file, exactly and without a device");
     const auto options = std::make_shared<VerifyOptions>();
-    command
-        ->add_option("MESH", options->mesh, "Mesh they were made on: *.obj, *.ply or builtin:NAME")
-        ->type_name("")
-        ->required();
+    add_mesh_argument(*command, options->mesh, "Mesh they were made on");
     command->add_option("SAMPLES", options->samples, "Samples to check: *.ply or *.csv")
         ->type_name("")
         ->required();
@@ -212,6 +259,7 @@ void add_verify_command(CLI::App& app) {
                      "or with % of the bounding-box diagonal;\n"
                      "without it, that of the file's header")
         ->type_name("D");
+    add_mesh_options(*command, options->mesh);
     command->add_flag("-q,--quiet", options->quiet,
                       "No progress and no result but the exit status");
     command->callback([options] { run_verify(*options); });

@@ -16,6 +16,7 @@ constexpr const char* kFooter = R"(Examples:
   geodisk sample builtin:showpiece -o points.ply --count 10000
   geodisk sample bunny.obj -o points.csv --min-distance 1%
   geodisk verify bunny.obj points.csv
+  geodisk sample bunny.obj -o points.ply --count 10000 --lift normals:0.05
 
 Exit status:
   0    success

@@ -1,9 +1,13 @@
 #include "geodisk/mesh_input.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <utility>
+#include <vector>
 
+#include "common/lift.hpp"
+#include "common/user_error.hpp"
 #include "geodisk/progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -23,6 +27,10 @@ void print_warnings(const std::string& path, const MeshInput& mesh) {
     for (const std::string& warning : mesh.file.warnings) {
         print_warning(path + ": " + warning);
     }
+    const std::uint64_t flat = mesh.prepared.statistics().zero_area_faces;
+    if (flat > 0 && !mesh.file.lengths.empty()) { // Which the reader does not judge.
+        print_warning(path + ": triangles without area kept: " + std::to_string(flat));
+    }
     if (const std::uint64_t edges = mesh.prepared.statistics().nonmanifold_edges; edges > 0) {
         print_warning(
             path + ": " +
@@ -31,21 +39,69 @@ void print_warnings(const std::string& path, const MeshInput& mesh) {
     }
 }
 
+/// Normals of faces turned over against each other point apart, and so do vertices lifted by them.
+void warn_of_turned_faces(const std::string& path, const PreparedMesh& mesh) {
+    std::uint64_t sides = 0;
+    for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
+        const std::uint32_t around = mesh.half_edges()[h].around;
+        sides += around_same_way(around) && around_half_edge(around) != h ? 1u : 0u;
+    }
+    if (sides > 0) {
+        print_warning(path + ": " + counted((sides + 1) / 2, "edge has faces", "edges have faces") +
+                      " turned over against each other; --lift normals pulls them apart");
+    }
+}
+
+PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<const Lift> lifts) {
+    if (!file.lengths.empty()) {
+        const std::uint32_t vertices =
+            1 + *std::max_element(file.triangles.begin(), file.triangles.end());
+        return take(PreparedMesh::prepare({file.triangles, file.lengths, vertices}), path);
+    }
+    if (lifts.empty()) {
+        return take(PreparedMesh::prepare({file.positions, file.triangles, file.dimension}), path);
+    }
+    const LiftedPositions lifted = lifted_positions(path, file, lifts);
+    return take(PreparedMesh::prepare({lifted.positions, file.triangles, lifted.dimension}), path);
+}
+
+std::vector<Lift> parse_lifts(const MeshOptions& options) {
+    if (!options.lifts.empty() && !options.edge_lengths.empty()) {
+        throw UserError(ExitCode::usage, "--lift and --edge-lengths contradict each other: lengths "
+                                         "leave no coordinates to lift");
+    }
+    std::vector<Lift> lifts;
+    for (const std::string& text : options.lifts) {
+        lifts.push_back(parse_lift("--lift", text));
+    }
+    return lifts;
+}
+
 } // namespace
 
-Vec3 MeshInput::point(std::uint32_t face, const float (&weights)[3]) const {
-    Vec3 sum;
-    for (std::uint32_t corner = 0; corner < 3; ++corner) {
-        sum = sum + static_cast<double>(weights[corner]) * vertex(face, corner);
+std::array<double, 8> MeshInput::point(std::uint32_t face, const float (&weights)[3]) const {
+    std::array<double, 8> sum{};
+    for (std::uint32_t corner = 0; corner < 3 && dimension() > 0; ++corner) {
+        const auto position = vertex(face, corner);
+        for (std::size_t axis = 0; axis < position.size(); ++axis) {
+            sum[axis] += static_cast<double>(weights[corner]) * position[axis];
+        }
     }
     return sum;
 }
 
 Vec3 MeshInput::normal(std::uint32_t face) const {
-    const Vec3 a = vertex(face, 0);
+    if (dimension() != 3) {
+        return {};
+    }
+    const auto corner = [&](std::uint32_t k) {
+        const auto p = vertex(face, k);
+        return Vec3{p[0], p[1], p[2]};
+    };
+    const Vec3 a = corner(0);
     // Edges of unit length first: products of very short or long ones leave the range of double.
-    const Vec3 ab = vertex(face, 1) - a;
-    const Vec3 ac = vertex(face, 2) - a;
+    const Vec3 ab = corner(1) - a;
+    const Vec3 ac = corner(2) - a;
     if (!(length(ab) > 0) || !(length(ac) > 0)) {
         return {};
     }
@@ -53,21 +109,35 @@ Vec3 MeshInput::normal(std::uint32_t face) const {
     return length(n) > 0 ? normalized(n) : Vec3{};
 }
 
-MeshInput load_mesh(const std::string& path, ProgressLine& progress) {
+MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress) {
+    const std::string& path = options.mesh;
+    const std::vector<Lift> lifts = parse_lifts(options);
     progress.begin_stage("reading the mesh");
     auto start = Clock::now();
-    MeshFile file = read_mesh(path);
+    MeshFile file =
+        read_mesh({path, options.coordinates, options.edge_lengths, lift_attributes(lifts)});
     const double load_seconds = seconds_since(start);
     check_interrupted();
 
     progress.begin_stage("preparing the mesh");
     start = Clock::now();
-    PreparedMesh prepared = take(PreparedMesh::prepare({file.positions, file.triangles}), path);
+    PreparedMesh prepared = prepare(path, file, lifts);
     MeshInput mesh{std::move(file), std::move(prepared), load_seconds, seconds_since(start)};
     check_interrupted();
     progress.clear();
     print_warnings(path, mesh);
+    if (lift_attributes(lifts).size() < lifts.size()) {
+        warn_of_turned_faces(path, mesh.prepared);
+    }
     return mesh;
+}
+
+double distance_on_mesh(const Length& length, const MeshStatistics& mesh) {
+    if (length.is_percent && mesh.diagonal == 0) {
+        throw UserError(ExitCode::usage, "a mesh of edge lengths has no bounding box to take % of; "
+                                         "give the distance in mesh units");
+    }
+    return length.in_mesh_units(mesh.diagonal);
 }
 
 void print_warning(const std::string& message) {

@@ -1,36 +1,46 @@
 // The mesh of a command, read and prepared, with all that is odd about it told to the user.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include <geodisk/mesh.hpp>
 
 #include "common/mesh_file.hpp"
 #include "common/vec3.hpp"
+#include "geodisk/mesh_options.hpp"
+#include "program/arguments.hpp"
 
 namespace geodisk::tools {
 
 struct MeshInput {
     MeshFile file;
-    PreparedMesh prepared;
+    PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
     double load_seconds = 0;
     double prepare_seconds = 0;
 
-    Vec3 vertex(std::uint32_t face, std::uint32_t corner) const {
-        const double* p = &file.positions[3 * std::size_t{file.triangles[3 * face + corner]}];
-        return {p[0], p[1], p[2]};
+    /// Coordinates of a sample: those of the file, 0 for a mesh of edge lengths without any.
+    std::uint32_t dimension() const { return file.positions.empty() ? 0 : file.dimension; }
+    std::span<const double> vertex(std::uint32_t face, std::uint32_t corner) const {
+        const std::uint32_t v = file.triangles[std::size_t{3} * face + corner];
+        return std::span(file.positions).subspan(std::size_t{v} * file.dimension, file.dimension);
     }
-    /// The point of `face` with the given weights of its corners.
-    Vec3 point(std::uint32_t face, const float (&weights)[3]) const;
-    /// Of unit length; zero for a face without area.
+    /// The point of `face` with the given weights of its corners; zero beyond the dimension.
+    std::array<double, 8> point(std::uint32_t face, const float (&weights)[3]) const;
+    /// Of unit length; zero for a face without area and for a mesh that is not in space.
     Vec3 normal(std::uint32_t face) const;
 };
 
 class ProgressLine;
 
-/// Reads and prepares MESH and writes warnings to standard error. Throws UserError as read_mesh(),
-/// or bad_input when the mesh is rejected.
-MeshInput load_mesh(const std::string& path, ProgressLine& progress);
+/// Reads and prepares a mesh and writes warnings to standard error. Throws UserError as read_mesh()
+/// and lifted_positions(), or bad_input when the mesh is rejected.
+MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress);
+
+/// `length` in mesh units. Throws UserError(usage) for % of a mesh that has no bounding box.
+double distance_on_mesh(const Length& length, const MeshStatistics& mesh);
 
 /// "geodisk: warning: MESSAGE" on standard error.
 void print_warning(const std::string& message);

@@ -49,31 +49,47 @@ std::string mesh_text(const MeshStatistics& mesh) {
     return text + ", area " + rounded(mesh.area, 6);
 }
 
+/// Lifts may be several, so they make a list.
+Json mesh_json(const SampleReport& report) {
+    const bool has_box = report.mesh.diagonal > 0; // Edge lengths have none.
+    Json mesh{{"path", report.mesh_path}};
+    for (const auto& [name, value] : report.mesh_additions) {
+        if (name == "lift") {
+            mesh[name].push_back(value);
+        } else {
+            mesh[name] = value;
+        }
+    }
+    mesh.update({{"vertices", report.mesh.vertices},
+                 {"triangles", report.mesh.triangles},
+                 {"components", report.mesh.components},
+                 {"boundary_edges", report.mesh.boundary_edges},
+                 {"nonmanifold_edges", report.mesh.nonmanifold_edges},
+                 {"area", report.mesh.area},
+                 {"diagonal", has_box ? Json(report.mesh.diagonal) : Json(nullptr)}});
+    return mesh;
+}
+
 } // namespace
 
 SampleHeader sample_header(const SampleReport& report) {
-    return {{{"version", "geodisk " GEODISK_VERSION_STRING},
-             {"mesh", report.mesh_path},
-             {"min_distance", exact_text(report.params.min_distance)},
-             {"radius", exact_text(report.params.min_distance / 2)},
-             {"seed", exact_text(report.params.seed)},
-             {"pool_size", exact_text(report.run.candidates)},
-             {"device", report.device.name},
-             {"driver", driver_text(report.device)}}};
+    SampleHeader header{{{"version", "geodisk " GEODISK_VERSION_STRING},
+                         {"mesh", report.mesh_path},
+                         {"min_distance", exact_text(report.params.min_distance)},
+                         {"radius", exact_text(report.params.min_distance / 2)},
+                         {"seed", exact_text(report.params.seed)},
+                         {"pool_size", exact_text(report.run.candidates)},
+                         {"device", report.device.name},
+                         {"driver", driver_text(report.device)}}};
+    header.entries.insert(header.entries.begin() + 2, report.mesh_additions.begin(),
+                          report.mesh_additions.end());
+    return header;
 }
 
 std::string json_text(const SampleReport& report) {
     const RunReport& run = report.run;
     const Json document{{"version", GEODISK_VERSION_STRING},
-                        {"mesh",
-                         {{"path", report.mesh_path},
-                          {"vertices", report.mesh.vertices},
-                          {"triangles", report.mesh.triangles},
-                          {"components", report.mesh.components},
-                          {"boundary_edges", report.mesh.boundary_edges},
-                          {"nonmanifold_edges", report.mesh.nonmanifold_edges},
-                          {"area", report.mesh.area},
-                          {"diagonal", report.mesh.diagonal}}},
+                        {"mesh", mesh_json(report)},
                         {"output", report.output_path},
                         {"min_distance", report.params.min_distance},
                         {"radius", report.params.min_distance / 2},
@@ -109,8 +125,11 @@ std::string json_text(const SampleReport& report) {
 
 void print_summary(std::ostream& out, const SampleReport& report) {
     const double distance = report.params.min_distance;
-    out << "mesh          " << one_line(report.mesh_path) << '\n'
-        << "              " << mesh_text(report.mesh) << '\n'
+    out << "mesh          " << one_line(report.mesh_path) << '\n';
+    for (const auto& [name, value] : report.mesh_additions) {
+        out << "              " << name << ' ' << one_line(value) << '\n';
+    }
+    out << "              " << mesh_text(report.mesh) << '\n'
         << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
         << ") in mesh units\n"
         << "samples       " << grouped(report.samples);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <geodisk/device.hpp>
 #include <geodisk/mesh.hpp>
@@ -16,6 +18,7 @@ namespace geodisk::tools {
 
 struct SampleReport {
     std::string mesh_path;
+    std::vector<std::pair<std::string, std::string>> mesh_additions; ///< MeshOptions::additions().
     std::string output_path;
     MeshStatistics mesh;
     SampleParams params;

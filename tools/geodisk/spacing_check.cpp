@@ -45,7 +45,8 @@ double cell_count(const PreparedMesh& mesh, double unit) {
 /// The reference wants lengths in units of about the distance looked for. A distance out of all
 /// proportion to the mesh gets a unit that keeps the numbers and the grids in bounds.
 double choose_unit(const PreparedMesh& mesh, double min_distance) {
-    double unit = std::min(min_distance, mesh.statistics().diagonal);
+    const double extent = std::max(mesh.statistics().diagonal, mesh.statistics().longest_edge);
+    double unit = std::min(min_distance, extent);
     while (cell_count(mesh, unit) > kMostCells) {
         unit *= 2;
     }

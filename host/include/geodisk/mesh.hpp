@@ -22,6 +22,20 @@ struct MeshView {
     std::uint32_t dimension = 3;
 };
 
+/// A triangle mesh given by the lengths of its edges alone, also in the caller's memory: no
+/// coordinates need exist, and no space that it would fit in.
+///
+/// `lengths` holds three per face, in mesh units: from its first corner to the second, to the third
+/// and back, so `lengths[h]` is that of half-edge h. The faces of an edge must agree about its length
+/// to a billionth. Each face must satisfy the triangle inequality to a millionth of its longest edge,
+/// as lengths rounded to float do; one that does no more than that has no area. Vertices are numbered
+/// below `vertex_count`.
+struct LengthMeshView {
+    std::span<const std::uint32_t> triangles;
+    std::span<const double> lengths;
+    std::uint32_t vertex_count = 0;
+};
+
 /// One half-edge, `h = 3 * face + corner`, running from that corner to the next one of its face.
 ///
 /// Its frame has the origin at the start, x along the edge and the face in y >= 0. Lengths are in
@@ -68,7 +82,8 @@ struct MeshStatistics {
     std::uint64_t repeated_index_faces = 0; ///< Faces naming a vertex twice; they take no part.
     std::uint64_t zero_area_faces = 0;   ///< Faces without area; they connect but hold no sample.
     double area = 0;
-    double diagonal = 0;                 ///< Of the bounding box of the used vertices.
+    double diagonal = 0;                 ///< Of the bounding box of the used vertices; 0 for a
+                                         ///< mesh without coordinates.
     double longest_edge = 0;
 };
 
@@ -85,6 +100,11 @@ class PreparedMesh {
     /// range, a used coordinate is not finite, there is no face with area, or the mesh is too large
     /// to index with 32 bits; with `out_of_host_memory` when memory runs out.
     GEODISK_API static Result<PreparedMesh> prepare(const MeshView& mesh) noexcept;
+
+    /// The same from edge lengths. Fails with `mesh_rejected` and the face in `Error::element` when a
+    /// length is not positive and finite, a face violates the triangle inequality, or the faces of an
+    /// edge disagree about its length. Faces that name a vertex twice may have any lengths.
+    GEODISK_API static Result<PreparedMesh> prepare(const LengthMeshView& mesh) noexcept;
 
     std::span<const HalfEdge> half_edges() const noexcept { return half_edges_; }
     std::span<const VertexFan> fans() const noexcept { return fans_; }

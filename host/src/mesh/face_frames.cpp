@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "mesh/vertex_fans.hpp"
 #include "support/prefetch.hpp"
@@ -86,25 +87,25 @@ bool repeats_vertex(std::span<const std::uint32_t> face) {
     return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
 }
 
-template <std::size_t kAxes>
-std::vector<double> place_all(const MeshView& mesh, std::vector<HalfEdge>& half_edges,
-                              std::vector<Link>& links, MeshStatistics& statistics) {
-    const std::size_t faces = mesh.triangles.size() / 3;
+/// Appends all faces, their edges filled by `place(f, edges)`.
+template <typename Place>
+std::vector<double> place_all(std::span<const std::uint32_t> triangles,
+                              std::vector<HalfEdge>& half_edges, std::vector<Link>& links,
+                              MeshStatistics& statistics, const Place& place) {
+    const std::size_t faces = triangles.size() / 3;
+    statistics.triangles = faces;
+    // Reserved and appended to rather than resized: memory is touched once instead of twice.
+    half_edges.reserve(half_edges.size() + triangles.size());
+    links.reserve(links.size() + triangles.size());
     std::vector<double> areas(faces);
-    constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
     for (std::size_t f = 0; f < faces; ++f) {
-        const auto face = mesh.triangles.subspan(3 * f, 3);
-        if (f + kAhead < faces) {
-            for (const std::uint32_t v : mesh.triangles.subspan(3 * (f + kAhead), 3)) {
-                prefetch(&mesh.positions[std::size_t{v} * mesh.dimension]);
-            }
-        }
+        const auto face = triangles.subspan(3 * f, 3);
         HalfEdge edges[3]{};
         std::uint32_t angles[3]{};
         if (repeats_vertex(face)) {
             ++statistics.repeated_index_faces;
         } else {
-            place_face<kAxes>(mesh, face, edges);
+            place(f, edges);
             areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
             statistics.area += areas[f];
             statistics.zero_area_faces += areas[f] == 0;
@@ -123,15 +124,75 @@ std::vector<double> place_all(const MeshView& mesh, std::vector<HalfEdge>& half_
     return areas;
 }
 
+template <std::size_t kAxes>
+std::vector<double> place_vertices(const MeshView& mesh, std::vector<HalfEdge>& half_edges,
+                                   std::vector<Link>& links, MeshStatistics& statistics) {
+    const std::size_t faces = mesh.triangles.size() / 3;
+    constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
+    return place_all(
+        mesh.triangles, half_edges, links, statistics, [&](std::size_t f, HalfEdge(&edges)[3]) {
+            if (f + kAhead < faces) {
+                for (const std::uint32_t v : mesh.triangles.subspan(3 * (f + kAhead), 3)) {
+                    prefetch(&mesh.positions[std::size_t{v} * mesh.dimension]);
+                }
+            }
+            place_face<kAxes>(mesh, mesh.triangles.subspan(3 * f, 3), edges);
+        });
+}
+
+/// Twice the area of a triangle with these sides, 0 where they only just reach each other or, by
+/// rounding, do not (Kahan 2000). In units of the longest side, so that no product overflows.
+double double_area(double a, double b, double c) {
+    if (a < b) {
+        std::swap(a, b);
+    }
+    if (b < c) {
+        std::swap(b, c);
+    }
+    if (a < b) {
+        std::swap(a, b);
+    }
+    const double y = b / a, z = c / a;
+    const double slack = z - (1 - y);
+    return slack > 0
+               ? 0.5 * std::sqrt((1 + (y + z)) * slack * (z + (1 - y)) * (1 + (y - z))) * a * a
+               : 0;
+}
+
+/// The apex of a face from the lengths of its edge, the next and the previous one.
+void place_apex(double next, double previous, double twice_area, HalfEdge& edge) {
+    const double length = edge.length;
+    if (twice_area > 0) {
+        edge.apex_x = 0.5 * (length + (previous - next) / length * (previous + next));
+        edge.apex_y = twice_area / length;
+    } else {
+        // On the edge's line, beyond its origin if the next edge spans the other two.
+        edge.apex_x = next > length && next > previous ? -previous : previous;
+        edge.apex_y = 0;
+    }
+}
+
 } // namespace
 
 std::vector<double> place_faces(const MeshView& mesh, std::vector<HalfEdge>& half_edges,
                                 std::vector<Link>& links, MeshStatistics& statistics) {
-    // Reserved and appended to rather than resized: memory is touched once instead of twice.
-    half_edges.reserve(half_edges.size() + mesh.triangles.size());
-    links.reserve(links.size() + mesh.triangles.size());
-    return mesh.dimension <= 3 ? place_all<3>(mesh, half_edges, links, statistics)
-                               : place_all<8>(mesh, half_edges, links, statistics);
+    return mesh.dimension <= 3 ? place_vertices<3>(mesh, half_edges, links, statistics)
+                               : place_vertices<8>(mesh, half_edges, links, statistics);
+}
+
+std::vector<double> place_faces(const LengthMeshView& mesh, std::vector<HalfEdge>& half_edges,
+                                std::vector<Link>& links, MeshStatistics& statistics) {
+    return place_all(mesh.triangles, half_edges, links, statistics,
+                     [&](std::size_t f, HalfEdge(&edges)[3]) {
+                         const auto lengths = mesh.lengths.subspan(3 * f, 3);
+                         const double twice_area = double_area(lengths[0], lengths[1], lengths[2]);
+                         for (std::uint32_t k = 0; k < 3; ++k) {
+                             edges[k].length = lengths[k];
+                             place_apex(lengths[next_in_face(k)], lengths[previous_in_face(k)],
+                                        twice_area, edges[k]);
+                             place_angle(edges[k]);
+                         }
+                     });
 }
 
 } // namespace geodisk

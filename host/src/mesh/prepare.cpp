@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <new>
-#include <string>
 #include <vector>
 
 #include "mesh/alias_table.hpp"
+#include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/face_frames.hpp"
 #include "mesh/vertex_fans.hpp"
@@ -16,91 +16,15 @@
 namespace geodisk {
 namespace {
 
-// Half-edge indices carry two flag bits in places, faces two in their cell word.
-constexpr std::uint64_t kMaxFaces = (std::uint64_t{1} << 30) / 3;
-// Beyond it squared lengths could leave the range of double.
-constexpr double kLargestCoordinate = 1e100;
-constexpr double kSmallestDiagonal = 1e-100;
-constexpr std::uint32_t kMostDimensions = 8;
-
-Error rejected(std::string message, std::uint64_t element = kNoElement) {
-    return Error{Status::mesh_rejected, std::move(message), element};
-}
-
-const double* vertex(const MeshView& mesh, std::uint32_t v) {
-    return mesh.positions.data() + std::size_t{v} * mesh.dimension;
-}
-
-Result<Done> check_shape(const MeshView& mesh) {
-    if (mesh.dimension < 2 || mesh.dimension > kMostDimensions) {
-        return Error{Status::invalid_argument, "the dimension must be 2 to 8"};
-    }
-    if (mesh.positions.size() % mesh.dimension != 0 || mesh.triangles.size() % 3 != 0) {
-        return Error{Status::invalid_argument,
-                     "positions must hold whole vertices and triangles whole faces"};
-    }
-    if (mesh.triangles.empty()) {
-        return rejected("the mesh has no faces");
-    }
-    if (mesh.triangles.size() / 3 > kMaxFaces ||
-        mesh.positions.size() / mesh.dimension >= (std::uint64_t{1} << 31)) {
-        return rejected("the mesh is too large: at most 357,913,941 faces can be indexed");
-    }
-    return Done{};
-}
-
-/// Whether every index and every coordinate will do, those of unused vertices included.
-bool all_elements_fit(const MeshView& mesh) {
-    bool fit = true;
-    for (const double x : mesh.positions) {
-        fit &= std::abs(x) <= kLargestCoordinate; // False also for what is not a number.
-    }
-    std::uint32_t largest = 0;
-    for (const std::uint32_t v : mesh.triangles) {
-        largest = std::max(largest, v);
-    }
-    return fit && largest < mesh.positions.size() / mesh.dimension;
-}
-
-Result<Done> check_vertex(const MeshView& mesh, std::uint32_t v) {
-    for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
-        const double x = vertex(mesh, v)[axis];
-        if (!std::isfinite(x)) {
-            return rejected("vertex " + std::to_string(v) + " is not finite", v);
-        }
-        if (std::abs(x) > kLargestCoordinate) {
-            return rejected("vertex " + std::to_string(v) + " is beyond 1e100; rescale the mesh",
-                            v);
-        }
-    }
-    return Done{};
-}
-
-Result<Done> check_elements(const MeshView& mesh) {
-    if (all_elements_fit(mesh)) {
-        return Done{}; // In memory order: several times as fast as face by face.
-    }
-    const std::uint64_t vertices = mesh.positions.size() / mesh.dimension;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const std::uint32_t v = mesh.triangles[i];
-        if (v >= vertices) {
-            return rejected("face " + std::to_string(i / 3) + " names vertex " + std::to_string(v) +
-                                ", but there are only " + std::to_string(vertices),
-                            i / 3);
-        }
-        if (auto checked = check_vertex(mesh, v); !checked) {
-            return checked;
-        }
-    }
-    return Done{};
-}
+// Below it squared lengths could leave the range of double.
+constexpr double kSmallestExtent = 1e-100;
 
 /// Fills what a face alone does not determine: `around` and `fan_angles` of the half-edges, the
 /// fans and the lists of corners.
-void connect(const MeshView& mesh, std::vector<Link>& links, std::span<HalfEdge> half_edges,
-             std::vector<VertexFan>& fans, std::vector<std::uint32_t>& corners,
-             MeshStatistics& statistics) {
-    list_corners(mesh.triangles, fans, corners);
+void connect(std::span<const std::uint32_t> triangles, std::vector<Link>& links,
+             std::span<HalfEdge> half_edges, std::vector<VertexFan>& fans,
+             std::vector<std::uint32_t>& corners, MeshStatistics& statistics) {
+    list_corners(triangles, fans, corners);
     EdgeLinker linker(links, static_cast<std::uint32_t>(fans.size()));
     FanBuilder builder(links);
     constexpr std::size_t kAhead = 32; // Corners, of some six vertices.
@@ -134,9 +58,10 @@ void measure_box(const MeshView& mesh, std::span<const VertexFan> fans,
     high.fill(-HUGE_VAL);
     for (std::uint32_t v = 0; v < fans.size(); ++v) {
         if (fans[v].corner_count > 0) {
+            const double* const vertex = mesh.positions.data() + std::size_t{v} * mesh.dimension;
             for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
-                low[axis] = std::min(low[axis], vertex(mesh, v)[axis]);
-                high[axis] = std::max(high[axis], vertex(mesh, v)[axis]);
+                low[axis] = std::min(low[axis], vertex[axis]);
+                high[axis] = std::max(high[axis], vertex[axis]);
             }
         }
     }
@@ -147,33 +72,67 @@ void measure_box(const MeshView& mesh, std::span<const VertexFan> fans,
     statistics.diagonal = std::sqrt(sum);
 }
 
+/// Whether the area of all faces is more than rounding for a mesh of this extent.
+bool has_area(double area, double extent) {
+    return area > 1e-13 * extent * extent && extent >= kSmallestExtent;
+}
+
+Error no_area() {
+    return {Status::mesh_rejected, "no face has area: all are degenerate"};
+}
+
+Error current_failure() {
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        return {Status::out_of_host_memory, "not enough memory to prepare the mesh"};
+    } catch (...) {
+        return {Status::internal, "unexpected failure while preparing the mesh"};
+    }
+}
+
 } // namespace
 
 Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh) noexcept try {
-    if (auto shape = check_shape(mesh); !shape) {
-        return shape.error();
-    }
-    if (auto elements = check_elements(mesh); !elements) {
-        return elements.error();
+    if (auto checked = check_mesh(mesh); !checked) {
+        return checked.error();
     }
     PreparedMesh result;
     MeshStatistics& statistics = result.statistics_;
-    statistics.triangles = mesh.triangles.size() / 3;
     std::vector<Link> links;
     const std::vector<double> areas = place_faces(mesh, result.half_edges_, links, statistics);
     result.fans_.resize(mesh.positions.size() / mesh.dimension);
-    connect(mesh, links, result.half_edges_, result.fans_, result.corners_, statistics);
+    connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
     measure_box(mesh, result.fans_, statistics);
-    const double flat = 1e-13 * statistics.diagonal * statistics.diagonal;
-    if (!(statistics.area > flat) || statistics.diagonal < kSmallestDiagonal) {
-        return rejected("no face has area: all are degenerate");
+    if (!has_area(statistics.area, statistics.diagonal)) {
+        return no_area();
     }
     result.alias_ = build_alias_table(areas, statistics.area);
     return result;
-} catch (const std::bad_alloc&) {
-    return Error{Status::out_of_host_memory, "not enough memory to prepare the mesh"};
 } catch (...) {
-    return Error{Status::internal, "unexpected failure while preparing the mesh"};
+    return current_failure();
+}
+
+Result<PreparedMesh> PreparedMesh::prepare(const LengthMeshView& mesh) noexcept try {
+    if (auto checked = check_mesh(mesh); !checked) {
+        return checked.error();
+    }
+    PreparedMesh result;
+    MeshStatistics& statistics = result.statistics_;
+    std::vector<Link> links;
+    const std::vector<double> areas = place_faces(mesh, result.half_edges_, links, statistics);
+    result.fans_.resize(mesh.vertex_count);
+    connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
+    if (auto checked = check_agreement(result.half_edges_); !checked) {
+        return checked.error();
+    }
+    if (!has_area(statistics.area, statistics.longest_edge)) {
+        return no_area();
+    }
+    result.alias_ = build_alias_table(areas, statistics.area);
+    return result;
+} catch (...) {
+    return current_failure();
 }
 
 } // namespace geodisk

@@ -1,0 +1,182 @@
+#include "mesh/checks.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace geodisk {
+namespace {
+
+// Half-edge indices carry two flag bits in places, faces two in their cell word.
+constexpr std::uint64_t kMaxFaces = (std::uint64_t{1} << 30) / 3;
+// Beyond it squared lengths could leave the range of double.
+constexpr double kLargestCoordinate = 1e100;
+/// What a triangle may lack to close, of its longest side: lengths rounded to float do.
+constexpr double kRoundedLength = 1e-6;
+constexpr double kAgreement = 1e-9;
+
+Error rejected(std::string message, std::uint64_t element = kNoElement) {
+    return Error{Status::mesh_rejected, std::move(message), element};
+}
+
+const double* vertex(const MeshView& mesh, std::uint32_t v) {
+    return mesh.positions.data() + std::size_t{v} * mesh.dimension;
+}
+
+Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices) {
+    if (faces == 0) {
+        return rejected("the mesh has no faces");
+    }
+    if (faces > kMaxFaces || vertices >= (std::uint64_t{1} << 31)) {
+        return rejected("the mesh is too large: at most 357,913,941 faces can be indexed");
+    }
+    return Done{};
+}
+
+Error index_rejected(std::size_t corner, std::uint32_t vertex, std::uint64_t vertices) {
+    return rejected("face " + std::to_string(corner / 3) + " names vertex " +
+                        std::to_string(vertex) + ", but there are only " + std::to_string(vertices),
+                    corner / 3);
+}
+
+Result<Done> check_shape(const MeshView& mesh) {
+    if (mesh.dimension < 2 || mesh.dimension > kMostDimensions) {
+        return Error{Status::invalid_argument, "the dimension must be 2 to 8"};
+    }
+    if (mesh.positions.size() % mesh.dimension != 0 || mesh.triangles.size() % 3 != 0) {
+        return Error{Status::invalid_argument,
+                     "positions must hold whole vertices and triangles whole faces"};
+    }
+    return check_counts(mesh.triangles.size() / 3, mesh.positions.size() / mesh.dimension);
+}
+
+/// Whether every index and every coordinate will do, those of unused vertices included.
+bool all_elements_fit(const MeshView& mesh) {
+    bool fit = true;
+    for (const double x : mesh.positions) {
+        fit &= std::abs(x) <= kLargestCoordinate; // False also for what is not a number.
+    }
+    std::uint32_t largest = 0;
+    for (const std::uint32_t v : mesh.triangles) {
+        largest = std::max(largest, v);
+    }
+    return fit && largest < mesh.positions.size() / mesh.dimension;
+}
+
+Result<Done> check_vertex(const MeshView& mesh, std::uint32_t v) {
+    for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
+        const double x = vertex(mesh, v)[axis];
+        if (!std::isfinite(x)) {
+            return rejected("vertex " + std::to_string(v) + " is not finite", v);
+        }
+        if (std::abs(x) > kLargestCoordinate) {
+            return rejected("vertex " + std::to_string(v) + " is beyond 1e100; rescale the mesh",
+                            v);
+        }
+    }
+    return Done{};
+}
+
+Result<Done> check_elements(const MeshView& mesh) {
+    if (all_elements_fit(mesh)) {
+        return Done{}; // In memory order: several times as fast as face by face.
+    }
+    const std::uint64_t vertices = mesh.positions.size() / mesh.dimension;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const std::uint32_t v = mesh.triangles[i];
+        if (v >= vertices) {
+            return index_rejected(i, v, vertices);
+        }
+        if (auto checked = check_vertex(mesh, v); !checked) {
+            return checked;
+        }
+    }
+    return Done{};
+}
+
+/// The shortest text that reads back as the same number, the same in every locale.
+std::string number(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// Whether the face names three vertices.
+bool takes_part(std::span<const std::uint32_t> face) {
+    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+}
+
+Result<Done> check_face(std::size_t face, std::span<const double> lengths) {
+    const std::string name = "face " + std::to_string(face);
+    for (const double length : lengths) {
+        if (!(length > 0) || length > kLargestCoordinate) {
+            return rejected(name + " has an edge of length " + number(length) +
+                                "; lengths must be positive and at most 1e100",
+                            face);
+        }
+    }
+    const double longest = std::max({lengths[0], lengths[1], lengths[2]});
+    const double rest = lengths[0] + lengths[1] + lengths[2] - longest;
+    if (rest < longest * (1 - kRoundedLength)) {
+        return rejected(name + " violates the triangle inequality: its edges have the lengths " +
+                            number(lengths[0]) + ", " + number(lengths[1]) + " and " +
+                            number(lengths[2]),
+                        face);
+    }
+    return Done{};
+}
+
+} // namespace
+
+Result<Done> check_mesh(const MeshView& mesh) {
+    if (auto shape = check_shape(mesh); !shape) {
+        return shape;
+    }
+    return check_elements(mesh);
+}
+
+Result<Done> check_mesh(const LengthMeshView& mesh) {
+    if (mesh.triangles.size() % 3 != 0 || mesh.lengths.size() != mesh.triangles.size()) {
+        return Error{Status::invalid_argument,
+                     "triangles must hold whole faces and lengths three per face"};
+    }
+    const std::size_t faces = mesh.triangles.size() / 3;
+    if (auto counts = check_counts(faces, mesh.vertex_count); !counts) {
+        return counts;
+    }
+    for (std::size_t f = 0; f < faces; ++f) {
+        const auto face = mesh.triangles.subspan(3 * f, 3);
+        for (const std::uint32_t v : face) {
+            if (v >= mesh.vertex_count) {
+                return index_rejected(3 * f, v, mesh.vertex_count);
+            }
+        }
+        if (takes_part(face)) {
+            if (auto checked = check_face(f, mesh.lengths.subspan(3 * f, 3)); !checked) {
+                return checked;
+            }
+        }
+    }
+    return Done{};
+}
+
+Result<Done> check_agreement(std::span<const HalfEdge> half_edges) {
+    for (std::uint32_t h = 0; h < half_edges.size(); ++h) {
+        const std::uint32_t other = around_half_edge(half_edges[h].around);
+        const double a = half_edges[h].length;
+        const double b = half_edges[other].length;
+        if (std::abs(a - b) > kAgreement * std::max(a, b)) {
+            const auto [low, high] = std::minmax(h, other);
+            return rejected(
+                "faces " + std::to_string(low / 3) + " and " + std::to_string(high / 3) +
+                    " disagree about edge " + std::to_string(half_edges[low].origin) + "-" +
+                    std::to_string(half_edges[next_in_face(low)].origin) + ": its length is " +
+                    number(half_edges[low].length) + " and " + number(half_edges[high].length),
+                low / 3);
+        }
+    }
+    return Done{};
+}
+
+} // namespace geodisk

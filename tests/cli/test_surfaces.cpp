@@ -1,0 +1,161 @@
+// Surfaces beyond three coordinates, by edge lengths and lifted: sampled and verified.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "cli/command.hpp"
+#include "common/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+Arguments joined(Arguments arguments, const Arguments& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+/// Samples and verifies with the same options and returns the samples.
+tools::SampleFile check_passes(const TemporaryFolder& folder, const Arguments& surface) {
+    const Outcome made =
+        run(folder, joined(joined({"sample"}, surface), {"-o", "a.ply", "-n", "300"}));
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    Arguments verify = joined({"verify"}, surface);
+    verify.insert(verify.begin() + 2, "a.ply");
+    const Outcome verified = run(folder, verify);
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "violations    0\n"));
+    tools::SampleFile samples = tools::read_samples(folder / "a.ply");
+    CHECK(samples.rows.size() > 200);
+    return samples;
+}
+
+/// A tetrahedron of faces 3-4-5 in OBJ without vertices.
+constexpr const char* kBare = "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+constexpr const char* kLengths = "1 2 3\n2 3 4\n1 3 5 # longest\n3 4 3.5\n1 4 4.5\n2 4 5\n";
+
+} // namespace
+
+TEST_CASE("shapes in R^4 are sampled, verified and written") {
+    const TemporaryFolder folder;
+    for (const std::string name : {"clifford-torus:20", "klein-bottle:12", "veronese:3"}) {
+        INFO(name);
+        const tools::SampleFile samples = check_passes(folder, {"builtin:" + name});
+        CHECK(samples.dimension == 4);
+        REQUIRE(run(folder, {"shapes", name, "-o", "mesh.ply"}).status == 0);
+        const tools::SampleFile again = check_passes(folder, {"mesh.ply"});
+        REQUIRE(again.rows.size() == samples.rows.size());
+        CHECK(again.rows.back().candidate == samples.rows.back().candidate);
+    }
+    check_fails(folder, 2, "three coordinates, and these samples have 4",
+                {"sample", "builtin:veronese:2", "-o", "a.xyz", "-n", "9"});
+    REQUIRE(run(folder, {"sample", "builtin:cube", "-o", "b.ply", "-n", "9"}).status == 0);
+    check_fails(folder, 3,
+                "its samples have 3 coordinates, the vertices of builtin:veronese:2 have 4",
+                {"verify", "builtin:veronese:2", "b.ply"});
+}
+
+TEST_CASE("shapes writes what it lists, where it can") {
+    const TemporaryFolder folder;
+    CHECK(contains(run(folder, {"shapes"}).out, "builtin:klein-bottle "));
+    check_fails(folder, 2, "give --output", {"shapes", "cube"});
+    check_fails(folder, 2, "no shape given", {"shapes", "-o", "a.ply"});
+    check_fails(folder, 2, "unknown built-in shape 'kube'", {"shapes", "kube", "-o", "a.ply"});
+    check_fails(folder, 2, ".ply only", {"shapes", "cube", "-o", "a.obj"});
+    check_fails(folder, 4, "none/a.ply", {"shapes", "cube", "-o", "none/a.ply"});
+}
+
+TEST_CASE("coordinates beside an OBJ file make the surface") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + std::string(kBare));
+    folder.write("in4d.txt", "0 0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n");
+    const Arguments surface{"mesh.obj", "--coordinates", "in4d.txt"};
+    CHECK(check_passes(folder, surface).dimension == 4);
+    check_fails(
+        folder, 2, "in4d.txt: the report would replace the mesh",
+        joined(joined({"sample"}, surface), {"-n", "9", "-o", "a.ply", "--json", "in4d.txt"}));
+    folder.write("short.txt", "0 0 0 1\n");
+    check_fails(folder, 3, "short.txt: has the coordinates of 1 vertices, but mesh.obj has 4",
+                {"sample", "mesh.obj", "--coordinates", "short.txt", "-n", "9", "-o", "a.ply"});
+}
+
+TEST_CASE("edge lengths alone make the surface") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", kBare);
+    folder.write("lengths.txt", kLengths);
+    const Arguments surface{"mesh.obj", "--edge-lengths", "lengths.txt"};
+    CHECK(check_passes(folder, surface).dimension == 0);
+    const Outcome report =
+        run(folder, joined(joined({"sample"}, surface), {"-n", "9", "-o", "a.csv", "--json", "-"}));
+    CHECK(contains(report.out, "\"edge_lengths\": \"lengths.txt\""));
+    CHECK(contains(report.out, "\"diagonal\": null"));
+    const auto fails = [&](int status, const std::string& part, const Arguments& more) {
+        check_fails(folder, status, part, joined(joined({"sample"}, surface), more));
+    };
+    fails(2, "these samples have none", {"-n", "9", "-o", "a.xyz"});
+    fails(2, "no bounding box", {"-d", "1%", "-o", "a.csv"});
+    fails(2, "--lift and --edge-lengths contradict",
+          {"-n", "9", "-o", "a.csv", "--lift", "normals:1"});
+    folder.write("lengths.txt", "1 2 3\n2 3 4\n1 3 9\n3 4 3.5\n1 4 4.5\n2 4 5\n");
+    fails(3, "mesh.obj: face 0 violates the triangle inequality", {"-n", "9", "-o", "a.csv"});
+}
+
+TEST_CASE("a lift measures in the lifted surface and keeps the coordinates") {
+    const TemporaryFolder folder;
+    const Arguments lifted{"builtin:terrain:20", "--lift", "normals:0.2"};
+    const tools::SampleFile samples = check_passes(folder, lifted);
+    CHECK(samples.dimension == 3);
+    // Without the lift other distances hold, and the user is told.
+    const Outcome other = run(folder, {"verify", "builtin:terrain:20", "a.ply"});
+    CHECK(other.status == 1);
+    CHECK(
+        contains(other.err, "a.ply: made with --lift normals:0.2, which is not what is verified"));
+    CHECK_FALSE(contains(other.out, "off the mesh"));
+
+    REQUIRE(run(folder, {"sample", "builtin:cube", "-o", "cube.ply", "-n", "9"}).status == 0);
+    const auto fails = [&](int status, const std::string& part, const Arguments& lifts) {
+        check_fails(folder, status, part,
+                    joined({"sample", "builtin:cube", "-o", "b.ply", "-n", "9"}, lifts));
+        check_fails(folder, status, part,
+                    joined({"verify", "builtin:cube", "cube.ply", "-d", "1"}, lifts));
+    };
+    fails(2, "'normal:1' is not a lift", {"--lift", "normal:1"});
+    fails(2, "'much' is not a finite weight", {"--lift", "normals:much"});
+    fails(2, "makes 9 coordinates of 3", {"--lift", "normals:1", "--lift", "normals:1"});
+    fails(3, "only PLY files do", {"--lift", "attribute:quality:1"});
+}
+
+TEST_CASE("faces turned over against each other are warned of before a lift by normals") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3\nf 1 4 3\n");
+    const Outcome outcome =
+        run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q", "--lift", "normals:1"});
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.err, "mesh.obj: 1 edge has faces turned over against each other"));
+    CHECK(run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q"}).err.empty());
+}
+
+TEST_CASE("an attribute of a PLY file is a lift") {
+    const TemporaryFolder folder;
+    folder.write("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                             "property float y\nproperty float z\nproperty float quality\n"
+                             "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                             "0 0 0 0\n1 0 0 0\n1 1 0 1\n0 1 0 1\n3 0 1 2\n3 0 2 3\n");
+    const tools::SampleFile samples =
+        check_passes(folder, {"mesh.ply", "--lift", "attribute:quality:3"});
+    for (const tools::SampleRow& row : samples.rows) {
+        CHECK(row.position[2] == 0);
+    }
+    // The lifted square is sqrt(10) high.
+    const Outcome made = run(
+        folder, {"sample", "mesh.ply", "--lift", "attribute:quality:3", "-n", "9", "-o", "a.ply"});
+    CHECK(contains(made.out, "area 3.16228"));
+    CHECK(contains(made.out, "lift attribute:quality:3"));
+    check_fails(folder, 3, "no property 'speed'",
+                {"sample", "mesh.ply", "--lift", "attribute:speed:3", "-n", "9", "-o", "b.ply"});
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,32 @@
+// The options that say what a mesh is, the same for every command that takes one.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace geodisk::tools {
+
+/// As given on the command line.
+struct MeshOptions {
+    std::string mesh, coordinates, edge_lengths;
+    std::vector<std::string> lifts;
+
+    /// The files that are read.
+    std::vector<std::string> files() const;
+    /// Name and value of what shapes the surface besides the mesh file, as the header of a sample
+    /// file names it.
+    std::vector<std::pair<std::string, std::string>> additions() const;
+};
+
+/// Adds the argument MESH, described by `summary`.
+void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary);
+
+/// Adds the options besides MESH.
+void add_mesh_options(CLI::App& command, MeshOptions& options);
+
+} // namespace geodisk::tools
