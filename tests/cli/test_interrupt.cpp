@@ -18,7 +18,7 @@ bool lacks_terminals() {
 
 /// Long enough that nobody waits for its end.
 const std::vector<std::string> kLongRun{
-    "sample", "builtin:icosphere:5", "-o", "a.ply", "-n", "200000", "--json", "a.json"};
+    "sample", "builtin:icosphere:5", "-o", "a.ply", "-n", "1000000", "--json", "a.json"};
 
 void check_stops(int signal, int status, const char* message) {
     if (lacks_terminals()) {
