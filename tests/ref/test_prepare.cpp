@@ -248,6 +248,42 @@ TEST_CASE("frames: the three of a face describe one triangle") {
     }
 }
 
+TEST_CASE("blocks: copies of a surface are prepared alike, whichever thread takes them") {
+    constexpr std::uint32_t kCopies = 20;
+    const TestMesh one = builtin("icosphere", 4);
+    const auto vertices = static_cast<std::uint32_t>(one.positions.size() / 3);
+    TestMesh many;
+    for (std::uint32_t copy = 0; copy < kCopies; ++copy) {
+        many.positions.insert(many.positions.end(), one.positions.begin(), one.positions.end());
+        for (const std::uint32_t v : one.triangles) {
+            many.triangles.push_back(copy * vertices + v);
+        }
+        many.add_triangle(0, copy, copy);
+    }
+    const PreparedMesh alone = prepared(one);
+    const PreparedMesh all = prepared(many);
+    const auto count = static_cast<std::uint32_t>(alone.half_edges().size());
+    REQUIRE(all.face_count() > 100000); // Several blocks of support/blocks.hpp.
+    for (std::uint32_t h = 0; h < all.half_edges().size(); ++h) {
+        const std::uint32_t first = h / (count + 3) * (count + 3); // Of the copy.
+        if (h - first >= count) {
+            continue;
+        }
+        const HalfEdge& expected = alone.half_edges()[h - first];
+        const HalfEdge& found = all.half_edges()[h];
+        REQUIRE(found.length == expected.length);
+        REQUIRE(found.apex_x == expected.apex_x);
+        REQUIRE(found.apex_y == expected.apex_y);
+        REQUIRE(found.fan_angles == expected.fan_angles);
+        REQUIRE(found.around == expected.around + 2 * first);
+    }
+    const MeshStatistics& statistics = all.statistics();
+    CHECK(statistics.repeated_index_faces == kCopies);
+    CHECK(statistics.components == kCopies);
+    CHECK(statistics.longest_edge == alone.statistics().longest_edge);
+    CHECK(statistics.area == doctest::Approx(kCopies * alone.statistics().area).epsilon(1e-12));
+}
+
 TEST_CASE("frames: a needle keeps its height") {
     // Along a slanted direction, so that no coordinate is the height itself; the foot lies inside,
     // at an end and beyond it.

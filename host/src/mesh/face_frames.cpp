@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "mesh/vertex_fans.hpp"
+#include "support/blocks.hpp"
 #include "support/prefetch.hpp"
 
 namespace geodisk {
@@ -87,46 +89,56 @@ bool repeats_vertex(std::span<const std::uint32_t> face) {
     return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
 }
 
-/// Appends all faces, their edges filled by `place(f, edges)`.
+/// Fills in all faces, their edges by `place(f, edges)`, block by block.
 template <typename Place>
-std::vector<double> place_all(std::span<const std::uint32_t> triangles,
-                              std::vector<HalfEdge>& half_edges, std::vector<Link>& links,
-                              MeshStatistics& statistics, const Place& place) {
+UninitializedVector<double>
+place_all(std::span<const std::uint32_t> triangles, UninitializedVector<HalfEdge>& half_edges,
+          UninitializedVector<Link>& links, MeshStatistics& statistics, const Place& place) {
     const std::size_t faces = triangles.size() / 3;
-    statistics.triangles = faces;
-    // Reserved and appended to rather than resized: memory is touched once instead of twice.
-    half_edges.reserve(half_edges.size() + triangles.size());
-    links.reserve(links.size() + triangles.size());
-    std::vector<double> areas(faces);
-    for (std::size_t f = 0; f < faces; ++f) {
-        const auto face = triangles.subspan(3 * f, 3);
-        HalfEdge edges[3]{};
-        std::uint32_t angles[3]{};
-        if (repeats_vertex(face)) {
-            ++statistics.repeated_index_faces;
-        } else {
-            place(f, edges);
-            areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
-            statistics.area += areas[f];
-            statistics.zero_area_faces += areas[f] == 0;
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                statistics.longest_edge = std::max(statistics.longest_edge, edges[k].length);
-                angles[k] = pack_corner_angle(edges[k], edges[previous_in_face(k)]);
+    half_edges.resize(triangles.size());
+    links.resize(triangles.size());
+    UninitializedVector<double> areas(faces);
+    std::vector<MeshStatistics> blocks(block_count(faces));
+    for_blocks(faces, [&](std::size_t begin, std::size_t end) {
+        MeshStatistics& block = blocks[begin / kBlock];
+        for (std::size_t f = begin; f < end; ++f) {
+            const auto face = triangles.subspan(3 * f, 3);
+            HalfEdge edges[3]{};
+            std::uint32_t angles[3]{};
+            areas[f] = 0;
+            if (repeats_vertex(face)) {
+                ++block.repeated_index_faces;
+            } else {
+                place(f, edges);
+                areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
+                block.zero_area_faces += areas[f] == 0;
+                for (std::uint32_t k = 0; k < 3; ++k) {
+                    block.longest_edge = std::max(block.longest_edge, edges[k].length);
+                    angles[k] = pack_corner_angle(edges[k], edges[previous_in_face(k)]);
+                }
             }
+            const auto first = static_cast<std::uint32_t>(3 * f);
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                edges[k].origin = face[k];
+                links[first + k] = {face[k], lone_half_edge(first + k), angles[k]};
+            }
+            std::copy_n(edges, 3, half_edges.begin() + first);
         }
-        const auto first = static_cast<std::uint32_t>(3 * f);
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            edges[k].origin = face[k];
-            links.push_back({face[k], lone_half_edge(first + k), angles[k]});
-        }
-        half_edges.insert(half_edges.end(), edges, edges + 3);
+    });
+    statistics.triangles = faces;
+    for (const MeshStatistics& block : blocks) {
+        statistics.repeated_index_faces += block.repeated_index_faces;
+        statistics.zero_area_faces += block.zero_area_faces;
+        statistics.longest_edge = std::max(statistics.longest_edge, block.longest_edge);
     }
+    statistics.area = std::accumulate(areas.begin(), areas.end(), 0.0);
     return areas;
 }
 
 template <std::size_t kAxes>
-std::vector<double> place_vertices(const MeshView& mesh, std::vector<HalfEdge>& half_edges,
-                                   std::vector<Link>& links, MeshStatistics& statistics) {
+UninitializedVector<double>
+place_vertices(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
+               UninitializedVector<Link>& links, MeshStatistics& statistics) {
     const std::size_t faces = mesh.triangles.size() / 3;
     constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
     return place_all(
@@ -174,14 +186,18 @@ void place_apex(double next, double previous, double twice_area, HalfEdge& edge)
 
 } // namespace
 
-std::vector<double> place_faces(const MeshView& mesh, std::vector<HalfEdge>& half_edges,
-                                std::vector<Link>& links, MeshStatistics& statistics) {
+UninitializedVector<double> place_faces(const MeshView& mesh,
+                                        UninitializedVector<HalfEdge>& half_edges,
+                                        UninitializedVector<Link>& links,
+                                        MeshStatistics& statistics) {
     return mesh.dimension <= 3 ? place_vertices<3>(mesh, half_edges, links, statistics)
                                : place_vertices<8>(mesh, half_edges, links, statistics);
 }
 
-std::vector<double> place_faces(const LengthMeshView& mesh, std::vector<HalfEdge>& half_edges,
-                                std::vector<Link>& links, MeshStatistics& statistics) {
+UninitializedVector<double> place_faces(const LengthMeshView& mesh,
+                                        UninitializedVector<HalfEdge>& half_edges,
+                                        UninitializedVector<Link>& links,
+                                        MeshStatistics& statistics) {
     return place_all(mesh.triangles, half_edges, links, statistics,
                      [&](std::size_t f, HalfEdge(&edges)[3]) {
                          const auto lengths = mesh.lengths.subspan(3 * f, 3);

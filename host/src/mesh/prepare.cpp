@@ -11,6 +11,7 @@
 #include "mesh/connectivity.hpp"
 #include "mesh/face_frames.hpp"
 #include "mesh/vertex_fans.hpp"
+#include "support/blocks.hpp"
 #include "support/prefetch.hpp"
 
 namespace geodisk {
@@ -21,7 +22,7 @@ constexpr double kSmallestExtent = 1e-100;
 
 /// Fills what a face alone does not determine: `around` and `fan_angles` of the half-edges, the
 /// fans and the lists of corners.
-void connect(std::span<const std::uint32_t> triangles, std::vector<Link>& links,
+void connect(std::span<const std::uint32_t> triangles, std::span<Link> links,
              std::span<HalfEdge> half_edges, std::vector<VertexFan>& fans,
              std::vector<std::uint32_t>& corners, MeshStatistics& statistics) {
     list_corners(triangles, fans, corners);
@@ -44,10 +45,12 @@ void connect(std::span<const std::uint32_t> triangles, std::vector<Link>& links,
         }
     }
     linker.count(statistics);
-    for (std::size_t h = 0; h < half_edges.size(); ++h) {
-        half_edges[h].around = links[h].around;
-        half_edges[h].fan_angles = links[h].angle;
-    }
+    for_blocks(half_edges.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t h = begin; h < end; ++h) {
+            half_edges[h].around = links[h].around;
+            half_edges[h].fan_angles = links[h].angle;
+        }
+    });
 }
 
 void measure_box(const MeshView& mesh, std::span<const VertexFan> fans,
@@ -99,8 +102,9 @@ Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh) noexcept try {
     }
     PreparedMesh result;
     MeshStatistics& statistics = result.statistics_;
-    std::vector<Link> links;
-    const std::vector<double> areas = place_faces(mesh, result.half_edges_, links, statistics);
+    UninitializedVector<Link> links;
+    const UninitializedVector<double> areas =
+        place_faces(mesh, result.half_edges_, links, statistics);
     result.fans_.resize(mesh.positions.size() / mesh.dimension);
     connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
     measure_box(mesh, result.fans_, statistics);
@@ -119,8 +123,9 @@ Result<PreparedMesh> PreparedMesh::prepare(const LengthMeshView& mesh) noexcept 
     }
     PreparedMesh result;
     MeshStatistics& statistics = result.statistics_;
-    std::vector<Link> links;
-    const std::vector<double> areas = place_faces(mesh, result.half_edges_, links, statistics);
+    UninitializedVector<Link> links;
+    const UninitializedVector<double> areas =
+        place_faces(mesh, result.half_edges_, links, statistics);
     result.fans_.resize(mesh.vertex_count);
     connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
     if (auto checked = check_agreement(result.half_edges_); !checked) {
