@@ -15,21 +15,14 @@ GEODISK_CONTROL;
 
 #include "../lib/slice.glsl"
 #include "../lib/conflicts.glsl"
+#include "../lib/wide.glsl"
 
 void count_disk(uint row, uint conflicts) {
     uvec4 took = slots[row + 2u];
-    uint tested = took.x;
-    uint pushed = took.y;
     atomicAdd(control.unfinished, 0xffffffffu);
     atomicAdd(control.disks, 1u);
-    uint low = atomicAdd(control.windows_low, pushed);
-    if (low + pushed < low) {
-        atomicAdd(control.windows_high, 1u);
-    }
-    low = atomicAdd(control.tested_low, tested);
-    if (low + tested < low) {
-        atomicAdd(control.tested_high, 1u);
-    }
+    GEODISK_ADD_WIDE(control.tested_low, control.tested_high, took.x)
+    GEODISK_ADD_WIDE(control.windows_low, control.windows_high, took.y)
     atomicMax(control.most_waiting, took.z);
     atomicMax(control.most_vertices, took.w);
     atomicMax(control.most_conflicts, conflicts);

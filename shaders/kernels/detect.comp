@@ -6,7 +6,7 @@
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
 // reads: faces, fans, cells, states, weights   writes: pool, slots, control
-// spec: local size, rounding, pool block
+// spec: local size, rounding, pool block, counted lanes
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
@@ -18,6 +18,7 @@
 #include "../lib/cells.glsl"
 
 layout(local_size_x_id = 0) in;
+layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 
 GEODISK_ROWS(kBindFans, fans);
 GEODISK_WORDS(kBindCells, cells);
@@ -35,8 +36,10 @@ Push P;
 #include "../lib/vertex_table.glsl"
 #include "../lib/propagate.glsl"
 #include "../lib/scan.glsl"
+#include "../lib/wide.glsl"
 
 uint slot;
+uint trips;         // in this dispatch
 uint cursor;        // clear: next table row; source: next edge; fan: next corner
 uint cursor_end;
 uint own_face;
@@ -322,18 +325,14 @@ void step() {
     }
     for (uint i = 0u; i < kTripsPerStep && running(); ++i) {
         trip();
+        ++trips;
     }
     if (phase == kPhaseComplete) {
         hand_in_slot();
     }
 }
 
-void main() {
-    uint lane = gl_GlobalInvocationID.x;
-    P = push;
-    if (lane >= P.lanes || control.unfinished == 0u || control.overflow != 0u) {
-        return;
-    }
+void work_on(uint lane) {
     load_lane(lane);
     for (uint i = 0u; i < P.step_budget && overflow == 0u; ++i) {
         step();
@@ -345,4 +344,31 @@ void main() {
         atomicOr(control.overflow, overflow);
     }
     save_lane();
+}
+
+shared uint most_trips[gl_WorkGroupSize.x]; // of the lanes of each subgroup
+
+// The lanes of a subgroup go on together until the last has done its trips.
+void count_trips() {
+    uint invocation = gl_LocalInvocationID.x;
+    uint subgroup = invocation / kCountedLanes;
+    most_trips[invocation] = 0u;
+    barrier();
+    atomicMax(most_trips[subgroup], trips);
+    GEODISK_ADD_WIDE(control.trips_low, control.trips_high, trips)
+    barrier();
+    uint most = most_trips[subgroup];
+    GEODISK_ADD_WIDE(control.lane_trips_low, control.lane_trips_high, most)
+}
+
+void main() {
+    uint lane = gl_GlobalInvocationID.x;
+    P = push;
+    trips = 0u;
+    if (lane < P.lanes && control.unfinished > 0u && control.overflow == 0u) {
+        work_on(lane);
+    }
+    if (kCountedLanes > 0u) {
+        count_trips();
+    }
 }

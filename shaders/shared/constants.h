@@ -106,6 +106,7 @@ GEODISK_CONST uint kWindowRows = 2u;
 GEODISK_CONST uint kSpecLocalSize = 0u;
 GEODISK_CONST uint kSpecNativeRounding = 1u;
 GEODISK_CONST uint kSpecPoolBlock = 2u;
+GEODISK_CONST uint kSpecCountedLanes = 3u;
 
 // Lanes of a work group of find_idle, each with 32 ranks, and the most groups of one dispatch.
 GEODISK_CONST uint kFindLanes = 64u;

@@ -80,6 +80,10 @@ struct ControlRec {
     uint longest_chain;    // of accepted candidates
     uint most_vertices;
     uint most_conflicts;
+    uint trips_low;        // of all lanes in detect, 64 bits; 0 where they are not counted
+    uint trips_high;
+    uint lane_trips_low;   // the same if every lane did as many as the busiest of its subgroup
+    uint lane_trips_high;
 };
 
 GEODISK_END_SHARED
@@ -94,7 +98,7 @@ static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, spare) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 104 && offsetof(ControlRec, most_conflicts) == 100);
+static_assert(sizeof(ControlRec) == 120 && offsetof(ControlRec, lane_trips_high) == 116);
 } // namespace geodisk::gpu
 #endif
 

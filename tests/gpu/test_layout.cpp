@@ -71,7 +71,9 @@ const Offsets kControl{
     GEODISK_OFFSET(ControlRec, windows_low),   GEODISK_OFFSET(ControlRec, windows_high),
     GEODISK_OFFSET(ControlRec, tested_low),    GEODISK_OFFSET(ControlRec, tested_high),
     GEODISK_OFFSET(ControlRec, most_waiting),  GEODISK_OFFSET(ControlRec, longest_chain),
-    GEODISK_OFFSET(ControlRec, most_vertices), GEODISK_OFFSET(ControlRec, most_conflicts)};
+    GEODISK_OFFSET(ControlRec, most_vertices), GEODISK_OFFSET(ControlRec, most_conflicts),
+    GEODISK_OFFSET(ControlRec, trips_low), GEODISK_OFFSET(ControlRec, trips_high),
+    GEODISK_OFFSET(ControlRec, lane_trips_low), GEODISK_OFFSET(ControlRec, lane_trips_high)};
 
 } // namespace
 

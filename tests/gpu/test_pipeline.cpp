@@ -176,6 +176,25 @@ TEST_SUITE("invariance") {
         CHECK(regrown.report.regrown > 0);
     }
 
+    TEST_CASE("counting trips tells how long lanes wait, and changes no set") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 16));
+        const SampleParams params = params_for(mesh, 500);
+        const SampleSet uncounted = sample(mesh, params);
+        CHECK(uncounted.report.trips == 0);
+        CHECK(uncounted.report.lane_trips == 0);
+        RunnerOptions options;
+        options.sampler.count_trips = true;
+        options.sampler.tuning.slot_local_size = 2; // Less than any subgroup with more than one.
+        const SampleSet counted = sample(mesh, params, options);
+        CHECK(ranks_of(counted) == ranks_of(uncounted));
+        CHECK(counted.report.trips >= counted.report.windows);
+        CHECK(counted.report.lane_trips > counted.report.trips);
+        CHECK(counted.report.lane_trips < 2 * counted.report.trips);
+        options.plan.lanes = 1; // The other lane of its group waits all the time.
+        const SampleSet alone = sample(mesh, params, options);
+        CHECK(alone.report.lane_trips == 2 * alone.report.trips);
+    }
+
     // Which losers get a disk depends on the slots; the guard, which follows from the chains met,
     // must not.
     TEST_CASE("no tuning changes the guard of a repeated run") {

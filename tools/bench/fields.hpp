@@ -37,6 +37,8 @@ void visit_fields(const Measurement& row, const Visit& visit) {
     visit("disks", run.disks);
     visit("windows", run.windows);
     visit("tested", run.tested);
+    visit("trips", run.trips);           // 0 unless stages are timed,
+    visit("lane_trips", run.lane_trips); // and so is this.
     visit("iterations", run.iterations);
     visit("dispatches", run.dispatches);
     visit("regrown", run.regrown);

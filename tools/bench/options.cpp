@@ -33,6 +33,7 @@ std::vector<double> parse_counts(const std::string& option, const std::vector<st
 
 Options checked(const RawOptions& raw) {
     Options options = raw.options;
+    options.runner.sampler.count_trips = options.runner.time_stages;
     if (options.scaling && raw.has_counts) {
         throw UserError(ExitCode::usage, "--count and --scaling contradict each other; a sweep "
                                          "takes its counts from --scaling-counts");
@@ -141,7 +142,8 @@ void add_options(CLI::App& app, void (*run)(const Options&)) {
     app.add_option("--device", options.device, "Device by name, index or UUID (geodisk info)")
         ->type_name("NAME|INDEX");
     app.add_flag("--stages", options.runner.time_stages,
-                 "Time each stage on the device; takes a little time itself");
+                 "Time each stage on the device and count how long lanes wait\n"
+                 "for others; takes a little time itself");
     app.add_option("--json", options.json, "Write rows, fits and circumstances as JSON")
         ->type_name("FILE");
     app.add_option("--csv", options.csv, "Write rows and circumstances as CSV")->type_name("FILE");

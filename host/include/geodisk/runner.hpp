@@ -52,6 +52,10 @@ struct RunReport {
     std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
     std::uint32_t most_vertices = 0;  ///< Reached by one disk.
     std::uint32_t most_conflicts = 0; ///< Listed by one disk.
+    /// Trips of the main loop of detect, each a window or corner, by all lanes; and as many as it
+    /// would be if each did what the busiest of its subgroup did in the same dispatch, as all are
+    /// held up by. 0 without SamplerOptions::count_trips.
+    std::uint64_t trips = 0, lane_trips = 0;
     double guard = 0;                 ///< Conflicts were tested against min_distance * (1 + guard).
     std::uint64_t device_bytes = 0;   ///< Memory allocated on the device.
     RunPlan plan;                     ///< As it stood at the end.

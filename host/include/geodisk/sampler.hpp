@@ -75,6 +75,9 @@ GEODISK_API Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept;
 struct SamplerOptions {
     Tuning tuning;
     Rounding rounding = Rounding::automatic;
+    /// Counts in gpu::ControlRec how long lanes of detect wait for others of their subgroup; takes
+    /// a little time.
+    bool count_trips = false;
 };
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.

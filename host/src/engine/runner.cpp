@@ -33,6 +33,10 @@ constexpr std::uint32_t kMostRounds = 256;
 constexpr std::uint32_t kMostPasses = 64;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
+constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
+    return std::uint64_t{high} << 32 | low;
+}
+
 constexpr std::size_t index_of(BufferRole role) {
     return static_cast<std::size_t>(role);
 }
@@ -378,12 +382,14 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
     report_.seconds.readback = seconds_since(start);
     report_.iterations = control_.iterations;
     report_.disks = control_.disks;
-    report_.windows = std::uint64_t{control_.windows_high} << 32 | control_.windows_low;
-    report_.tested = std::uint64_t{control_.tested_high} << 32 | control_.tested_low;
+    report_.windows = wide(control_.windows_low, control_.windows_high);
+    report_.tested = wide(control_.tested_low, control_.tested_high);
     report_.most_waiting = control_.most_waiting;
     report_.longest_chain = control_.longest_chain;
     report_.most_vertices = control_.most_vertices;
     report_.most_conflicts = control_.most_conflicts;
+    report_.trips = wide(control_.trips_low, control_.trips_high);
+    report_.lane_trips = wide(control_.lane_trips_low, control_.lane_trips_high);
     report_.device_bytes = memory_.bytes();
     report_.plan = job_->plan();
     if (runner_.clock) {

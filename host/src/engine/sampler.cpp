@@ -62,6 +62,8 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
             options.rounding == Rounding::native ||
             (options.rounding == Rounding::automatic && report->rounds_natively);
         impl->tuning = *tuning;
+        impl->counted_lanes =
+            options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
         impl->report = std::move(*report);
         if (auto created = impl->create_pipelines(); !created) {
             return created.error();
@@ -135,13 +137,14 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
         return vk_error("vkCreateShaderModule", result);
     }
     constexpr std::uint32_t kWord = sizeof(std::uint32_t);
-    const std::array<std::uint32_t, 3> constants{
+    const std::array<std::uint32_t, 4> constants{
         info.per_slot ? tuning.slot_local_size : tuning.local_size,
-        native_rounding ? VK_TRUE : VK_FALSE, tuning.pool_block};
-    const std::array<VkSpecializationMapEntry, 3> entries{{
+        native_rounding ? VK_TRUE : VK_FALSE, tuning.pool_block, counted_lanes};
+    const std::array<VkSpecializationMapEntry, 4> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
         {gpu::kSpecPoolBlock, 2 * kWord, kWord},
+        {gpu::kSpecCountedLanes, 3 * kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};

@@ -18,6 +18,7 @@ struct Sampler::Impl {
     DeviceTable vk;
     Tuning tuning; ///< All chosen.
     bool native_rounding = false;
+    std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
