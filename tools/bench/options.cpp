@@ -5,6 +5,7 @@
 
 #include "common/user_error.hpp"
 #include "program/arguments.hpp"
+#include "program/tuning_file.hpp"
 
 namespace geodisk::bench {
 namespace {
@@ -86,10 +87,8 @@ void add_scaling(CLI::App& app, RawOptions& raw) {
 }
 
 Reads reads_from(const std::string& name) {
-    for (const Reads reads : {Reads::automatic, Reads::storage, Reads::texels}) {
-        if (name == to_string(reads)) {
-            return reads;
-        }
+    if (const auto reads = tools::reads_named(name)) {
+        return *reads;
     }
     throw CLI::ValidationError("--reads", "\"" + name + "\" is not auto, storage or texels");
 }

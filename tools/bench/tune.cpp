@@ -129,6 +129,9 @@ class Search {
     }
 
     void attempt(const std::string& setting, const Tuning& tuning) {
+        if (!chosen_tuning(tuning, context_.report())) {
+            return; // Some devices cannot read texels.
+        }
         Runner runner = create(tuning);
         const double ratio = compare(best_, runner, jobs_, {options_.warm_ups, options_.repeats});
         const bool is_kept = ratio < 1 - kLeastGain;
@@ -151,11 +154,7 @@ Tuning find_tuning(const Context& context, const Options& options,
                    const std::vector<NamedMesh>& meshes, const Tuning& start,
                    const std::function<void(const Trial&)>& on_trial) {
     Search search(context, options, jobs_of(options, meshes), start, on_trial);
-    // Some devices cannot read texels.
-    if (context.report().limits.max_texel_buffer_elements >=
-        context.report().limits.max_storage_buffer_range / 4) {
-        search.try_reads();
-    }
+    search.try_reads();
     for (const Setting& setting : settings_for(context.report())) {
         search.try_values(setting);
     }

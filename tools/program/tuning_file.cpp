@@ -37,6 +37,8 @@ std::filesystem::path cache_folder() {
 #endif
 }
 
+} // namespace
+
 std::optional<Reads> reads_named(const std::string& name) {
     for (const Reads reads : {Reads::automatic, Reads::storage, Reads::texels}) {
         if (name == to_string(reads)) {
@@ -45,8 +47,6 @@ std::optional<Reads> reads_named(const std::string& name) {
     }
     return std::nullopt;
 }
-
-} // namespace
 
 std::filesystem::path tuning_path(const DeviceReport& device) {
     const std::filesystem::path folder = cache_folder();
@@ -64,22 +64,24 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
     if (path.empty() || !std::filesystem::exists(path, ignored)) {
         return std::nullopt;
     }
+    constexpr const char* kRemedy = "; run geodisk_bench --tune again, or remove the file";
+    Tuning tuning;
     try {
         const Json document = Json::parse(read_file(path));
-        Tuning tuning;
         tuning.local_size = document.at("local_size").get<std::uint32_t>();
         tuning.slot_local_size = document.at("slot_local_size").get<std::uint32_t>();
         tuning.pool_block = document.at("pool_block").get<std::uint32_t>();
         tuning.batches = document.at("batches").get<std::uint32_t>();
-        const auto reads = reads_named(document.at("reads").get<std::string>());
-        if (reads) {
-            tuning.reads = *reads;
-            return tuning;
-        }
+        tuning.reads = reads_named(document.at("reads").get<std::string>()).value();
     } catch (const Json::exception&) {
+        fail_input(path, std::string("is not as geodisk_bench --tune writes it") + kRemedy);
+    } catch (const std::bad_optional_access&) {
+        fail_input(path, std::string("has no reads that geodisk knows") + kRemedy);
     }
-    fail_input(path,
-               "is not as geodisk_bench --tune writes it; run that again, or remove the file");
+    if (const auto checked = chosen_tuning(tuning, device); !checked) {
+        fail_input(path, checked.error().message + kRemedy);
+    }
+    return tuning;
 }
 
 std::filesystem::path writable_tuning_path(const DeviceReport& device) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include <geodisk/sampler.hpp>
 
@@ -12,7 +13,11 @@ namespace geodisk::tools {
 /// files. ($XDG_CACHE_HOME or ~/.cache; %LOCALAPPDATA% on Windows.)
 std::filesystem::path tuning_path(const DeviceReport& device);
 
-/// Nothing if none is kept. Throws UserError(bad_input) naming the file if it is not as written.
+/// Nothing unless `name` is what to_string() calls one of them.
+std::optional<Reads> reads_named(const std::string& name);
+
+/// Nothing if none is kept. Throws UserError(bad_input) naming the file if it is not as written, or
+/// holds what the device cannot do.
 std::optional<Tuning> load_tuning(const DeviceReport& device);
 
 /// tuning_path(), in a folder that exists. Throws UserError(bad_output) if no file can be made

@@ -72,6 +72,11 @@ inline constexpr std::uint32_t kMostPoolBlock = 128;
 /// `tuning` with all that `wanted` does not leave open in place of its own.
 GEODISK_API Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept;
 
+/// `wanted` with all that it leaves open chosen for a device. Errors: `invalid_argument` for a size
+/// or a pool block that cannot be, `device_lacks` for Reads::texels on a device whose texel buffers
+/// are too small.
+GEODISK_API Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report);
+
 struct SamplerOptions {
     Tuning tuning;
     Rounding rounding = Rounding::automatic;
@@ -161,9 +166,7 @@ class Job;
 class GEODISK_API Sampler {
   public:
     /// Compiles the pipelines on the lent device.
-    /// Errors: `device_lacks` with every reason, or for Reads::texels on a device whose texel
-    /// buffers are too small; `invalid_argument` for a local size or a pool block that cannot be;
-    /// or as Vulkan fails.
+    /// Errors: `device_lacks` with every reason; as chosen_tuning(); or as Vulkan fails.
     static Result<Sampler> create(const DeviceRefs& device,
                                   const SamplerOptions& options = {}) noexcept;
     Sampler(Sampler&&) noexcept;

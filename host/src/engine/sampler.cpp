@@ -7,7 +7,6 @@
 #include "constants.h"
 #include "engine/device_mesh.hpp"
 #include "engine/sampler_impl.hpp"
-#include "engine/tuning.hpp"
 #include "support/guard.hpp"
 #include "vk/result.hpp"
 

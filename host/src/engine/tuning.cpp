@@ -1,8 +1,8 @@
-#include "engine/tuning.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <string>
+
+#include <geodisk/sampler.hpp>
 
 namespace geodisk {
 namespace {
@@ -24,7 +24,7 @@ bool texels_reach(const DeviceLimits& limits) {
 /// (paper Table 1).
 Tuning default_tuning(const DeviceReport& report) {
     const std::uint32_t subgroup =
-        std::bit_floor(std::clamp(report.limits.subgroup_size, 1u, 128u));
+        std::bit_floor(std::clamp(report.limits.subgroup_size, 1u, kMostPoolBlock));
     Tuning tuning;
     tuning.local_size = kDefaultLocalSize;
     tuning.slot_local_size =
