@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Readies the slots that select has filled with ranks. One invocation per slot.
+// Readies the slots that select has filled with ranks; those of samples of earlier chunks have no
+// place among the candidates. One invocation per slot.
 // reads: alias columns, places   writes: states, slots, marks, blockers   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
@@ -21,7 +22,11 @@ void main() {
         return;
     }
     uint rank = slots[row + 1u].x;
-    uint place = word_at(places, rank);
+    bool settled = rank >= push.candidates;
+    uint place = kNoPlace;
+    if (!settled) {
+        place = word_at(places, rank);
+    }
     Candidate c = draw_candidate(rank);
     slots[row] = uvec4(place, kSlotReady, 0u, 0u);
     slots[row + 1u] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
@@ -29,6 +34,8 @@ void main() {
     slots[row + 2u] = uvec4(0u);
     slots[row + 3u] = uvec4(0u);
     blockers[slot] = 0u;
-    marks[place] = slot;
-    states[place] |= kActive;
+    if (!settled) {
+        marks[place] = slot;
+        states[place] |= kActive;
+    }
 }

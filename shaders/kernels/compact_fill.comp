@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Draws the accepted candidates again, to write them out. One invocation per sample.
+// Draws the chunk's accepted candidates again, to write them out. One invocation per sample.
 // reads: alias columns, control   writes: samples   spec: local size, rounding
 
 #include "../lib/prelude.glsl"
@@ -12,13 +12,15 @@ GEODISK_BUFFER(kBindSamples, , uvec4, samples);
 GEODISK_CONTROL;
 
 void main() {
-    uint sample_index = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
+    uint sample_index = control.settled +
+                        gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
                         gl_GlobalInvocationID.x;
     if (sample_index >= min(control.accepted, push.sample_capacity)) {
         return;
     }
     uint rank = samples[sample_index].x;
     Candidate c = draw_candidate(rank);
-    samples[sample_index] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
-                                  floatBitsToUint(weight_of(c.weight2)));
+    samples[sample_index] =
+        uvec4(push.first_rank + rank, c.face, floatBitsToUint(weight_of(c.weight1)),
+              floatBitsToUint(weight_of(c.weight2)));
 }

@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Leaves the rank of every accepted candidate at its output place. After the scan an accepted one is
-// where the next word is larger. One invocation per candidate.
+// Leaves the rank of every accepted candidate at its output place, behind the samples of earlier
+// chunks. After the scan an accepted one is where the next word is larger. One invocation per
+// candidate.
 // reads: marks   writes: samples, control   spec: local size
 
 #include "../lib/prelude.glsl"
@@ -19,13 +20,15 @@ void main() {
         return;
     }
     uint place = word_at(marks, rank);
-    uint next = rank + 1u < push.candidates ? word_at(marks, rank + 1u) : control.accepted;
+    uint next = rank + 1u < push.candidates ? word_at(marks, rank + 1u)
+                                            : control.accepted - control.settled;
     if (next == place) {
         return;
     }
-    if (place >= push.sample_capacity) {
+    uint sample_index = control.settled + place;
+    if (sample_index >= push.sample_capacity) {
         atomicOr(control.overflow, kOverflowSamples);
     } else {
-        samples[place].x = rank;
+        samples[sample_index].x = rank;
     }
 }

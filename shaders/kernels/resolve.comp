@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Decides the active batch (paper CheckStatus, without recursion): a candidate that no undecided
 // one of lower rank blocks is accepted and rejects what its disk holds; a rejected one lifts its
-// blocks. Blocks only fall and rejections only come, so every order of events ends the same.
+// blocks. Blocks only fall and rejections only come, so every order of events ends the same. A sample
+// of an earlier chunk has been accepted; nothing blocks it, and it only rejects.
 // One invocation per slot; resumable, since lists may be long.
 // reads: pool lists, slots, marks   writes: states, slots, control, blockers   spec: local size, pool block
 
@@ -26,7 +27,7 @@ void main() {
     }
     uvec4 head = slots[slot * kSlotRows];
     uint place = head.x;
-    if ((states[place] & kStateMask) != kActive) {
+    if (head.y != kSlotBlocked) {
         return;
     }
     uint blocks = atomicOr(blockers[slot], 0u);
@@ -70,8 +71,12 @@ void main() {
     }
     slots[slot * kSlotRows + 3u].z = resolved;
     if (resolved == total) {
-        atomicXor(states[place], kActive ^ (rejected ? kRejected : kAccepted));
+        slots[slot * kSlotRows].y = kSlotDecided;
         atomicAdd(control.undecided, 0xffffffffu);
+        if (place == kNoPlace) {
+            return;
+        }
+        atomicXor(states[place], kActive ^ (rejected ? kRejected : kAccepted));
         if (!rejected) {
             atomicAdd(control.accepted, 1u);
             // Of accepted candidates alone: which others get a disk depends on the slots, and the

@@ -15,10 +15,14 @@ GEODISK_CONTROL;
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot < control.slots_used) {
-        states[row_at(slots, slot * kSlotRows).x] &= ~kStateMask;
+        uint place = row_at(slots, slot * kSlotRows).x;
+        if (place != kNoPlace) {
+            states[place] &= ~kStateMask;
+        }
     }
     if (slot == 0u) {
         control.next_rank = control.batch_rank;
+        control.next_sample = control.batch_sample;
         control.unfinished = 0u;
         control.undecided = 0u;
         control.overflow = 0u;

@@ -1,4 +1,4 @@
-// Candidate `rank` as a pure function of seed and rank (paper section 3.3), in integers but for one
+// A candidate as a pure function of seed and rank (paper section 3.3), in integers but for one
 // correctly rounded root.
 #ifndef GEODISK_CANDIDATE_GLSL
 #define GEODISK_CANDIDATE_GLSL
@@ -15,8 +15,9 @@ struct Candidate {
     uint weight2;
 };
 
+// `rank` counts from the first of the chunk.
 Candidate draw_candidate(uint rank) {
-    uvec4 random = philox(uvec2(push.seed_low, push.seed_high), rank);
+    uvec4 random = philox(uvec2(push.seed_low, push.seed_high), push.first_rank + rank);
     // A 64-bit fraction times the number of faces: the integer part is the column.
     uint high, low, fine, unused;
     umulExtended(random.x, push.faces, high, low);

@@ -61,6 +61,10 @@ GEODISK_CONST uint kSlotSelected = 0u;  // has a rank and nothing else
 GEODISK_CONST uint kSlotReady = 1u;     // waits for its disk
 GEODISK_CONST uint kSlotListed = 2u;    // the disk is complete, but not yet in the blockers of others
 GEODISK_CONST uint kSlotBlocked = 3u;   // ready to be resolved
+GEODISK_CONST uint kSlotDecided = 4u;
+
+// The place of a sample of an earlier chunk, whose disk only rejects.
+GEODISK_CONST uint kNoPlace = 0xffffffffu;
 
 // How the operation in flight lies in the frame of its half-edge.
 GEODISK_CONST uint kModeInside = 0u;   // the source is in the face, all of it is lit

@@ -8,7 +8,7 @@
 GEODISK_BEGIN_SHARED
 
 struct Push {
-    uint candidates;      // size of the pool of candidates
+    uint candidates;      // of the chunk; ranks count from its first candidate
     uint faces;
     uint vertices;
     uint cells;
@@ -28,6 +28,8 @@ struct Push {
     uint step_budget;     // steps of detect per dispatch
     uint scan_count;      // scans: words to scan
     uint sample_capacity; // samples the buffer holds
+    uint first_rank;      // of the chunk, among all candidates
+    uint stop_count;      // most candidates to accept, of all chunks
 };
 
 GEODISK_END_SHARED
@@ -35,7 +37,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 80 && offsetof(Push, sample_capacity) == 76);
+static_assert(sizeof(Push) == 88 && offsetof(Push, stop_count) == 84);
 }
 #endif
 

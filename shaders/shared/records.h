@@ -26,13 +26,14 @@ struct AliasRec {
     uint threshold; uint alias;
 };
 
-// An accepted candidate. The weights are multiples of 2^-24 and that of the first corner is exactly
-// one minus both.
+// An accepted candidate, its rank among all. The weights are multiples of 2^-24 and that of the first
+// corner is exactly one minus both.
 struct SampleRec {
     uint rank; uint face; float weight1; float weight2;
 };
 
-// One active candidate, and what its disk took and found.
+// One active candidate, and what its disk took and found; or a sample of an earlier chunk, whose rank
+// wraps around from below the chunk's first.
 struct SlotRec {
     uint place; uint phase; uint idle_conflicts; uint active_conflicts;
     uint rank; uint face; float weight1; float weight2;
@@ -56,20 +57,23 @@ struct LaneRec {
 };
 
 // The run as a whole. The leading words are the indirect sizes of the kernels per slot, and of
-// find_idle.
+// find_idle. Those before `accepted` start from zero with every chunk.
 struct ControlRec {
     uint groups_x; uint groups_y; uint groups_z;
     uint find_x; uint find_y; uint find_z;
     uint abi;
     uint next_rank;        // every lower rank is decided or active
     uint batch_rank;       // next_rank before the active batch was selected
+    uint next_sample;      // every lower one of the settled samples has rejected or is about to
+    uint batch_sample;     // next_sample before the active batch was selected
     uint slots_used;       // slots of the active batch
     uint next_slot;        // the first that no lane has taken yet
     uint unfinished;       // slots whose disk is not complete or not yet in the blockers
     uint undecided;        // slots neither accepted nor rejected
     uint overflow;         // kOverflow* bits
-    uint done;             // 1 once no idle candidate is left
-    uint accepted;
+    uint done;             // 1 once no idle candidate is left, or stop_count accepted
+    uint accepted;         // in all chunks
+    uint settled;          // in the chunks before; their samples are in the buffer
     uint iterations;       // batches selected
     uint disks;            // disks completed
     uint windows_low;      // windows pushed in completed disks, 64 bits
@@ -98,7 +102,7 @@ static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, spare) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 120 && offsetof(ControlRec, lane_trips_high) == 116);
+static_assert(sizeof(ControlRec) == 132 && offsetof(ControlRec, lane_trips_high) == 128);
 } // namespace geodisk::gpu
 #endif
 

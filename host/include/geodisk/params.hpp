@@ -13,12 +13,20 @@ namespace geodisk {
 /// on average; used to translate between a count and a distance.
 inline constexpr double kExpectedRho = 0.725;
 inline constexpr double kDefaultPoolRatio = 20;
+/// Candidates of a job: their index has 32 bits.
+inline constexpr std::uint32_t kMostCandidates = 0xffffffff;
 
 /// A sampling job. Lengths are in mesh units.
 struct SampleParams {
     double min_distance = 0;   ///< D > 0: no two samples are closer along the surface.
     std::uint64_t seed = 0;
     double pool_ratio = kDefaultPoolRatio; ///< Candidates per expected sample, 1 to 10,000.
+    /// Darts to throw (paper section 4.1): so many candidates instead of a pool by `pool_ratio`, if
+    /// not 0.
+    std::uint32_t throws = 0;
+    /// Stop once so many samples are accepted, if not 0: those are the first of the samples without
+    /// it. There are fewer when the candidates are used up before.
+    std::uint32_t stop_count = 0;
 };
 
 /// The guard band that makes float decisions safe, in units of the minimum distance.
@@ -49,11 +57,11 @@ GEODISK_API double distance_for_count(double area, double count) noexcept;
 /// Packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
 GEODISK_API double packing_density(double area, double min_distance, double count) noexcept;
 
-/// Candidates in the pool: pool_ratio times the expected count, at least 64.
+/// Candidates of a job: `throws`, or else pool_ratio times the expected count, at least 64.
 ///
 /// Fails with `invalid_argument` when a parameter is out of range; when the pool cannot be indexed
-/// with 32 bits, telling how many candidates and bytes it would take; and when an edge is more than
-/// 4,000 distances long, where the guard would outgrow its purpose.
+/// with 32 bits, telling how many candidates it would take; and when an edge is more than 4,000
+/// distances long, where the guard would outgrow its purpose.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
 

@@ -41,10 +41,12 @@ GEODISK_API const char* to_string(Stage stage) noexcept;
 
 /// How a run went. Seconds are wall time.
 struct RunReport {
-    std::uint32_t candidates = 0;
-    std::uint32_t iterations = 0;     ///< Batches of active candidates.
+    std::uint32_t candidates = 0;     ///< Decided: all, or up to the last sample of a count.
+    std::uint32_t chunks = 0;         ///< Parts in which they were drawn.
+    std::uint32_t iterations = 0;     ///< Batches of disks.
     std::uint32_t dispatches = 0;     ///< Recorded, empty ones included.
-    std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples.
+    std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples; those of
+                                      ///< samples anew with every chunk.
     std::uint32_t regrown = 0;        ///< Times a batch was repeated with more memory.
     std::uint64_t windows = 0;        ///< Windows and vertex events of all disks.
     std::uint64_t tested = 0;         ///< Candidate distances computed in all disks.
@@ -107,7 +109,8 @@ class GEODISK_API Runner {
 
     /// Returns the set that sequential dart throwing over the same candidates returns, whatever
     /// device, driver or plan. What overflows is enlarged and the batch repeated; a run whose
-    /// window chains outgrow the guard is repeated with a wider one.
+    /// window chains outgrow the guard is repeated with a wider one. Candidates that do not fit a
+    /// binding, or that may not be needed, are drawn chunk by chunk.
     ///
     /// Errors: `invalid_argument`, `device_lacks` and `workspace_too_small` as Sampler's functions;
     /// `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the runner refuses

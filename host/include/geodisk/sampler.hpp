@@ -7,7 +7,7 @@
 //   2. workspace_needs      sizes of the buffers; the caller allocates them
 //   3. mesh_bytes           what to upload into the mesh buffers before the first use
 //   4. make_job             writes descriptor sets; nothing is recorded yet
-//   5. record_begin         draws and bins the candidates
+//   5. record_begin         draws and bins the candidates, or a chunk of them
 //   6. record_rounds        a fixed number of rounds; those after the last cost empty dispatches.
 //                           Submit, read gpu::ControlRec from the control buffer, and record more
 //                           until `done`. With `overflow` set nothing was decided since; grow_plan,
@@ -15,6 +15,9 @@
 //   7. record_finish        gpu::SampleRec per accepted candidate, in rank order; if more were
 //                           accepted than the plan's sample_capacity, as ControlRec tells, give the
 //                           job a larger buffer first (set_samples)
+//   8. set_chunk            if the plan's chunk is smaller than the number of candidates: the next
+//                           ones, and on with 5, until all were drawn or `accepted` has reached the
+//                           count to stop at
 #pragma once
 
 #include <array>
@@ -144,6 +147,7 @@ struct RunPlan {
     std::uint32_t sample_capacity = 0; ///< Samples the buffer holds.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
     std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it.
+    std::uint32_t chunk = 0;           ///< Most candidates worked on before the next are drawn.
 
     /// A lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;
@@ -207,6 +211,9 @@ class GEODISK_API Sampler {
     // Recording. The command buffer must be in the recording state, outside a render pass, on a
     // family with compute. Each call leaves compute pipeline, descriptor set 0 and push constants
     // changed, and begins and ends with its own barriers among the job's buffers.
+    //
+    // The rounds of a chunk but the first begin with the disks of all samples so far, which reject
+    // the chunk's candidates. The samples are those of one chunk with all candidates.
     void record_begin(VkCommandBuffer commands, const Job& job) const noexcept;
     void record_rounds(VkCommandBuffer commands, const Job& job,
                        std::uint32_t rounds) const noexcept;
@@ -237,14 +244,21 @@ class GEODISK_API Job {
 
     const RunPlan& plan() const noexcept;
     /// Replaces the plan, for rounds recorded from now on. Its slots must not be more than the job
-    /// was made with, and its pool must fit the workspace's.
+    /// was made with, its chunk the same, and its pool must fit the workspace's.
     Result<Done> set_plan(const RunPlan& plan) noexcept;
     /// The same with another pool. No command buffer of the job may be pending.
     Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;
+    /// Candidates of the chunk.
     std::uint32_t candidates() const noexcept;
+    /// The chunk to begin next: `count` candidates from index `first` on. A new job has the first
+    /// candidates of all, as many as RunPlan::chunk. Chunks must follow each other, each finished
+    /// by record_finish before the next begins; from index 0 a run starts anew. Errors:
+    /// `invalid_argument` for more than RunPlan::chunk candidates, none, or indices beyond 32 bits.
+    Result<Done> set_chunk(std::uint32_t first, std::uint32_t count) noexcept;
     /// Another buffer for the samples, where more were accepted than RunPlan::sample_capacity; its
-    /// size becomes the capacity. record_finish may be recorded again afterwards. No command buffer
-    /// of the job may be pending.
+    /// size becomes the capacity. record_finish may be recorded again afterwards. The caller copies
+    /// the samples of earlier chunks, ControlRec::settled of them. No command buffer of the job may
+    /// be pending.
     Result<Done> set_samples(const BufferRange& samples) noexcept;
 
     struct Impl; ///< Internal.

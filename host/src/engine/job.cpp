@@ -72,20 +72,20 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 /// What the shaders rely on without looking.
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
     constexpr std::uint32_t kMost = 1u << 26;
-    const bool fine =
-        plan.slots >= 1 && plan.window_capacity >= 2 && std::has_single_bit(plan.window_capacity) &&
-        std::has_single_bit(plan.table_capacity) && plan.list_capacity >= 4 &&
-        plan.list_capacity % 4 == 0 && plan.lanes >= 1 && plan.lanes <= kMost &&
-        plan.step_budget >= 1 && plan.detect_passes >= 1 && plan.detect_passes <= 4096 &&
-        plan.sample_capacity >= 1 && plan.slots <= kMost && plan.window_capacity <= kMost &&
-        plan.table_capacity <= kMost && plan.list_capacity <= kMost;
+    const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
+                      std::has_single_bit(plan.window_capacity) &&
+                      std::has_single_bit(plan.table_capacity) && plan.list_capacity >= 4 &&
+                      plan.list_capacity % 4 == 0 && plan.lanes >= 1 && plan.lanes <= kMost &&
+                      plan.step_budget >= 1 && plan.detect_passes >= 1 &&
+                      plan.detect_passes <= 4096 && plan.sample_capacity >= 1 && plan.chunk >= 1 &&
+                      plan.slots <= kMost && plan.window_capacity <= kMost &&
+                      plan.table_capacity <= kMost && plan.list_capacity <= kMost;
     if (!fine) {
-        return Error{
-            Status::invalid_argument,
-            "the plan is not as RunPlan asks: slots, lanes, step_budget, detect_passes and "
-            "sample_capacity at least 1, "
-            "window_capacity and table_capacity powers of two, list_capacity a "
-            "multiple of 4, none of them 0 or more than 2^26"};
+        return Error{Status::invalid_argument,
+                     "the plan is not as RunPlan asks: slots, lanes, step_budget, detect_passes, "
+                     "sample_capacity and chunk at least 1, "
+                     "window_capacity and table_capacity powers of two, list_capacity a "
+                     "multiple of 4, none of them 0 or more than 2^26"};
     }
     if (plan.pool_block != tuning.pool_block) {
         return Error{Status::invalid_argument,
@@ -96,11 +96,16 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
 }
 
 /// The same for a plan of a job that exists.
-Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning, VkDeviceSize pool,
-                        std::uint32_t most_slots) {
-    if (auto checked = check_plan(plan, tuning); !checked) {
+Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize pool) {
+    if (auto checked = check_plan(plan, job.sampler->tuning); !checked) {
         return checked;
     }
+    if (plan.chunk != job.plan.chunk) {
+        return Error{Status::invalid_argument, "the plan's chunk is " + std::to_string(plan.chunk) +
+                                                   ", but the job was made for " +
+                                                   std::to_string(job.plan.chunk)};
+    }
+    const std::uint32_t most_slots = job.most_slots;
     if (plan.pool_bytes() > pool || plan.slots > most_slots) {
         return Error{Status::workspace_too_small,
                      "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
@@ -171,8 +176,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked = check_plan(plan, impl_->sampler->tuning,
-                                      impl_->workspace[gpu::kBindPool].size, impl_->most_slots);
+        if (auto checked = check_plan(plan, *impl_, impl_->workspace[gpu::kBindPool].size);
             !checked) {
             return checked;
         }
@@ -188,14 +192,33 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
             !checked) {
             return checked;
         }
-        if (auto checked = check_plan(plan, impl_->sampler->tuning, pool.size, impl_->most_slots);
-            !checked) {
+        if (auto checked = check_plan(plan, *impl_, pool.size); !checked) {
             return checked;
         }
         if (auto replaced = impl_->replace_buffer(gpu::kBindPool, pool); !replaced) {
             return replaced;
         }
         impl_->apply_plan(plan);
+        return Done{};
+    });
+}
+
+Result<Done> Job::set_chunk(std::uint32_t first, std::uint32_t count) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (count == 0 || count > impl_->most_candidates) {
+            return Error{Status::invalid_argument, "a chunk of " + std::to_string(count) +
+                                                       " candidates is not of 1 to " +
+                                                       std::to_string(impl_->most_candidates) +
+                                                       ", which the workspace holds"};
+        }
+        if (std::uint64_t{first} + count > kMostCandidates) {
+            return Error{Status::invalid_argument,
+                         "a chunk from candidate " + std::to_string(first) + " to " +
+                             std::to_string(std::uint64_t{first} + count - 1) +
+                             " goes beyond the last one, " + std::to_string(kMostCandidates - 1)};
+        }
+        impl_->push.first_rank = first;
+        impl_->push.candidates = count;
         return Done{};
     });
 }
@@ -210,8 +233,8 @@ Result<Done> Job::set_samples(const BufferRange& samples) noexcept {
         if (auto replaced = impl_->replace_buffer(gpu::kBindSamples, samples); !replaced) {
             return replaced;
         }
-        impl_->plan.sample_capacity = static_cast<std::uint32_t>(
-            std::min<VkDeviceSize>(samples.size / sizeof(gpu::SampleRec), impl_->push.candidates));
+        impl_->plan.sample_capacity =
+            static_cast<std::uint32_t>(samples.size / sizeof(gpu::SampleRec));
         impl_->push.sample_capacity = impl_->plan.sample_capacity;
         return Done{};
     });
@@ -236,7 +259,9 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         job->most_slots = plan.slots;
         const Tolerances tolerances = tolerances_for(mesh, params.min_distance, plan.chain);
         gpu::Push& push = job->push;
-        push.candidates = *pool_size(mesh, params);
+        job->most_candidates = std::min(plan.chunk, *pool_size(mesh, params));
+        push.candidates = job->most_candidates;
+        push.stop_count = params.stop_count != 0 ? params.stop_count : kMostCandidates;
         push.faces = mesh.face_count();
         push.vertices = mesh.vertex_count();
         push.cells = static_cast<std::uint32_t>(needs->bytes[gpu::kBindCells] / 4 - 1);

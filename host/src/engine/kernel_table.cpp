@@ -58,7 +58,8 @@ constexpr Binding kBinFill[] = {
     {kBindAlias, read}, {kBindStates, storage}, {kBindWeights, storage}};
 constexpr Binding kFindIdle[] = {
     {kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindSums, storage}};
-constexpr Binding kSelect[] = {{kBindSlots, storage}, {kBindControl, storage}, {kBindSums, read}};
+constexpr Binding kSelect[] = {
+    {kBindSlots, storage}, {kBindControl, storage}, {kBindSums, read}, {kBindSamples, storage}};
 constexpr Binding kActivate[] = {{kBindAlias, read},      {kBindStates, storage},
                                  {kBindPlaces, read},     {kBindSlots, storage},
                                  {kBindControl, storage}, {kBindMarks, storage}};

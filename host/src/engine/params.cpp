@@ -12,9 +12,6 @@ namespace {
 
 const double kTwoRootThree = 2 * std::sqrt(3.0);
 constexpr double kMinimumPool = 64;
-// Four bytes for each are then more than Vulkan can bind.
-constexpr double kMaximumPool = 0x1p30;
-constexpr double kBytesPerCandidate = 16;
 // Edges longer than this many distances would need a guard of a percent.
 constexpr double kLongestEdge = 4000;
 constexpr std::uint32_t kMinimumChain = 64;
@@ -70,12 +67,12 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
         return invalid("the pool ratio must be 1 to 10,000");
     }
     const MeshStatistics& statistics = mesh.statistics();
-    const double wanted =
+    const double pool =
         std::ceil(params.pool_ratio * expected_count(statistics.area, params.min_distance));
-    if (!(wanted <= kMaximumPool)) {
+    const double wanted = params.throws != 0 ? params.throws : std::max(pool, kMinimumPool);
+    if (!(wanted <= kMostCandidates)) {
         return invalid("the minimum distance is too small for this surface: the pool would take " +
-                       number(wanted) + " candidates and " + number(wanted * kBytesPerCandidate) +
-                       " bytes, the most is " + number(kMaximumPool) + " candidates");
+                       number(wanted) + " candidates, the most is " + number(kMostCandidates));
     }
     const double longest = statistics.longest_edge / params.min_distance;
     if (!(longest <= kLongestEdge)) {
@@ -83,7 +80,7 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
                        number(longest) + " times as long, and single precision resolves at most " +
                        number(kLongestEdge) + " times; split long edges");
     }
-    return static_cast<std::uint32_t>(std::max(wanted, kMinimumPool));
+    return static_cast<std::uint32_t>(wanted);
 }
 
 std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept {

@@ -26,7 +26,14 @@ constexpr double kMostSlots = 1u << 16;
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
 constexpr std::uint64_t kIdleBytes = std::uint64_t{gpu::kFindMostGroups} * gpu::kFindLanes * 4;
+constexpr double kLeastList = 8;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
+// Darts of a chunk: at least so many, and per expected sample. The disks of earlier samples, which
+// every chunk takes anew, then cost a part of what the darts do; or about as much, where a run may
+// stop.
+constexpr double kLeastChunk = 1u << 16;
+constexpr double kMostChunk = 1024;
+constexpr double kChunkToStop = 64;
 
 std::uint32_t pow2_at_least(double x) {
     return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
@@ -34,6 +41,34 @@ std::uint32_t pow2_at_least(double x) {
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
+}
+
+/// Samples that a full surface holds, at least two: no disk covers more than all faces.
+double samples_when_full(const PreparedMesh& mesh, const SampleParams& params) {
+    return std::max(2.0, expected_count(mesh.statistics().area, params.min_distance));
+}
+
+/// Samples to reckon with: not more than are asked for, or thrown.
+double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
+    double samples = samples_when_full(mesh, params);
+    for (const std::uint32_t bound : {params.throws, params.stop_count}) {
+        samples = bound != 0 ? std::min<double>(samples, bound) : samples;
+    }
+    return samples;
+}
+
+/// As many candidates as one binding holds. Darts may be far more than a pool, so they are limited
+/// by the lists of conflicts, and where a count may stop them, to not many more than it needs.
+std::uint32_t wanted_chunk(const SampleParams& params, std::uint32_t candidates, double samples,
+                           const DeviceReport& report) {
+    const double most = std::min<double>(
+        candidates, static_cast<double>(report.limits.max_storage_buffer_range / 4));
+    if (params.throws == 0 && params.stop_count == 0) {
+        return static_cast<std::uint32_t>(most);
+    }
+    const double per_sample = params.stop_count != 0 ? kChunkToStop : kMostChunk;
+    return static_cast<std::uint32_t>(
+        std::min(most, std::max(kLeastChunk, std::ceil(per_sample * samples))));
 }
 
 std::uint32_t cpu_lanes(const DeviceReport& report) {
@@ -79,6 +114,17 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
     const std::uint64_t blocks = (pool_bytes - plan.slots * list) / block;
     plan.lanes = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
+}
+
+/// Borders, creases and thin parts hold more samples than their area tells. Where the device cannot
+/// bind that much, as many as it can, but never fewer than are expected.
+std::uint32_t wanted_sample_capacity(std::uint32_t candidates, double samples,
+                                     std::uint32_t stop_count, const DeviceReport& report) {
+    const auto bound =
+        static_cast<double>(report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec));
+    double capacity = std::min<double>(candidates, std::ceil(1.5 * samples) + 64);
+    capacity = stop_count != 0 ? std::min<double>(capacity, stop_count) : capacity;
+    return static_cast<std::uint32_t>(std::min(capacity, std::max(bound, std::ceil(samples))));
 }
 
 /// Dispatches of detect in which a batch should be done.
@@ -129,6 +175,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.sample_capacity, wanted.sample_capacity);
     replace(plan.chain, wanted.chain);
     replace(plan.pool_block, wanted.pool_block);
+    replace(plan.chunk, wanted.chunk);
     return plan;
 }
 
@@ -161,21 +208,22 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
             return candidates.error();
         }
         const DeviceReport& report = impl_->report;
-        const double disks = *candidates / params.pool_ratio;
-        const double faces_per_disk = 2.0 * mesh.face_count() / disks;
+        const double full = samples_when_full(mesh, params);
+        const double disks = expected_samples(mesh, params);
+        const double faces_per_disk = 2.0 * mesh.face_count() / full;
         RunPlan plan;
         plan.pool_block = impl_->tuning.pool_block;
+        plan.chunk = wanted_chunk(params, *candidates, disks, report);
         plan.slots = wanted_slots(disks, impl_->tuning.batches, report);
         plan.lanes = wanted_lanes(plan.slots, report);
         // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
         const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
         plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces_per_disk);
         plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces_per_disk);
-        plan.list_capacity = pow2_at_least(8 * params.pool_ratio);
+        plan.list_capacity = pow2_at_least(std::max(kLeastList, 8 * plan.chunk / full));
         plan.step_budget = most_steps(report);
-        // Borders, creases and thin parts hold more samples than their area tells.
         plan.sample_capacity =
-            static_cast<std::uint32_t>(std::min<double>(*candidates, std::ceil(1.5 * disks) + 64));
+            wanted_sample_capacity(*candidates, disks, params.stop_count, report);
         plan.chain = provided_chain(mesh, params.min_distance);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
         fit(plan, pool_bytes);
@@ -220,7 +268,7 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
         if (!cells) {
             return cells.error();
         }
-        const std::uint64_t count = *candidates;
+        const std::uint64_t count = std::min(plan.chunk, *candidates);
         const std::uint64_t scanned = std::max<std::uint64_t>(count, std::uint64_t{*cells} + 1);
         WorkspaceNeeds needs;
         needs.bytes = {face_bytes(mesh),
@@ -239,13 +287,15 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
         const std::uint64_t limit = impl_->report.limits.max_storage_buffer_range;
         for (std::size_t i = 0; i < kBufferRoles; ++i) {
             if (needs.bytes[i] > limit) {
+                const bool of_mesh = mesh_bytes_size(mesh, static_cast<BufferRole>(i)) != 0;
                 return Error{Status::device_lacks,
                              std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) +
-                                 " for " + std::to_string(count) + " candidates and " +
+                                 " for " + std::to_string(*candidates) + " candidates and " +
                                  std::to_string(mesh.face_count()) + " faces takes " +
                                  std::to_string(needs.bytes[i]) + " bytes, but " +
                                  impl_->report.name + " binds at most " + std::to_string(limit) +
-                                 "; raise the minimum distance or lower the pool ratio"};
+                                 (of_mesh ? "; give a mesh of fewer faces"
+                                          : "; raise the minimum distance")};
             }
         }
         return needs;

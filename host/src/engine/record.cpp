@@ -1,4 +1,5 @@
 // What a job records. Every step depends on the one before it, so one barrier serves them all.
+#include <algorithm>
 #include <cstddef>
 
 #include <geodisk/sampler.hpp>
@@ -66,6 +67,16 @@ class Recorder {
         sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset, size, 0);
     }
 
+    /// What was accepted so far is settled; the rest of the control record is made ready for more.
+    void settle() const {
+        const BufferRange& control = range(BufferRole::control);
+        const VkBufferCopy copy{control.offset + offsetof(gpu::ControlRec, accepted),
+                                control.offset + offsetof(gpu::ControlRec, settled),
+                                sizeof gpu::ControlRec::settled};
+        sampler_.vk.vkCmdCopyBuffer(commands_, control.buffer, control.buffer, 1, &copy);
+        fill(BufferRole::control, offsetof(gpu::ControlRec, accepted));
+    }
+
   private:
     const BufferRange& range(BufferRole role) const {
         return job_.workspace[static_cast<std::size_t>(role)];
@@ -92,9 +103,14 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     const Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
     const std::uint32_t starts = push.cells + 1;
+    if (push.first_rank == 0) {
+        recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
+        recorder.fill(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
+    } else {
+        barrier_compute_to_transfer(impl_->vk, commands);
+        recorder.settle();
+    }
     recorder.fill(BufferRole::cells, VkDeviceSize{starts} * 4);
-    recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
-    recorder.fill(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch_per_candidate(Kernel::candidates);
     recorder.mark(Stage::draw);
@@ -140,12 +156,14 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
 
 void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
+    const gpu::Push& push = job.impl_->push;
     recorder.dispatch_per_candidate(Kernel::compact_mark);
-    recorder.scan(job.impl_->push.candidates, SetRole::workspace);
+    recorder.scan(push.candidates, SetRole::workspace);
     recorder.dispatch_per_candidate(Kernel::compact_gather);
-    recorder.dispatch(Kernel::compact_fill,
-                      groups_for(job.impl_->push.sample_capacity, impl_->tuning.local_size),
-                      job.impl_->push);
+    recorder.dispatch(
+        Kernel::compact_fill,
+        groups_for(std::min(push.sample_capacity, push.candidates), impl_->tuning.local_size),
+        push);
     recorder.mark(Stage::gather);
 }
 

@@ -31,6 +31,11 @@ constexpr std::uint32_t kDispatchesToFinish = 6;
 constexpr double kTargetSeconds = 0.1;
 constexpr std::uint32_t kMostRounds = 256;
 constexpr std::uint32_t kMostPasses = 64;
+// Darts of the first chunk of a run that stops at a count, for each sample of it: those that half
+// of a full surface takes, or nearly all of it; and at least.
+constexpr double kDartsWhileSparse = 4;
+constexpr double kDartsWhileFull = 20;
+constexpr double kLeastFirstChunk = 4096;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
 constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
@@ -110,6 +115,12 @@ class Run {
     Result<Done> upload();
     Result<Done> upload_buffer(BufferRole role);
     Result<Done> sample(const ProgressCallback& progress);
+    Result<Done> decide_chunk(const ProgressCallback& progress);
+    Result<Done> gather_chunk();
+    std::uint32_t chunk_size() const;
+    bool has_all() const {
+        return params_.stop_count != 0 && control_.accepted == params_.stop_count;
+    }
     Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
     Result<Done> grow();
     Result<Done> detect_longer();
@@ -123,6 +134,9 @@ class Run {
     std::optional<Job> job_;
     std::uint32_t slots_ = 0; ///< Of the first plan.
     std::uint32_t lanes_ = 0;
+    std::uint32_t candidates_ = 0; ///< Of all chunks.
+    std::uint32_t thrown_ = 0;     ///< Candidates of the chunks before this one.
+    bool begun_ = false;           ///< The chunk's candidates are drawn.
     gpu::ControlRec control_{};
     RunReport report_;
 };
@@ -169,7 +183,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     }
     slots_ = plan->slots;
     lanes_ = plan->lanes;
-    report_.candidates = job_->candidates();
+    candidates_ = *pool_size(mesh_, params_);
     report_.guard = tolerances_for(mesh_, params_.min_distance, plan->chain).guard;
     return Done{};
 }
@@ -210,9 +224,10 @@ Result<Done> Run::upload() {
 Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
     const DeviceTable& vk = runner_.engine().vk;
     auto done = runner_.run_timed([&](VkCommandBuffer commands) {
-        if (report_.dispatches == 0) {
+        if (!begun_) {
             runner_.sampler.record_begin(commands, *job_);
             report_.dispatches += kDispatchesToBegin;
+            begun_ = true;
         }
         if (rewind) {
             runner_.sampler.record_rewind(commands, *job_);
@@ -286,11 +301,55 @@ Result<Done> Run::enlarge_samples() {
         return larger.error();
     }
     DeviceBuffer& samples = memory_.buffers[index_of(BufferRole::samples)];
+    if (control_.settled > 0) {
+        const DeviceTable& vk = runner_.engine().vk;
+        auto copied = runner_.submitter->run([&](VkCommandBuffer commands) {
+            const VkBufferCopy copy{0, 0, VkDeviceSize{control_.settled} * sizeof(gpu::SampleRec)};
+            vk.vkCmdCopyBuffer(commands, samples.handle(), larger->handle(), 1, &copy);
+            barrier_transfer_to_compute(vk, commands);
+        });
+        if (!copied) {
+            return copied;
+        }
+    }
     samples = std::move(*larger);
     return job_->set_samples({samples.handle(), 0, samples.size()});
 }
 
+/// A run that may stop starts with as many as should do, and then doubles what was thrown.
+std::uint32_t Run::chunk_size() const {
+    const std::uint32_t most = std::min(job_->plan().chunk, candidates_ - thrown_);
+    if (params_.stop_count == 0) {
+        return most;
+    }
+    const double room = expected_count(mesh_.statistics().area, params_.min_distance);
+    const double per_sample = params_.stop_count < room / 2 ? kDartsWhileSparse : kDartsWhileFull;
+    const double wanted =
+        std::max({kLeastFirstChunk, per_sample * params_.stop_count, static_cast<double>(thrown_)});
+    return static_cast<std::uint32_t>(std::min<double>(most, wanted));
+}
+
 Result<Done> Run::sample(const ProgressCallback& progress) {
+    while (thrown_ < candidates_ && !has_all()) {
+        const std::uint32_t size = chunk_size();
+        if (auto chunk = job_->set_chunk(thrown_, size); !chunk) {
+            return chunk;
+        }
+        begun_ = false;
+        control_.done = 0;
+        if (auto decided = decide_chunk(progress); !decided) {
+            return decided;
+        }
+        if (auto gathered = gather_chunk(); !gathered) {
+            return gathered;
+        }
+        thrown_ += size;
+        ++report_.chunks;
+    }
+    return Done{};
+}
+
+Result<Done> Run::decide_chunk(const ProgressCallback& progress) {
     std::uint32_t rounds = 1;
     bool rewind = false;
     while (control_.done == 0) {
@@ -314,10 +373,14 @@ Result<Done> Run::sample(const ProgressCallback& progress) {
                 return grown.error();
             }
         }
-        if (progress && !progress({control_.next_rank, report_.candidates, control_.accepted})) {
+        if (progress && !progress({thrown_ + control_.next_rank, candidates_, control_.accepted})) {
             return Error{Status::cancelled, "cancelled"};
         }
     }
+    return Done{};
+}
+
+Result<Done> Run::gather_chunk() {
     if (control_.accepted > job_->plan().sample_capacity) {
         if (auto enlarged = enlarge_samples(); !enlarged) {
             return enlarged;
@@ -380,6 +443,7 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
         return samples.error();
     }
     report_.seconds.readback = seconds_since(start);
+    report_.candidates = has_all() ? samples->back().candidate + 1 : candidates_;
     report_.iterations = control_.iterations;
     report_.disks = control_.disks;
     report_.windows = wide(control_.windows_low, control_.windows_high);

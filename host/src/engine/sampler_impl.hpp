@@ -46,7 +46,8 @@ struct Job::Impl {
     Workspace workspace{};
     /// Of the workspace's buffers that some kernel reads as texels.
     std::array<VkBufferView, kBufferRoles> views{};
-    std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
+    std::uint32_t most_slots = 0;      ///< What the slot and control buffers hold.
+    std::uint32_t most_candidates = 0; ///< What the buffers of candidates hold.
     RunPlan plan;
     gpu::Push push{};
 

@@ -31,10 +31,11 @@ inline void barrier_transfer_to_compute(const DeviceTable& vk, VkCommandBuffer c
                        VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
-/// Dispatches become visible to copies.
+/// Dispatches become visible to copies, which may overwrite.
 inline void barrier_compute_to_transfer(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+                   VK_PIPELINE_STAGE_TRANSFER_BIT,
+                   VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
 /// Copies become visible to the host.
