@@ -4,7 +4,7 @@ namespace geodisk::ref {
 
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Bins<Real>& bins,
-                      const Tolerances& tolerances) {
+                      const Tolerances& tolerances, std::uint32_t most) {
     RunResult result;
     const auto count = static_cast<std::uint32_t>(bins.order.size());
     std::vector<std::uint32_t> places(count);
@@ -13,7 +13,7 @@ RunResult throw_darts(const Surface<Real>& surface, const Bins<Real>& bins,
     }
     std::vector<std::uint8_t> decided(count, 0);
     Detector<Real> detector(surface, bins, tolerances, tolerances.limit);
-    for (std::uint32_t rank = 0; rank < count; ++rank) {
+    for (std::uint32_t rank = 0; rank < count && result.ranks.size() < most; ++rank) {
         const std::uint32_t place = places[rank];
         if (decided[place]) {
             continue;
@@ -31,7 +31,9 @@ RunResult throw_darts(const Surface<Real>& surface, const Bins<Real>& bins,
     return result;
 }
 
-template RunResult throw_darts(const Surface<float>&, const Bins<float>&, const Tolerances&);
-template RunResult throw_darts(const Surface<double>&, const Bins<double>&, const Tolerances&);
+template RunResult throw_darts(const Surface<float>&, const Bins<float>&, const Tolerances&,
+                               std::uint32_t);
+template RunResult throw_darts(const Surface<double>&, const Bins<double>&, const Tolerances&,
+                               std::uint32_t);
 
 } // namespace geodisk::ref

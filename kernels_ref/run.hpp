@@ -1,5 +1,5 @@
-// Sequential dart throwing over the pool: what every parallel run must return, and the yardstick
-// for speed.
+// Sequential dart throwing (paper section 4): what every parallel run must return, and the
+// yardstick for speed.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,10 @@ struct RunResult {
     std::uint32_t longest_chain = 0;
 };
 
-/// Walks the ranks upwards and accepts each candidate that no accepted one rejected.
+/// Walks the ranks upwards and accepts each candidate that no accepted one rejected, until the bins
+/// are used up or `most` are accepted.
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Bins<Real>& bins,
-                      const Tolerances& tolerances);
+                      const Tolerances& tolerances, std::uint32_t most = kMostCandidates);
 
 } // namespace geodisk::ref

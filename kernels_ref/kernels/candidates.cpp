@@ -30,10 +30,10 @@ FacePoint<Real> draw_candidate(std::span<const AliasColumn> alias, std::uint64_t
 
 template <class Real>
 std::vector<FacePoint<Real>> draw_candidates(std::span<const AliasColumn> alias, std::uint64_t seed,
-                                             std::uint32_t count) {
+                                             std::uint32_t count, std::uint32_t first) {
     std::vector<FacePoint<Real>> points(count);
-    for (std::uint32_t rank = 0; rank < count; ++rank) {
-        points[rank] = draw_candidate<Real>(alias, seed, rank);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        points[i] = draw_candidate<Real>(alias, seed, first + i);
     }
     return points;
 }
@@ -43,8 +43,8 @@ template FacePoint<float> draw_candidate(std::span<const AliasColumn>, std::uint
 template FacePoint<double> draw_candidate(std::span<const AliasColumn>, std::uint64_t,
                                           std::uint32_t);
 template std::vector<FacePoint<float>> draw_candidates(std::span<const AliasColumn>, std::uint64_t,
-                                                       std::uint32_t);
-template std::vector<FacePoint<double>> draw_candidates(std::span<const AliasColumn>,
-                                                        std::uint64_t, std::uint32_t);
+                                                       std::uint32_t, std::uint32_t);
+template std::vector<FacePoint<double>> draw_candidates(std::span<const AliasColumn>, std::uint64_t,
+                                                        std::uint32_t, std::uint32_t);
 
 } // namespace geodisk::ref

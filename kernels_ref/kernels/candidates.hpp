@@ -15,8 +15,9 @@ template <class Real>
 FacePoint<Real> draw_candidate(std::span<const AliasColumn> alias, std::uint64_t seed,
                                std::uint32_t rank);
 
+/// Candidates `first` to `first + count - 1`.
 template <class Real>
 std::vector<FacePoint<Real>> draw_candidates(std::span<const AliasColumn> alias, std::uint64_t seed,
-                                             std::uint32_t count);
+                                             std::uint32_t count, std::uint32_t first = 0);
 
 } // namespace geodisk::ref

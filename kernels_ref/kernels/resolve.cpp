@@ -12,9 +12,13 @@ void resolve_batch(std::span<const std::uint32_t> ranks,
             continue;
         }
         states[ranks[i]] = gpu::kAccepted;
-        for (const std::uint32_t other : conflicts[i]) {
-            states[other] = gpu::kRejected;
-        }
+        reject_all(conflicts[i], states);
+    }
+}
+
+void reject_all(std::span<const std::uint32_t> conflicts, std::span<std::uint8_t> states) {
+    for (const std::uint32_t other : conflicts) {
+        states[other] = gpu::kRejected;
     }
 }
 

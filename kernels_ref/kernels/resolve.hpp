@@ -15,4 +15,7 @@ void resolve_batch(std::span<const std::uint32_t> ranks,
                    std::span<const std::vector<std::uint32_t>> conflicts,
                    std::span<std::uint8_t> states);
 
+/// What an accepted candidate does, or a sample of an earlier chunk: rejects all it lists.
+void reject_all(std::span<const std::uint32_t> conflicts, std::span<std::uint8_t> states);
+
 } // namespace geodisk::ref
