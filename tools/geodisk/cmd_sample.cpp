@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -17,6 +18,8 @@
 
 #include "common/atomic_file.hpp"
 #include "common/sample_file.hpp"
+#include "common/text.hpp"
+#include "common/user_error.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/mesh_options.hpp"
 #include "geodisk/progress.hpp"
@@ -33,13 +36,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Darts for each sample a surface has room for, after which a count counts as out of reach.
+constexpr double kDartsPerSample = 1000;
+
 /// As given on the command line.
 struct SampleOptions {
     MeshOptions mesh;
     std::string output, json, device;
-    std::string min_distance, radius, count;
-    std::string seed = "0", pool_ratio = "20", memory = "256M";
-    bool ascii = false, quiet = false, validate = false;
+    std::string min_distance, radius, count, throws;
+    std::string method = "psdp", seed = "0", pool_ratio = "20", memory = "256M";
+    bool has_pool_ratio = false, ascii = false, quiet = false, validate = false;
+
+    bool throws_darts() const { return method == "pdts"; }
 };
 
 /// The options, checked as far as that is possible without the mesh.
@@ -49,11 +57,35 @@ struct SampleRequest {
     SampleParams params;
     RunnerOptions runner;
 
-    double distance_on(const MeshStatistics& mesh) const {
-        return min_distance ? distance_on_mesh(*min_distance, mesh)
-                            : distance_for_count(mesh.area, count);
+    /// The parameters on a mesh. Where a count alone is to stop the darts, they end at a number
+    /// that leaves hardly any gap.
+    SampleParams params_on(const MeshStatistics& mesh) const {
+        SampleParams on_mesh = params;
+        on_mesh.min_distance = min_distance ? distance_on_mesh(*min_distance, mesh)
+                                            : distance_for_count(mesh.area, count);
+        if (params.stop_count != 0 && params.throws == 0) {
+            const double room = std::max(1.0, expected_count(mesh.area, on_mesh.min_distance));
+            on_mesh.throws = static_cast<std::uint32_t>(
+                std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * room)));
+        }
+        return on_mesh;
     }
 };
+
+void check_method(const SampleOptions& options) {
+    if (options.method != "psdp" && options.method != "pdts") {
+        throw UserError(ExitCode::usage,
+                        "--method: " + in_quotes(options.method) + " is neither psdp nor pdts");
+    }
+    if (options.throws_darts() && options.has_pool_ratio) {
+        throw UserError(ExitCode::usage, "--pool-ratio is for --method psdp; with pdts, --throws "
+                                         "tells how many darts to throw");
+    }
+    if (!options.throws_darts() && !options.throws.empty()) {
+        throw UserError(ExitCode::usage, "--throws is for --method pdts; with psdp, --pool-ratio "
+                                         "tells how many candidates to draw");
+    }
+}
 
 void check_one_distance(const SampleOptions& options) {
     std::string given;
@@ -61,23 +93,56 @@ void check_one_distance(const SampleOptions& options) {
     for (const auto& [name, value] :
          {std::pair{"--min-distance", &options.min_distance},
           std::pair{"--radius", &options.radius}, std::pair{"--count", &options.count}}) {
-        if (!value->empty()) {
+        // Darts stop at a count; it tells no distance.
+        if (!value->empty() && !(options.throws_darts() && value == &options.count)) {
             given += given.empty() ? name : std::string(" and ") + name;
             ++count;
         }
     }
     if (count == 0) {
         throw UserError(ExitCode::usage,
-                        "no distance given; give one of --min-distance, --radius and --count");
+                        options.throws_darts()
+                            ? "no distance given; with --method pdts give one of --min-distance "
+                              "and --radius"
+                            : "no distance given; give one of --min-distance, --radius and "
+                              "--count");
     }
     if (count > 1) {
         throw UserError(ExitCode::usage, given + " contradict each other; give just one of them");
     }
 }
 
+/// A count that candidates, whose index has 32 bits, can reach.
+std::uint32_t parse_candidates(const std::string& option, const std::string& text) {
+    const double value = parse_count(option, text);
+    if (value > kMostCandidates) {
+        throw UserError(ExitCode::usage, option + ": " + in_quotes(text) + " is more than the " +
+                                             grouped(kMostCandidates) + " that are possible");
+    }
+    return static_cast<std::uint32_t>(value);
+}
+
+/// When darts stop.
+void parse_stop(const SampleOptions& options, SampleParams& params) {
+    if (options.count.empty() && options.throws.empty()) {
+        throw UserError(ExitCode::usage, "nothing to stop at; with --method pdts give --count, "
+                                         "--throws or both");
+    }
+    if (!options.count.empty()) {
+        params.stop_count = parse_candidates("--count", options.count);
+    }
+    if (!options.throws.empty()) {
+        params.throws = parse_candidates("--throws", options.throws);
+    }
+}
+
 SampleRequest parse_request(const SampleOptions& options) {
+    check_method(options);
     check_one_distance(options);
     SampleRequest request;
+    if (options.throws_darts()) {
+        parse_stop(options, request.params);
+    }
     if (!options.min_distance.empty()) {
         request.min_distance = parse_length("--min-distance", options.min_distance);
     } else if (!options.radius.empty()) {
@@ -124,8 +189,10 @@ auto timed(double& seconds, const Work& work) {
 
 SampleSet run_sampler(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
                       ProgressLine& progress) {
-    const double expected =
-        std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
+    double expected = std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
+    if (params.stop_count != 0) {
+        expected = std::min<double>(expected, params.stop_count);
+    }
     progress.begin_stage("sampling");
     auto result = runner.sample_and_wait(mesh, params, [&](const Progress& state) {
         // Work is in the disks of accepted candidates, but only the ranks are sure to reach the
@@ -183,6 +250,19 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     report.rho = packing_density(report.mesh.area, report.params.min_distance,
                                  static_cast<double>(set.samples.size()));
     return std::move(set.samples);
+}
+
+/// A count asked for, with no number of darts that would do, must be reached.
+void check_count(const SampleRequest& request, const SampleReport& report) {
+    if (request.params.throws == 0 && report.samples < request.params.stop_count) {
+        throw UserError(ExitCode::usage,
+                        "--count: only " + grouped(report.samples) + " of " +
+                            grouped(request.params.stop_count) + " samples " +
+                            rounded(report.params.min_distance, 6) + " apart found room with " +
+                            grouped(report.run.candidates) +
+                            " darts; ask for fewer or a smaller distance, or for what comes with "
+                            "--throws");
+    }
 }
 
 std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>& samples) {
@@ -253,8 +333,8 @@ void run_sample(const SampleOptions& options) {
     report.mesh_additions = options.mesh.additions();
     report.output_path = options.output;
     report.mesh = mesh.prepared.statistics();
-    report.params = request.params;
-    report.params.min_distance = request.distance_on(report.mesh);
+    report.throws_darts = options.throws_darts();
+    report.params = request.params_on(report.mesh);
     report.wanted_count = request.count;
     report.seconds.load = mesh.load_seconds;
     report.seconds.prepare = mesh.prepare_seconds;
@@ -262,6 +342,7 @@ void run_sample(const SampleOptions& options) {
 
     const std::vector<Sample> samples =
         sample_on_device(options, request.runner, mesh.prepared, report, progress);
+    check_count(request, report);
     write_outputs(options, to_rows(mesh, samples), mesh.dimension(), report, progress);
 }
 
@@ -290,19 +371,39 @@ void add_sample_command(CLI::App& app) {
         ->group(distance);
     command
         ->add_option("-n,--count", options->count,
-                     "Choose the distance that should give about N samples")
+                     "Choose the distance that should give about N samples;\n"
+                     "with --method pdts, stop at exactly N")
         ->type_name("N")
         ->group(distance);
 
     add_mesh_options(*command, options->mesh);
 
+    const char* const method = "Method";
+    command
+        ->add_option("--method", options->method,
+                     "psdp: from a pool of candidates; pdts: throw darts until\n"
+                     "there are --count samples or --throws darts were thrown")
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->group(method);
+    command
+        ->add_option("--throws", options->throws,
+                     "Most darts of pdts, up to 4294967295; fewer samples than\n"
+                     "--count are then no error. If not given, 1000 for each\n"
+                     "sample that the surface has room for")
+        ->type_name("K")
+        ->group(method);
+    CLI::Option* const pool_ratio =
+        command
+            ->add_option("--pool-ratio", options->pool_ratio,
+                         "Candidates of psdp per expected sample, 1 to 10000; more\n"
+                         "leave fewer gaps")
+            ->type_name("Q")
+            ->capture_default_str()
+            ->group(method);
+
     command->add_option("--seed", options->seed, "64-bit seed; equal seeds give equal samples")
         ->type_name("S")
-        ->capture_default_str();
-    command
-        ->add_option("--pool-ratio", options->pool_ratio,
-                     "Candidates per expected sample, 1 to 10000; more leave fewer gaps")
-        ->type_name("Q")
         ->capture_default_str();
     command->add_option("--device", options->device, "Device by name, index or UUID (geodisk info)")
         ->type_name("NAME|INDEX");
@@ -320,7 +421,10 @@ void add_sample_command(CLI::App& app) {
         ->add_flag("--validate", options->validate,
                    "Run with the Vulkan validation layer, fail on any message")
         ->group("Development");
-    command->callback([options] { run_sample(*options); });
+    command->callback([options, pool_ratio] {
+        options->has_pool_ratio = pool_ratio->count() > 0;
+        run_sample(*options);
+    });
 }
 
 } // namespace geodisk::tools

@@ -70,15 +70,34 @@ Json mesh_json(const SampleReport& report) {
     return mesh;
 }
 
+/// What ended the run.
+const char* stopped_by(const SampleReport& report) {
+    const bool has_all = report.samples == report.params.stop_count;
+    return has_all ? "count" : report.throws_darts ? "throws" : "pool";
+}
+
+/// "9,000", or with what was asked for where it is not that.
+std::string samples_text(const SampleReport& report) {
+    std::string text = grouped(report.samples);
+    if (report.wanted_count > 0) {
+        text +=
+            " of about " + grouped(static_cast<std::uint64_t>(report.wanted_count)) + " asked for";
+    } else if (report.samples < report.params.stop_count) {
+        text += " of " + grouped(report.params.stop_count) + " asked for, when the darts ran out";
+    }
+    return text;
+}
+
 } // namespace
 
 SampleHeader sample_header(const SampleReport& report) {
+    const char* const drawn = report.throws_darts ? "throws" : "pool_size";
     SampleHeader header{{{"version", "geodisk " GEODISK_VERSION_STRING},
                          {"mesh", report.mesh_path},
                          {"min_distance", exact_text(report.params.min_distance)},
                          {"radius", exact_text(report.params.min_distance / 2)},
                          {"seed", exact_text(report.params.seed)},
-                         {"pool_size", exact_text(report.run.candidates)},
+                         {drawn, exact_text(report.run.candidates)},
                          {"device", report.device.name},
                          {"driver", driver_text(report.device)}}};
     header.entries.insert(header.entries.begin() + 2, report.mesh_additions.begin(),
@@ -88,14 +107,21 @@ SampleHeader sample_header(const SampleReport& report) {
 
 std::string json_text(const SampleReport& report) {
     const RunReport& run = report.run;
+    // Each method has one of these.
+    const Json throws = report.throws_darts ? Json(run.candidates) : Json(nullptr);
+    const Json pool_ratio = report.throws_darts ? Json(nullptr) : Json(report.params.pool_ratio);
     const Json document{{"version", GEODISK_VERSION_STRING},
                         {"mesh", mesh_json(report)},
                         {"output", report.output_path},
                         {"min_distance", report.params.min_distance},
                         {"radius", report.params.min_distance / 2},
                         {"seed", report.params.seed},
-                        {"pool_ratio", report.params.pool_ratio},
+                        {"method", report.throws_darts ? "pdts" : "psdp"},
+                        {"pool_ratio", pool_ratio},
+                        {"throws", throws},
                         {"candidates", run.candidates},
+                        {"chunks", run.chunks},
+                        {"stopped_by", stopped_by(report)},
                         {"samples", report.samples},
                         {"rho", report.rho},
                         {"iterations", run.iterations},
@@ -132,14 +158,9 @@ void print_summary(std::ostream& out, const SampleReport& report) {
     out << "              " << mesh_text(report.mesh) << '\n'
         << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
         << ") in mesh units\n"
-        << "samples       " << grouped(report.samples);
-    if (report.wanted_count > 0) {
-        out << " of about " << grouped(static_cast<std::uint64_t>(report.wanted_count))
-            << " asked for";
-    }
-    out << ", rho " << rounded(report.rho, 3) << '\n'
-        << "candidates    " << grouped(report.run.candidates) << ", seed " << report.params.seed
-        << '\n'
+        << "samples       " << samples_text(report) << ", rho " << rounded(report.rho, 3) << '\n'
+        << (report.throws_darts ? "darts         " : "candidates    ")
+        << grouped(report.run.candidates) << ", seed " << report.params.seed << '\n'
         << "time          " << seconds_text(report.run.seconds.sample) << " sampling, "
         << seconds_text(total_seconds(report)) << " in all\n"
         << "device        " << one_line(report.device.name) << '\n'

@@ -22,7 +22,8 @@ struct SampleReport {
     std::string output_path;
     MeshStatistics mesh;
     SampleParams params;
-    double wanted_count = 0; ///< Of --count; 0 without.
+    bool throws_darts = false; ///< --method pdts.
+    double wanted_count = 0;   ///< Of --count, where it chose the distance; else 0.
     std::uint64_t samples = 0;
     double rho = 0;
     RunReport run;
