@@ -93,7 +93,7 @@ TEST_CASE("the distance must be given once and make sense") {
 TEST_CASE("a pool that cannot fit names its size") {
     const TemporaryFolder folder;
     check_fails(folder, 2, "candidates", sample({"-d", "1e-7"}));
-    check_fails(folder, 2, "bytes", sample({"-d", "1e-7"}));
+    check_fails(folder, 2, "4.29e+09", sample({"-d", "1e-7"}));
     check_fails(folder, 2, "candidates", sample({"-d", "1e-300"}));
     check_fails(folder, 2, "candidates", sample({"-n", "1e12"}));
     check_fails(folder, 6, "--memory", sample({"-n", "9", "--memory", "1"}));

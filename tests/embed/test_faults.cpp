@@ -288,7 +288,7 @@ TEST_SUITE("faults") {
         bench.check_run(runner);
     }
 
-    TEST_CASE("more candidates than the device can bind are refused with the numbers") {
+    TEST_CASE("more samples than the device can bind are refused with the numbers") {
         const Context context = expect(Context::create());
         FakeDriver driver;
         const PreparedMesh mesh = prepared(builtin("icosphere", 2));
@@ -301,8 +301,8 @@ TEST_SUITE("faults") {
             refs.get_instance_proc_addr = &FakeDriver::get_instance_proc_addr;
             Runner runner = expect(Runner::create(refs, context.queue()));
             CHECK(runner.sample_and_wait(mesh, params_for(mesh, 30)));
-            // Each buffer takes 4 bytes of a candidate; one percent more of them than fit.
-            const double most = range / 4 / kDefaultPoolRatio;
+            // A sample takes 16 bytes; one percent more of them than fit.
+            const double most = range / 16;
             const auto set = runner.sample_and_wait(mesh, params_for(mesh, 1.01 * most));
             REQUIRE_FALSE(set);
             CHECK(set.error().status == Status::device_lacks);

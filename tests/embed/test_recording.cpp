@@ -1,6 +1,7 @@
 // An engine that records geodisk's work among its own, in memory that it cuts out of one buffer.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -41,9 +42,11 @@ Task task(const Sampler& sampler, const char* shape, int resolution, double coun
 /// One job of the engine, a few rounds a frame.
 class EngineJob {
   public:
-    EngineJob(Workshop& workshop, const Sampler& sampler, const Task& task)
+    /// With all candidates at once, or chunk by chunk.
+    EngineJob(Workshop& workshop, const Sampler& sampler, const Task& task, std::uint32_t chunk = 0)
         : workshop_(workshop), sampler_(sampler), task_(task),
           plan_(expect(sampler.plan_run(task.mesh, task.params, Workshop::kPoolBytes))) {
+        plan_.chunk = chunk != 0 ? chunk : plan_.chunk;
         const WorkspaceNeeds needs = expect(sampler.workspace_needs(task.mesh, task.params, plan_));
         workspace_ = workshop.cut(needs);
         job_.emplace(expect(sampler.make_job(task.mesh, task.params, plan_, workspace_)));
@@ -106,11 +109,24 @@ class EngineJob {
 
     /// Frames until the samples are there.
     void run() {
+        const std::uint32_t candidates = expect(pool_size(task_.mesh, task_.params));
+        gpu::ControlRec last{};
+        for (std::uint32_t first = 0; first < candidates; first += plan_.chunk) {
+            expect(job_->set_chunk(first, std::min(plan_.chunk, candidates - first)));
+            last = run_chunk(first == 0);
+            workshop_.frame(0, [&](VkCommandBuffer commands) { record_last(commands); });
+        }
+        check_samples(last.accepted);
+    }
+
+    gpu::ControlRec run_chunk(bool is_first) {
         gpu::ControlRec last{};
         for (std::uint32_t frame = 0; last.done == 0; ++frame) {
             workshop_.frame(frame, [&](VkCommandBuffer commands) {
-                if (frame == 0) {
+                if (frame == 0 && is_first) {
                     record_first(commands);
+                } else if (frame == 0) {
+                    sampler_.record_begin(commands, *job_);
                 }
                 if (last.overflow != 0) {
                     record_regrown(commands, last.overflow);
@@ -122,8 +138,7 @@ class EngineJob {
                 throw std::runtime_error("the rounds lead nowhere");
             }
         }
-        workshop_.frame(0, [&](VkCommandBuffer commands) { record_last(commands); });
-        check_samples(last.accepted);
+        return last;
     }
 
     Job& job() { return *job_; }
@@ -168,6 +183,20 @@ TEST_SUITE("recording") {
             // The same memory again, cut differently.
             workshop.start_over();
             EngineJob(workshop, sampler, cube).run();
+            CHECK(workshop.damage() == 0);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("chunk by chunk, in a workspace for one of them") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 200);
+            Workshop workshop(context);
+            EngineJob job(workshop, sampler, knot, 900);
+            CHECK(job.workspace()[static_cast<std::size_t>(BufferRole::states)].size == 900 * 4);
+            job.run();
             CHECK(workshop.damage() == 0);
         }
         check_silent(context);
@@ -297,9 +326,9 @@ TEST_SUITE("workspaces") {
             const EngineJob good(workshop, sampler, knot);
             const WorkspaceNeeds needs =
                 expect(sampler.workspace_needs(knot.mesh, knot.params, good.plan()));
-            const char* names[] = {"faces",  "fans",  "alias", "cells",   "states", "weights",
-                                   "places", "slots", "pool",  "control", "marks",  "sums",
-                                   "samples"};
+            const char* names[] = {"faces",   "fans",   "alias",  "cells", "states",
+                                   "weights", "places", "slots",  "pool",  "control",
+                                   "marks",   "sums",   "samples"};
             for (std::size_t i = 0; i < kBufferRoles; ++i) {
                 CAPTURE(names[i]);
                 const auto check = [&](const BufferRange& range, Status status, const char* part) {
@@ -356,6 +385,7 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::detect_passes, 0);
         check(&RunPlan::detect_passes, 5000);
         check(&RunPlan::sample_capacity, 0);
+        check(&RunPlan::chunk, 0);
 
         RunPlan larger = good.plan();
         larger.window_capacity *= 2;

@@ -35,6 +35,9 @@ class DeviceRun {
     DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan = {},
               const SamplerOptions& options = {}, const Context& context = shared_context());
 
+    void set_chunk(std::uint32_t first, std::uint32_t count) {
+        expect(job_->set_chunk(first, count));
+    }
     void begin();
     void rounds(std::uint32_t count);
     void grow(std::uint32_t overflow);

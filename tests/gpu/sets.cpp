@@ -14,7 +14,9 @@ std::vector<std::uint32_t> sequential_set(const PreparedMesh& mesh, const Sample
     const auto points = ref::draw_candidates<Real>(mesh.alias_columns(), params.seed,
                                                    expect(pool_size(mesh, params)));
     const ref::Bins<Real> bins(surface, points);
-    return ref::throw_darts(surface, bins, tolerances_for(mesh, params.min_distance, chain)).ranks;
+    return ref::throw_darts(surface, bins, tolerances_for(mesh, params.min_distance, chain),
+                            params.stop_count != 0 ? params.stop_count : kMostCandidates)
+        .ranks;
 }
 
 } // namespace

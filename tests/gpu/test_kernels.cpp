@@ -17,18 +17,19 @@
 namespace geodisk::test {
 namespace {
 
-/// The twin's side of a run: the same pool, and states by rank.
+/// The twin's side of a chunk: the same candidates, and states by rank, counted from the first.
 struct Twin {
+    std::uint32_t first;
     ref::Surface<float> surface;
     std::vector<ref::FacePoint<float>> points;
     ref::Bins<float> bins;
     ref::Detector<float> detector;
     std::vector<std::uint8_t> states;
 
-    Twin(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain)
-        : surface(mesh, params.min_distance),
-          points(ref::draw_candidates<float>(mesh.alias_columns(), params.seed,
-                                             expect(pool_size(mesh, params)))),
+    Twin(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain,
+         std::uint32_t first_rank, std::uint32_t count)
+        : first(first_rank), surface(mesh, params.min_distance),
+          points(ref::draw_candidates<float>(mesh.alias_columns(), params.seed, count, first)),
           bins(surface, points),
           detector(surface, bins, tolerances_for(mesh, params.min_distance, chain),
                    tolerances_for(mesh, params.min_distance, chain).limit),
@@ -50,7 +51,31 @@ struct Twin {
         std::sort(conflicts.begin(), conflicts.end());
         return count;
     }
+
+    /// The idle candidates in the disk of a sample of an earlier chunk.
+    ref::DiskCount disk(const gpu::SampleRec& sample, std::vector<std::uint32_t>& conflicts) {
+        const auto count = detector.run(
+            {sample.face, sample.weight1, sample.weight2},
+            [&](std::uint32_t q) { return states[bins.order[q]] == gpu::kIdle; },
+            [&](std::uint32_t q, float) { conflicts.push_back(bins.order[q]); });
+        std::sort(conflicts.begin(), conflicts.end());
+        return count;
+    }
+
+    gpu::SampleRec sample(std::uint32_t rank) const {
+        return {first + rank, points[rank].face, points[rank].weight1, points[rank].weight2};
+    }
 };
+
+bool same(const gpu::SampleRec& a, const gpu::SampleRec& b) {
+    return a.rank == b.rank && a.face == b.face && a.weight1 == b.weight1 && a.weight2 == b.weight2;
+}
+
+bool same(const gpu::SlotRec& slot, const ref::DiskCount& disk) {
+    return slot.pushed == disk.windows && slot.most_waiting == disk.most_waiting &&
+           slot.longest_chain == disk.chain && slot.vertices == disk.vertices &&
+           slot.tested == disk.tested;
+}
 
 /// Which rank lies at each place.
 std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run) {
@@ -143,9 +168,7 @@ void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint
         const auto at = static_cast<std::size_t>(
             std::lower_bound(batch.begin(), batch.end(), slots[i].rank) - batch.begin());
         const ref::DiskCount want = twin.disk(batch[at], conflicts[at]);
-        wrong += slots[i].pushed != want.windows || slots[i].most_waiting != want.most_waiting ||
-                 slots[i].longest_chain != want.chain || slots[i].vertices != want.vertices ||
-                 slots[i].tested != want.tested;
+        wrong += !same(slots[i], want);
         wrong += listed(run, slots[i], i, by_place) != conflicts[at];
     }
     CHECK(wrong == 0);
@@ -162,45 +185,64 @@ void compare_states(const DeviceRun& run, const Twin& twin,
     CHECK(wrong == 0);
 }
 
-void compare_samples(const DeviceRun& run, const Twin& twin) {
+/// Adds the chunk's samples to those of the chunks before.
+void compare_samples(const DeviceRun& run, const Twin& twin, std::vector<gpu::SampleRec>& want) {
     const gpu::ControlRec control = run.control();
     const auto samples = run.read<gpu::SampleRec>(BufferRole::samples, control.accepted);
-    std::vector<std::uint32_t> want;
     for (std::uint32_t rank = 0; rank < twin.states.size(); ++rank) {
         if (twin.states[rank] == gpu::kAccepted) {
-            want.push_back(rank);
+            want.push_back(twin.sample(rank));
         }
     }
     REQUIRE(samples.size() == want.size());
     std::uint32_t wrong = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const ref::FacePoint<float>& p = twin.points[want[i]];
-        wrong += samples[i].rank != want[i] || samples[i].face != p.face ||
-                 samples[i].weight1 != p.weight1 || samples[i].weight2 != p.weight2;
+        wrong += !same(samples[i], want[i]);
     }
     CHECK(wrong == 0);
 }
 
-// The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively.
-const SamplerOptions kOnCpu{{0, 0, 1, 0, Reads::texels}, Rounding::native};
-const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
-const SamplerOptions kPlain{{0, 64, 32, 0, Reads::storage}, Rounding::native};
+/// The first rounds of a chunk: batches of the samples so far, whose disks reject and do nothing
+/// else.
+void step_through_samples(DeviceRun& run, Twin& twin, const std::vector<gpu::SampleRec>& settled,
+                          const std::vector<std::uint32_t>& by_place) {
+    for (std::uint32_t next = 0; next < settled.size();) {
+        gpu::ControlRec control{};
+        do {
+            run.rounds(1);
+            control = run.control();
+            REQUIRE(control.overflow == 0);
+        } while (control.undecided > 0);
+        REQUIRE(control.settled == settled.size());
+        REQUIRE(control.batch_sample == next);
+        REQUIRE(control.next_sample == next + control.slots_used);
+        REQUIRE(control.slots_used > 0);
+        CHECK(control.next_rank == 0);
+        CHECK(control.accepted == settled.size());
+        const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
+        std::vector<std::vector<std::uint32_t>> conflicts(slots.size());
+        std::uint32_t wrong = 0;
+        for (std::size_t i = 0; i < slots.size(); ++i) {
+            const gpu::SampleRec& sample = settled[next + i];
+            const ref::DiskCount want = twin.disk(sample, conflicts[i]);
+            wrong +=
+                slots[i].place != gpu::kNoPlace || !same({twin.first + slots[i].rank, slots[i].face,
+                                                          slots[i].weight1, slots[i].weight2},
+                                                         sample);
+            wrong += !same(slots[i], want) || listed(run, slots[i], i, by_place) != conflicts[i];
+        }
+        CHECK(wrong == 0);
+        for (const auto& rejected : conflicts) {
+            ref::reject_all(rejected, twin.states);
+        }
+        compare_states(run, twin, by_place);
+        next = control.next_sample;
+    }
+}
 
-void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
-                  std::uint32_t slots) {
-    const SampleParams params = params_for(mesh, count);
-    // Budgets and capacities so large that each round completes a batch.
-    RunPlan plan;
-    plan.slots = slots;
-    plan.window_capacity = 4096;
-    plan.table_capacity = 8192;
-    plan.list_capacity = 1024;
-    DeviceRun run(mesh, params, plan, options);
-    Twin twin(mesh, params, run.plan().chain);
-    run.begin();
-    compare_candidates(run, twin);
-    compare_bins(run, twin);
-    const auto by_place = ranks_by_place(run);
+/// The rounds of a chunk, once the samples before it have rejected.
+void step_through_candidates(DeviceRun& run, Twin& twin,
+                             const std::vector<std::uint32_t>& by_place) {
     while (true) {
         run.rounds(1);
         gpu::ControlRec control = run.control();
@@ -215,8 +257,44 @@ void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& 
         compare_batch(run, twin, by_place);
         compare_states(run, twin, by_place);
     }
-    run.finish();
-    compare_samples(run, twin);
+}
+
+// The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively.
+const SamplerOptions kOnCpu{{0, 0, 1, 0, Reads::texels}, Rounding::native};
+const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
+const SamplerOptions kPlain{{0, 64, 32, 0, Reads::storage}, Rounding::native};
+
+struct Chunk {
+    std::uint32_t first, count;
+};
+
+/// The chunks must fit the plan's; without any, all candidates are one.
+void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
+                  std::uint32_t slots, std::vector<Chunk> chunks = {}) {
+    const SampleParams params = params_for(mesh, count);
+    if (chunks.empty()) {
+        chunks = {{0, expect(pool_size(mesh, params))}};
+    }
+    // Budgets and capacities so large that each round completes a batch.
+    RunPlan plan;
+    plan.slots = slots;
+    plan.window_capacity = 4096;
+    plan.table_capacity = 8192;
+    plan.list_capacity = 1024;
+    DeviceRun run(mesh, params, plan, options);
+    std::vector<gpu::SampleRec> samples;
+    for (const Chunk& chunk : chunks) {
+        run.set_chunk(chunk.first, chunk.count);
+        Twin twin(mesh, params, run.plan().chain, chunk.first, chunk.count);
+        run.begin();
+        compare_candidates(run, twin);
+        compare_bins(run, twin);
+        const auto by_place = ranks_by_place(run);
+        step_through_samples(run, twin, samples, by_place);
+        step_through_candidates(run, twin, by_place);
+        run.finish();
+        compare_samples(run, twin, samples);
+    }
 }
 
 } // namespace
@@ -250,6 +328,19 @@ TEST_SUITE("kernels") {
     TEST_CASE("step by step with disks so large that every vertex is near") {
         step_through(prepared(builtin("icosphere", 3)), 1e-4, kOnCpu, 16);
         step_through(prepared(builtin("terrain", 16)), 1e-4, kOnCpu, 64);
+    }
+
+    TEST_CASE("step by step through chunks, each begun by the samples before it") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 16));
+        for (const SamplerOptions& options : {kOnCpu, kOnGpu}) {
+            step_through(knot, 400, options, 64, {{0, 300}, {300, 1000}, {1300, 1}, {1301, 4000}});
+        }
+        step_through(prepared(builtin("folded-sheet", 8)), 300, kPlain, 7, {{0, 2000}, {2000, 99}});
+    }
+
+    TEST_CASE("step by step where candidates' indices end") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        step_through(mesh, 200, kOnCpu, 64, {{0, 150}, {kMostCandidates - 900, 900}});
     }
 
     TEST_CASE("step by step with one candidate at a time") {

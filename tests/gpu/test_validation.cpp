@@ -23,6 +23,11 @@ TEST_SUITE("validation") {
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));
             CHECK(set.report.regrown > 0);
             CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+            // And chunks the samples of those before, in a buffer that has to grow.
+            tight.plan.chunk = 1000;
+            tight.plan.sample_capacity = 10;
+            runner = expect(Runner::create(context.device(), context.queue(), tight));
+            CHECK(ranks_of(expect(runner.sample_and_wait(mesh, params))) == ranks_of(set));
         }
         for (const std::string& message : expect(context.validation_messages())) {
             MESSAGE(message);

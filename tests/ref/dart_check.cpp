@@ -147,7 +147,9 @@ Darts thrown(const PreparedMesh& mesh, const SampleParams& params) {
     const ref::Bins<Real> bins(surface, converted<Real>(darts.pool));
     for (std::uint32_t chain = provided_chain(mesh, params.min_distance);; chain *= 2) {
         darts.tolerances = tolerances_for(mesh, params.min_distance, chain);
-        ref::RunResult run = ref::throw_darts(surface, bins, darts.tolerances);
+        ref::RunResult run =
+            ref::throw_darts(surface, bins, darts.tolerances,
+                             params.stop_count != 0 ? params.stop_count : kMostCandidates);
         darts.ranks = std::move(run.ranks);
         if (run.longest_chain <= chain) {
             return darts;
