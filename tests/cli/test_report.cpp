@@ -49,7 +49,7 @@ TEST_CASE("the report has every documented key") {
     check_seconds(report["seconds"]);
     for (const char* const key :
          {"seed", "candidates", "samples", "iterations", "dispatches", "disks", "windows",
-          "most_waiting", "regrown", "device_bytes", "tested", "longest_chain"}) {
+          "most_waiting", "regrown", "device_bytes", "tested", "longest_chain", "chunks"}) {
         INFO(key);
         CHECK(report[key].is_number_unsigned());
     }

@@ -34,8 +34,9 @@ TEST_CASE("help tells options, examples and exit statuses") {
         }
     }
     const Outcome help = run(folder, {"sample", "--help"});
-    for (const char* const option : {"--min-distance", "--radius", "--count", "--seed",
-                                     "--pool-ratio", "--device", "--json", "--quiet", "--ascii"}) {
+    for (const char* const option :
+         {"--min-distance", "--radius", "--count", "--seed", "--method", "--throws", "--pool-ratio",
+          "--device", "--json", "--quiet", "--ascii"}) {
         CHECK(contains(help.out, option));
     }
 }

@@ -1,5 +1,6 @@
 // Dart throwing by the reference: a valid and maximal sample of every surface, the same one in
 // float and in double, and the same one wherever the mesh lies.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -164,6 +165,26 @@ TEST_CASE("darts: moved or scaled, a mesh has the same sample") {
         CHECK(thrown<float>(scaled, scaled_params).ranks == darts.ranks);
         CHECK(thrown<double>(scaled, scaled_params).ranks == thrown<double>(surface, params).ranks);
     }
+}
+
+TEST_CASE("darts: more of them leave the first samples as they were, and a count stops at them") {
+    const PreparedMesh surface = prepared(builtin("icosphere", 4));
+    SampleParams params = params_for(surface, 500);
+    const std::vector<std::uint32_t> pool = thrown<double>(surface, params).ranks;
+    params.throws = 40'000;
+    const Darts more = thrown<double>(surface, params);
+    CHECK(more.pool.size() == 40'000);
+    check_maximal(surface, more);
+    REQUIRE(more.ranks.size() > pool.size());
+    CHECK(std::equal(pool.begin(), pool.end(), more.ranks.begin()));
+    for (const std::uint32_t count : {1u, 300u, static_cast<std::uint32_t>(more.ranks.size())}) {
+        params.stop_count = count;
+        const std::vector<std::uint32_t> first = thrown<double>(surface, params).ranks;
+        CHECK(first.size() == count);
+        CHECK(std::equal(first.begin(), first.end(), more.ranks.begin()));
+    }
+    params.stop_count = kMostCandidates;
+    CHECK(thrown<double>(surface, params).ranks == more.ranks);
 }
 
 TEST_CASE("darts: faces turned over leave the sample valid") {

@@ -1,0 +1,132 @@
+// `geodisk sample --method pdts`: when it stops, what it says then, and what it refuses.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "common/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+
+Arguments sample(const Arguments& options) {
+    Arguments arguments{"sample", "builtin:cube", "-o", "a.ply"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return arguments;
+}
+
+Arguments darts(const Arguments& options) {
+    Arguments arguments = sample({"--method", "pdts"});
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return arguments;
+}
+
+struct Throw {
+    std::vector<tools::SampleRow> rows;
+    tools::SampleHeader header;
+    Json report;
+    std::string summary;
+};
+
+Throw thrown(const TemporaryFolder& folder, Arguments arguments) {
+    arguments.insert(arguments.end(), {"--json", "a.json"});
+    const Outcome outcome = run(folder, arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    tools::SampleFile file = tools::read_samples(folder / "a.ply");
+    return {std::move(file.rows), std::move(file.header), Json::parse(bytes_of(folder / "a.json")),
+            outcome.out};
+}
+
+std::vector<std::uint32_t> candidates(const Throw& set) {
+    std::vector<std::uint32_t> result;
+    for (const tools::SampleRow& row : set.rows) {
+        result.push_back(row.candidate);
+    }
+    return result;
+}
+
+bool has_entry(const tools::SampleHeader& header, const std::string& key,
+               const std::string& value) {
+    for (const auto& [name, text] : header.entries) {
+        if (name == key) {
+            return text == value;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("darts stop at their number, and are a pool if they are as many") {
+    const TemporaryFolder folder;
+    const Throw pool = thrown(folder, sample({"-d", "0.2", "--method", "psdp"}));
+    CHECK(pool.report["method"] == "psdp");
+    CHECK(pool.report["stopped_by"] == "pool");
+    CHECK(pool.report["throws"].is_null());
+    const auto size = pool.report["candidates"].get<std::uint64_t>();
+    const Throw set = thrown(folder, darts({"-d", "0.2", "--throws", std::to_string(size)}));
+    CHECK(candidates(set) == candidates(pool));
+    CHECK(set.report["method"] == "pdts");
+    CHECK(set.report["throws"] == size);
+    CHECK(set.report["stopped_by"] == "throws");
+    CHECK(set.report["chunks"] == 1);
+    CHECK(set.report["pool_ratio"].is_null());
+    CHECK(has_entry(set.header, "throws", std::to_string(size)));
+    CHECK(contains(set.summary, "darts         "));
+
+    const Throw more = thrown(folder, darts({"-r", "0.1", "--throws", "2e5"}));
+    CHECK(more.rows.size() > set.rows.size());
+    CHECK(run(folder, {"verify", "builtin:cube", "a.ply"}).status == 0);
+}
+
+TEST_CASE("darts stop at exactly the count, with the first samples") {
+    const TemporaryFolder folder;
+    const auto all = candidates(thrown(folder, darts({"-d", "0.1", "--throws", "20000"})));
+    REQUIRE(all.size() > 300);
+    for (const Arguments& more : {Arguments{}, Arguments{"--throws", "20000"}}) {
+        Arguments options{"-d", "0.1", "--count", "300"};
+        options.insert(options.end(), more.begin(), more.end());
+        const Throw set = thrown(folder, darts(options));
+        CHECK(candidates(set) == std::vector<std::uint32_t>(all.begin(), all.begin() + 300));
+        CHECK(set.report["stopped_by"] == "count");
+        CHECK(set.report["throws"] == all[299] + 1);
+        CHECK(set.report["samples"] == 300);
+        CHECK(contains(set.summary, "samples       300, rho"));
+    }
+}
+
+TEST_CASE("darts that run out before the count are told, or an error where none were named") {
+    const TemporaryFolder folder;
+    const Throw set = thrown(folder, darts({"-d", "0.5", "--count", "5000", "--throws", "300"}));
+    CHECK(set.rows.size() < 100);
+    CHECK(set.report["stopped_by"] == "throws");
+    CHECK(contains(set.summary, " of 5,000 asked for, when the darts ran out, rho"));
+    const TemporaryFolder empty;
+    check_fails(empty, 2, "of 5,000 samples 0.5 apart found room",
+                darts({"-d", "0.5", "--count", "5000", "--json", "a.json"}));
+    check_fails(empty, 2, "--throws", darts({"-d", "0.5", "--count", "5000"}));
+}
+
+TEST_CASE("methods take their own options") {
+    const TemporaryFolder folder;
+    check_fails(folder, 2, "'dart' is neither psdp nor pdts",
+                sample({"-d", "1", "--method", "dart"}));
+    check_fails(folder, 2, "nothing to stop at", darts({"-d", "1"}));
+    check_fails(folder, 2, "no distance given", darts({"--count", "9"}));
+    check_fails(folder, 2, "no distance given", darts({"--throws", "9"}));
+    check_fails(folder, 2, "contradict", darts({"-d", "1", "-r", "1", "--throws", "9"}));
+    check_fails(folder, 2, "--pool-ratio is for --method psdp",
+                darts({"-d", "1", "--throws", "9", "--pool-ratio", "20"}));
+    check_fails(folder, 2, "--throws is for --method pdts", sample({"-d", "1", "--throws", "9"}));
+    for (const char* const value : {"0", "-1", "1.5", "many", "4294967296", "1e300"}) {
+        check_fails(folder, 2, "--throws", darts({"-d", "1", "--throws", value}));
+        check_fails(folder, 2, "--count", darts({"-d", "1", "--count", value}));
+    }
+    check_fails(folder, 2, "more than the 4,294,967,295", darts({"-d", "1", "--throws", "1e10"}));
+}
+
+} // namespace geodisk::test
