@@ -260,8 +260,8 @@ void check_count(const SampleRequest& request, const SampleReport& report) {
                             grouped(request.params.stop_count) + " samples " +
                             rounded(report.params.min_distance, 6) + " apart found room with " +
                             grouped(report.run.candidates) +
-                            " darts; ask for fewer or a smaller distance, or for what comes with "
-                            "--throws");
+                            " darts; ask for fewer samples, a smaller distance or, with --throws, "
+                            "for what there is");
     }
 }
 

@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   geodisk sample builtin:showpiece -o points.ply --count 10000
   geodisk sample bunny.obj -o points.csv --min-distance 1%
+  geodisk sample bunny.obj -o points.ply --min-distance 1% --method pdts --count 500
   geodisk verify bunny.obj points.csv
   geodisk sample bunny.obj -o points.ply --count 10000 --lift normals:0.05
 
