@@ -100,7 +100,8 @@ TEST_SUITE("darts") {
             CAPTURE(count);
             const SampleParams params = darts_for(mesh, 400, 12'000, count);
             const Ranks want = first_of(ranks, count);
-            std::vector<RunnerOptions> ways{{}, in_chunks(150), in_chunks(3'000), in_chunks(12'000)};
+            std::vector<RunnerOptions> ways{
+                {}, in_chunks(150), in_chunks(3'000), in_chunks(12'000)};
             for (const std::uint32_t slots : {1u, 37u, 1'000u}) {
                 ways.emplace_back().plan.slots = slots;
             }
@@ -176,6 +177,18 @@ TEST_SUITE("darts") {
         CHECK(ranks == want);
     }
 
+    TEST_CASE("darts too many for the lists of a small pool come in more chunks") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 2));
+        SampleParams params;
+        params.min_distance = 10 * mesh.statistics().diagonal;
+        params.throws = 20'000;
+        RunnerOptions small;
+        small.pool_bytes = 256 << 10;
+        const SampleSet set = sample(mesh, params, small);
+        CHECK(set.report.chunks > 1);
+        CHECK(ranks_of(set) == Ranks{0});
+    }
+
     TEST_CASE("the buffer of samples grows and keeps those of earlier chunks") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 12));
         const SampleParams params = darts_for(mesh, 500, 10'000);
@@ -210,8 +223,7 @@ TEST_SUITE("darts") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 4));
         const SampleParams params = darts_for(mesh, 1'000, 20'000);
         Context& context = shared_context();
-        Runner runner =
-            expect(Runner::create(context.device(), context.queue(), in_chunks(4'000)));
+        Runner runner = expect(Runner::create(context.device(), context.queue(), in_chunks(4'000)));
         std::uint32_t passed = 0;
         const auto cancelled = runner.sample_and_wait(mesh, params, [&](const Progress& state) {
             CHECK(state.candidates == 20'000);

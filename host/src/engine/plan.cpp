@@ -26,6 +26,8 @@ constexpr double kMostSlots = 1u << 16;
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
 constexpr std::uint64_t kIdleBytes = std::uint64_t{gpu::kFindMostGroups} * gpu::kFindLanes * 4;
+// Conflicts to provide for, per candidate that a full surface has for each sample.
+constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
 // Darts of a chunk: at least so many, and per expected sample. The disks of earlier samples, which
@@ -34,6 +36,8 @@ constexpr std::uint32_t kLargestCapacity = 1u << 26;
 constexpr double kLeastChunk = 1u << 16;
 constexpr double kMostChunk = 1024;
 constexpr double kChunkToStop = 64;
+// No more darts than need a list of conflicts of this part of the pool.
+constexpr double kListShare = 16;
 
 std::uint32_t pow2_at_least(double x) {
     return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
@@ -60,15 +64,17 @@ double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
 /// As many candidates as one binding holds. Darts may be far more than a pool, so they are limited
 /// by the lists of conflicts, and where a count may stop them, to not many more than it needs.
 std::uint32_t wanted_chunk(const SampleParams& params, std::uint32_t candidates, double samples,
-                           const DeviceReport& report) {
+                           double full, std::uint64_t pool_bytes, const DeviceReport& report) {
     const double most = std::min<double>(
         candidates, static_cast<double>(report.limits.max_storage_buffer_range / 4));
     if (params.throws == 0 && params.stop_count == 0) {
         return static_cast<std::uint32_t>(most);
     }
     const double per_sample = params.stop_count != 0 ? kChunkToStop : kMostChunk;
-    return static_cast<std::uint32_t>(
-        std::min(most, std::max(kLeastChunk, std::ceil(per_sample * samples))));
+    const double wanted = std::max(kLeastChunk, std::ceil(per_sample * samples));
+    const double listed =
+        std::ceil(static_cast<double>(pool_bytes) / kListShare / (4 * kListPerCrowd) * full);
+    return static_cast<std::uint32_t>(std::min({most, wanted, listed}));
 }
 
 std::uint32_t cpu_lanes(const DeviceReport& report) {
@@ -213,14 +219,14 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         const double faces_per_disk = 2.0 * mesh.face_count() / full;
         RunPlan plan;
         plan.pool_block = impl_->tuning.pool_block;
-        plan.chunk = wanted_chunk(params, *candidates, disks, report);
+        plan.chunk = wanted_chunk(params, *candidates, disks, full, pool_bytes, report);
         plan.slots = wanted_slots(disks, impl_->tuning.batches, report);
         plan.lanes = wanted_lanes(plan.slots, report);
         // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
         const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
         plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces_per_disk);
         plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces_per_disk);
-        plan.list_capacity = pow2_at_least(std::max(kLeastList, 8 * plan.chunk / full));
+        plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * plan.chunk / full));
         plan.step_budget = most_steps(report);
         plan.sample_capacity =
             wanted_sample_capacity(*candidates, disks, params.stop_count, report);
