@@ -101,6 +101,14 @@ struct FakeDriver::Functions {
         hand_out(edited, count, families);
     }
 
+    static VKAPI_ATTR void VKAPI_CALL get_memory(VkPhysicalDevice device,
+                                                 VkPhysicalDeviceMemoryProperties* memory) {
+        real<PFN_vkGetPhysicalDeviceMemoryProperties>("vkGetPhysicalDeviceMemoryProperties")(
+            device, memory);
+        if (active->edit_memory)
+            active->edit_memory(*memory);
+    }
+
     static VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical_device,
                                                         const VkDeviceCreateInfo* info,
                                                         const VkAllocationCallbacks* allocator,
@@ -137,6 +145,8 @@ struct FakeDriver::Functions {
              reinterpret_cast<PFN_vkVoidFunction>(&get_properties)},
             {"vkGetPhysicalDeviceQueueFamilyProperties",
              reinterpret_cast<PFN_vkVoidFunction>(&get_queue_families)},
+            {"vkGetPhysicalDeviceMemoryProperties",
+             reinterpret_cast<PFN_vkVoidFunction>(&get_memory)},
             {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(&create_device)},
             {"vkGetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(&get_device_proc_addr)},
         };

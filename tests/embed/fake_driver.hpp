@@ -26,6 +26,7 @@ class FakeDriver {
     /// Edits what each device reports.
     std::function<void(VkPhysicalDeviceProperties&)> edit_properties;
     std::function<void(std::vector<VkQueueFamilyProperties>&)> edit_queue_families;
+    std::function<void(VkPhysicalDeviceMemoryProperties&)> edit_memory;
     /// Functions of instance or device that cannot be found.
     std::set<std::string> missing;
     /// vkCreateInstance, vkEnumeratePhysicalDevices or vkCreateDevice, and what it fails with.

@@ -105,8 +105,9 @@ std::uint32_t sweep_create(Bench& bench, const char* function, VkResult result) 
 }
 
 /// Fails every call that a run makes of `function`; the runner works again after each.
-std::uint32_t sweep_run(Bench& bench, const char* function, VkResult result) {
-    Runner runner = expect(bench.create());
+std::uint32_t sweep_run(Bench& bench, const char* function, VkResult result,
+                        const RunnerOptions& options = {}) {
+    Runner runner = expect(bench.create(options));
     const std::string own = bench.spy.alive();
     for (std::uint32_t number = 0;; ++number) {
         CAPTURE(number);
@@ -130,6 +131,14 @@ bool frees_what_runs(std::string_view function) {
            function.starts_with("vkFree");
 }
 
+/// A run in chunks, whose buffer of samples grows with each.
+RunnerOptions growing() {
+    RunnerOptions options;
+    options.plan.chunk = 150;
+    options.plan.sample_capacity = 1;
+    return options;
+}
+
 void check_given_up(const Error& error) {
     CHECK(error.status == Status::device_lost);
     CHECK(error.message.find("not answered") != std::string::npos);
@@ -150,6 +159,18 @@ TEST_SUITE("faults") {
                 CHECK(bench.spy.alive() == "");
                 CHECK(bench.spy.strangers() == 0);
             }
+        }
+    }
+
+    TEST_CASE("nor does one between chunks") {
+        Bench bench;
+        for (const char* function :
+             {"vkCreateBuffer", "vkAllocateMemory", "vkBindBufferMemory", "vkQueueSubmit"}) {
+            CAPTURE(function);
+            CHECK(sweep_run(bench, function, kNoDeviceMemory, growing()) >
+                  sweep_run(bench, function, kNoDeviceMemory));
+            CHECK(bench.spy.alive() == "");
+            CHECK(bench.spy.strangers() == 0);
         }
     }
 
@@ -247,6 +268,33 @@ TEST_SUITE("faults") {
         bench.check_run(runner);
     }
 
+    TEST_CASE("samples on their way to a larger buffer are not freed when the device hangs") {
+        Bench bench;
+        RunnerOptions options = growing();
+        options.stall_seconds = 1;
+        std::uint32_t freed = 0;
+        std::uint32_t enlarged = 0;
+        bool has_job = false;
+        {
+            Runner runner = expect(bench.create(options));
+            bench.spy.on_call = [&](std::string_view function) {
+                has_job = has_job || function == "vkCreateDescriptorPool";
+                enlarged += has_job && function == "vkCreateBuffer" ? 1u : 0u;
+                // The first chunk has no samples of earlier ones to copy.
+                bench.spy.never_signal = enlarged == 2;
+                freed += enlarged == 2 && frees_what_runs(function) ? 1u : 0u;
+            };
+            const auto set = runner.sample_and_wait(bench.mesh, bench.params);
+            REQUIRE_FALSE(set);
+            check_given_up(set.error());
+            CHECK(enlarged == 2);
+        }
+        CHECK(freed == 0);
+        bench.spy.on_call = nullptr;
+        bench.spy.never_signal = false;
+        bench.spy.destroy_what_is_alive();
+    }
+
     TEST_CASE("a device that computes wrongly is refused, naming the operation") {
         Bench bench;
         const char* const operations[] = {"division", "square root", "a * b + c", "(c + a) - c"};
@@ -286,6 +334,25 @@ TEST_SUITE("faults") {
         }
         bench.spy.memory_left = ~VkDeviceSize{0};
         bench.check_run(runner);
+    }
+
+    TEST_CASE("candidates beyond the device's memory are drawn in chunks") {
+        const Context context = expect(Context::create());
+        FakeDriver driver;
+        driver.edit_memory = [](VkPhysicalDeviceMemoryProperties& memory) {
+            for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+                memory.memoryHeaps[i].size = 1 << 13;
+            }
+        };
+        DeviceRefs refs = context.device();
+        refs.get_instance_proc_addr = &FakeDriver::get_instance_proc_addr;
+        Runner runner = expect(Runner::create(refs, context.queue()));
+        const PreparedMesh mesh = prepared(builtin("icosphere", 2));
+        const SampleParams params = params_for(mesh, 100);
+        const SampleSet set = expect(runner.sample_and_wait(mesh, params));
+        CHECK(set.report.plan.chunk == (1 << 13) / 4 * 3 / 16);
+        CHECK(set.report.chunks > 1);
+        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
     }
 
     TEST_CASE("more samples than the device can bind are refused with the numbers") {

@@ -110,7 +110,7 @@ class GEODISK_API Runner {
     /// Returns the set that sequential dart throwing over the same candidates returns, whatever
     /// device, driver or plan. What overflows is enlarged and the batch repeated; a run whose
     /// window chains outgrow the guard is repeated with a wider one. Candidates that do not fit a
-    /// binding, or that may not be needed, are drawn chunk by chunk.
+    /// binding or the device's memory, or may not be needed, are drawn chunk by chunk.
     ///
     /// Errors: `invalid_argument`, `device_lacks` and `workspace_too_small` as Sampler's functions;
     /// `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the runner refuses

@@ -36,6 +36,7 @@ constexpr std::uint32_t kMostPasses = 64;
 constexpr double kDartsWhileSparse = 4;
 constexpr double kDartsWhileFull = 20;
 constexpr double kLeastFirstChunk = 4096;
+constexpr VkDeviceSize kBytesPerCandidate = 16;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
 constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
@@ -147,6 +148,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     if (!plan) {
         return plan.error();
     }
+    plan->chunk = std::min(plan->chunk, runner_.candidates_in_memory());
     *plan = overridden(*plan, runner_.options.plan);
     plan->chain = std::max(plan->chain, chain);
     if (plan->pool_bytes() > runner_.options.pool_bytes) {
@@ -309,6 +311,9 @@ Result<Done> Run::enlarge_samples() {
             barrier_transfer_to_compute(vk, commands);
         });
         if (!copied) {
+            if (runner_.submitter->abandoned()) {
+                larger->abandon();
+            }
             return copied;
         }
     }
@@ -476,6 +481,19 @@ const Sampler& Runner::sampler() const noexcept {
 Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                             MemoryKind kind) const {
     return DeviceBuffer::create(engine().device, engine().vk, memory, bytes, usage, kind);
+}
+
+std::uint32_t Runner::Impl::candidates_in_memory() const {
+    VkDeviceSize largest = 0;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        const VkMemoryHeap& heap = memory.memoryHeaps[i];
+        if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) {
+            largest = std::max(largest, heap.size);
+        }
+    }
+    // A quarter is left for all else.
+    return static_cast<std::uint32_t>(
+        std::clamp<VkDeviceSize>(largest / 4 * 3 / kBytesPerCandidate, 1, kMostCandidates));
 }
 
 Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>& record) {

@@ -37,6 +37,8 @@ struct Runner::Impl {
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// As Submitter::run, for what a job records.
     Result<Done> run_timed(const std::function<void(VkCommandBuffer)>& record);
+    /// As many candidates as the device has memory for at once.
+    std::uint32_t candidates_in_memory() const;
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind) const;
 
