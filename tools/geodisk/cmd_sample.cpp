@@ -1,7 +1,6 @@
 #include "geodisk/cmd_sample.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -22,13 +21,13 @@
 #include "common/user_error.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/mesh_options.hpp"
+#include "geodisk/outputs.hpp"
 #include "geodisk/progress.hpp"
 #include "geodisk/sample_report.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
-#include "program/output_path.hpp"
 #include "program/tuning_file.hpp"
 
 namespace geodisk::tools {
@@ -159,23 +158,13 @@ SampleRequest parse_request(const SampleOptions& options) {
 
 /// Finds out before the work that it would be in vain.
 void check_outputs(const SampleOptions& options) {
-    const bool has_json_file = !options.json.empty() && options.json != "-";
+    std::vector<NamedFile> read;
     for (const std::string& file : options.mesh.files()) {
-        if (is_same_file(options.output, file)) {
-            throw UserError(ExitCode::usage,
-                            options.output + ": the output would replace the mesh");
-        }
-        if (has_json_file && is_same_file(options.json, file)) {
-            throw UserError(ExitCode::usage, options.json + ": the report would replace the mesh");
-        }
+        read.push_back({"the mesh", file});
     }
-    if (has_json_file && is_same_file(options.json, options.output)) {
-        throw UserError(ExitCode::usage, options.json + ": the report would replace the samples");
-    }
+    check_distinct({{"the samples", options.output}, {"the report", options.json}}, read);
     check_output_path(options.output);
-    if (has_json_file) {
-        check_writable(options.json);
-    }
+    check_report_path(options.json);
 }
 
 /// Runs `work` and adds its seconds to `seconds`.
@@ -269,26 +258,14 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>&
     std::vector<SampleRow> rows;
     rows.reserve(samples.size());
     for (const Sample& sample : samples) {
-        const std::array<double, 8> position = mesh.point(sample.face, sample.weights);
-        const Vec3 normal = mesh.normal(sample.face);
         SampleRow row;
-        std::copy(position.begin(), position.end(), row.position);
-        row.normal[0] = static_cast<float>(normal.x);
-        row.normal[1] = static_cast<float>(normal.y);
-        row.normal[2] = static_cast<float>(normal.z);
         row.face = sample.face;
         std::copy_n(sample.weights, 3, row.bary);
         row.candidate = sample.candidate;
+        mesh.place(row);
         rows.push_back(row);
     }
     return rows;
-}
-
-void print_or_fail(const std::string& what) {
-    std::cout.flush();
-    if (!std::cout) {
-        throw UserError(ExitCode::bad_output, what + " cannot be written to standard output");
-    }
 }
 
 /// Brings everything to the disk before anything appears under its name.
@@ -302,22 +279,13 @@ void write_outputs(const SampleOptions& options, const std::vector<SampleRow>& r
     report.seconds.write = std::chrono::duration<double>(Clock::now() - start).count();
     progress.clear();
 
-    std::optional<AtomicFile> json;
-    if (options.json == "-") {
-        std::cout << json_text(report);
-        print_or_fail("the report");
-    } else if (!options.json.empty()) {
-        json.emplace(options.json).write(json_text(report));
-        json->sync();
-    }
+    ReportFile json(options.json, options.json.empty() ? "" : json_text(report));
     check_interrupted();
     samples.commit();
-    if (json) {
-        json->commit();
-    }
+    json.commit();
     if (!options.quiet && options.json != "-") {
         print_summary(std::cout, report);
-        print_or_fail("the summary");
+        flush_or_fail("the summary");
     }
 }
 

@@ -1,7 +1,6 @@
 #include "geodisk/cmd_verify.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -19,7 +18,9 @@
 #include "common/user_error.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/mesh_options.hpp"
+#include "geodisk/outputs.hpp"
 #include "geodisk/progress.hpp"
+#include "geodisk/sample_checks.hpp"
 #include "geodisk/spacing_check.hpp"
 #include "program/arguments.hpp"
 #include "program/human_text.hpp"
@@ -34,30 +35,6 @@ struct VerifyOptions {
     std::string samples, min_distance;
     bool quiet = false;
 };
-
-/// A sample whose position is not where its face and weights put it.
-struct StrayRow {
-    std::uint32_t row;
-    double offset;
-};
-
-std::string row_text(const SampleFile& samples, std::uint32_t row) {
-    return "sample " + std::to_string(row) + " (candidate " +
-           std::to_string(samples.rows[row].candidate) + ")";
-}
-
-std::string coordinates_text(std::uint32_t dimension) {
-    return dimension == 0 ? "no coordinates" : std::to_string(dimension) + " coordinates";
-}
-
-void check_dimensions(const VerifyOptions& options, const SampleFile& samples,
-                      const MeshInput& mesh) {
-    if (samples.dimension != mesh.dimension()) {
-        fail_input(options.samples, "its samples have " + coordinates_text(samples.dimension) +
-                                        ", the vertices of " + options.mesh.mesh + " have " +
-                                        coordinates_text(mesh.dimension()));
-    }
-}
 
 /// A sample of another surface would show as a violation, or worse, would not.
 void warn_of_other_surface(const VerifyOptions& options, const SampleFile& samples) {
@@ -82,30 +59,6 @@ void warn_of_other_surface(const VerifyOptions& options, const SampleFile& sampl
                   ", which is not what is verified here");
 }
 
-/// The rows must at least name points of the mesh.
-void check_rows(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
-    constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
-    for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
-        const SampleRow& row = samples.rows[i];
-        if (row.face >= mesh.prepared.face_count()) {
-            fail_input(options.samples,
-                       row_text(samples, i) + ": face " + std::to_string(row.face) +
-                           " is out of range, " + options.mesh.mesh + " has " +
-                           counted(mesh.prepared.face_count(), "triangle", "triangles"));
-        }
-        double sum = 0;
-        double least = 1;
-        for (const double weight : row.bary) {
-            sum += weight;
-            least = std::min(least, weight);
-        }
-        if (!(least >= -kTolerance && std::abs(sum - 1) <= kTolerance)) {
-            fail_input(options.samples, row_text(samples, i) +
-                                            ": the weights are not those of a point in a triangle");
-        }
-    }
-}
-
 double distance_of(const VerifyOptions& options, const SampleFile& samples,
                    const MeshStatistics& mesh) {
     if (!options.min_distance.empty()) {
@@ -127,42 +80,12 @@ double distance_of(const VerifyOptions& options, const SampleFile& samples,
                                                        "--min-distance");
 }
 
-/// Without coordinates there is nothing to be off.
-std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh) {
-    double largest = 0;
-    double diagonal = 0;
-    for (std::size_t axis = 0; axis < mesh.dimension(); ++axis) {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (const std::uint32_t vertex : mesh.file.triangles) {
-            const double x = mesh.file.positions[std::size_t{vertex} * mesh.dimension() + axis];
-            low = std::min(low, x);
-            high = std::max(high, x);
-        }
-        largest = std::max({largest, std::abs(low), std::abs(high)});
-        diagonal = std::hypot(diagonal, high - low);
-    }
-    // Files hold floats, or doubles where the mesh is farther from the origin than this.
-    const double allowed = 0x1p-22 * std::min(largest, 16 * diagonal);
-    std::vector<StrayRow> strays;
-    for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
-        const SampleRow& row = samples.rows[i];
-        const std::array<double, 8> point = mesh.point(row.face, row.bary);
-        double offset = 0;
-        for (std::size_t axis = 0; axis < point.size(); ++axis) {
-            offset = std::hypot(offset, row.position[axis] - point[axis]);
-        }
-        if (!(offset <= allowed)) {
-            strays.push_back({i, offset});
-        }
-    }
-    return strays;
-}
-
 std::string smallest_text(const SpacingResult& spacing, double min_distance) {
-    if (spacing.smallest > spacing.cut) {
+    if (!spacing.closest) {
         return "> " + rounded(spacing.cut, 6);
     }
-    return rounded(spacing.smallest, 9) + ", " + rounded(spacing.smallest / min_distance, 9) +
+    const double smallest = spacing.closest->distance;
+    return rounded(smallest, 9) + ", " + rounded(smallest / min_distance, 9) +
            " of the minimum distance";
 }
 
@@ -194,11 +117,7 @@ void print_result(std::ostream& out, const VerifyOptions& options, const SampleF
     }
     for (std::size_t i = 0; i < std::min(strays.size(), kNamedViolations); ++i) {
         out << "              " << row_text(samples, strays[i].row) << ": "
-            << rounded(strays[i].offset, 3) << " away from where its face and weights put it\n";
-    }
-    out.flush();
-    if (!out) {
-        throw UserError(ExitCode::bad_output, "the result cannot be written to standard output");
+            << offset_text(strays[i]) << '\n';
     }
 }
 
@@ -231,14 +150,14 @@ void run_verify(const VerifyOptions& options) {
     progress.clear();
     const MeshStatistics& statistics = mesh.prepared.statistics();
     const double min_distance = distance_of(options, samples, statistics);
-    check_dimensions(options, samples, mesh);
-    check_rows(options, samples, mesh);
+    check_rows(options.samples, samples, options.mesh.mesh, mesh);
     warn_of_other_surface(options, samples);
 
     const std::vector<StrayRow> strays = find_strays(samples, mesh);
     const SpacingResult spacing = check_spacing(mesh, samples.rows, min_distance, progress);
     if (!options.quiet) {
         print_result(std::cout, options, samples, statistics, min_distance, spacing, strays);
+        flush_or_fail("the result");
     }
     fail_on_violations(options, min_distance, spacing, strays);
 }

@@ -6,6 +6,7 @@
 #include "geodisk/cmd_info.hpp"
 #include "geodisk/cmd_sample.hpp"
 #include "geodisk/cmd_shapes.hpp"
+#include "geodisk/cmd_transfer.hpp"
 #include "geodisk/cmd_verify.hpp"
 #include "program/interrupt.hpp"
 #include "program/program.hpp"
@@ -18,6 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   geodisk sample bunny.obj -o points.ply --min-distance 1% --method pdts --count 500
   geodisk verify bunny.obj points.csv
   geodisk sample bunny.obj -o points.ply --count 10000 --lift normals:0.05
+  geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv
 
 Exit status:
   0    success
@@ -45,6 +47,7 @@ int main(int argc, char** argv) {
     app.footer(kFooter);
     geodisk::tools::add_sample_command(app);
     geodisk::tools::add_verify_command(app);
+    geodisk::tools::add_transfer_command(app);
     geodisk::tools::add_shapes_command(app);
     geodisk::tools::add_info_command(app);
     return geodisk::tools::run_program(app, argc, argv);

@@ -109,6 +109,15 @@ Vec3 MeshInput::normal(std::uint32_t face) const {
     return length(n) > 0 ? normalized(n) : Vec3{};
 }
 
+void MeshInput::place(SampleRow& row) const {
+    const std::array<double, 8> position = point(row.face, row.bary);
+    std::copy(position.begin(), position.end(), row.position);
+    const Vec3 n = normal(row.face);
+    row.normal[0] = static_cast<float>(n.x);
+    row.normal[1] = static_cast<float>(n.y);
+    row.normal[2] = static_cast<float>(n.z);
+}
+
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress) {
     const std::string& path = options.mesh;
     const std::vector<Lift> lifts = parse_lifts(options);

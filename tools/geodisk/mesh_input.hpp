@@ -9,6 +9,7 @@
 #include <geodisk/mesh.hpp>
 
 #include "common/mesh_file.hpp"
+#include "common/sample_file.hpp"
 #include "common/vec3.hpp"
 #include "geodisk/mesh_options.hpp"
 #include "program/arguments.hpp"
@@ -31,6 +32,8 @@ struct MeshInput {
     std::array<double, 8> point(std::uint32_t face, const float (&weights)[3]) const;
     /// Of unit length; zero for a face without area and for a mesh that is not in space.
     Vec3 normal(std::uint32_t face) const;
+    /// Sets position and normal of `row` by its face and weights.
+    void place(SampleRow& row) const;
 };
 
 class ProgressLine;

@@ -23,10 +23,18 @@ struct MeshOptions {
     std::vector<std::pair<std::string, std::string>> additions() const;
 };
 
-/// Adds the argument MESH, described by `summary`.
-void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary);
+/// Adds the argument `name`, described by `summary`.
+void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary,
+                       const std::string& name = "MESH");
 
-/// Adds the options besides MESH.
+/// Adds the files beside the mesh `mesh_name`; `suffix` ends the options' names.
+void add_sidecar_options(CLI::App& command, MeshOptions& options, const std::string& mesh_name,
+                         const std::string& suffix = "");
+
+/// Adds --lift, with `suffix`.
+void add_lift_option(CLI::App& command, MeshOptions& options, const std::string& suffix = "");
+
+/// Adds all options besides MESH.
 void add_mesh_options(CLI::App& command, MeshOptions& options);
 
 } // namespace geodisk::tools

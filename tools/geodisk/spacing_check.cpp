@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
+
+#include <geodisk/params.hpp>
 
 #include "constants.h"
 #include "kernels/bins.hpp"
@@ -86,22 +89,25 @@ void sort_violations(std::vector<ClosePair>& pairs) {
     });
 }
 
-} // namespace
+bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than) {
+    return !than || std::tie(pair.distance, pair.row_a, pair.row_b) <
+                        std::tie(than->distance, than->row_a, than->row_b);
+}
 
-SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                            double min_distance, ProgressLine& progress) {
+/// Calls `visit(pair)` for all pairs not farther apart than `cut`, from each of their rows, until
+/// it returns false.
+template <class Visit>
+void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, double unit, double cut,
+                   ProgressLine& progress, const Visit& visit) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    SpacingResult result;
-    result.cut = kCutFactor * min_distance;
-    const double unit = choose_unit(mesh.prepared, min_distance);
     const ref::Surface<double> surface(mesh.prepared, unit);
     const ref::Bins<double> bins(surface, points_of(rows));
-    ref::Detector<double> detector(surface, bins, double_tolerances(), result.cut / unit);
+    ref::Detector<double> detector(surface, bins, double_tolerances(), cut / unit);
 
     std::vector<double> distances(rows.size(), kUnknown); // By place, of the current source.
     std::vector<std::uint32_t> near;                      // Places with a distance.
-    progress.begin_stage("verifying");
-    for (std::uint32_t source = 0; source < rows.size() && result.is_complete; ++source) {
+    bool goes_on = true;
+    for (std::uint32_t source = 0; source < rows.size() && goes_on; ++source) {
         check_interrupted();
         progress.update(static_cast<double>(source) / static_cast<double>(rows.size()),
                         grouped(source) + " samples");
@@ -115,18 +121,71 @@ SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> ro
             });
         for (const std::uint32_t place : near) {
             const double distance = std::exchange(distances[place], kUnknown);
-            result.smallest = std::min(result.smallest, distance);
-            if (distance < min_distance * (1 - kSmallestViolation)) {
-                const auto [low, high] = std::minmax(bins.order[source], bins.order[place]);
-                result.violations.push_back({low, high, distance});
-            }
+            const auto [low, high] = std::minmax(bins.order[source], bins.order[place]);
+            goes_on = visit(ClosePair{low, high, distance}) && goes_on;
         }
         near.clear();
-        result.is_complete = result.violations.size() < kMostViolations;
     }
     progress.clear();
+}
+
+/// No shortest path is longer: it meets each edge and each triangle at most once.
+double longest_path(const PreparedMesh& mesh) {
+    double length = 0;
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        length += edge.length;
+    }
+    return length;
+}
+
+} // namespace
+
+SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                            double min_distance, ProgressLine& progress) {
+    SpacingResult result;
+    result.cut = kCutFactor * min_distance;
+    progress.begin_stage("verifying");
+    for_each_pair(mesh, rows, choose_unit(mesh.prepared, min_distance), result.cut, progress,
+                  [&](const ClosePair& pair) {
+                      if (is_closer(pair, result.closest)) {
+                          result.closest = pair;
+                      }
+                      if (pair.distance < min_distance * (1 - kSmallestViolation)) {
+                          result.violations.push_back(pair);
+                      }
+                      result.is_complete = result.violations.size() < kMostViolations;
+                      return result.is_complete;
+                  });
     sort_violations(result.violations);
     return result;
+}
+
+std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
+                                      ProgressLine& progress) {
+    std::optional<ClosePair> closest;
+    if (rows.size() < 2) {
+        return closest;
+    }
+    progress.begin_stage("measuring");
+    const double longest = longest_path(mesh.prepared);
+    // Samples spread well are no farther apart; of others only few disks are that large.
+    double distance =
+        distance_for_count(mesh.prepared.statistics().area, static_cast<double>(rows.size()));
+    while (!closest) {
+        const double cut = kCutFactor * distance;
+        for_each_pair(mesh, rows, choose_unit(mesh.prepared, distance), cut, progress,
+                      [&](const ClosePair& pair) {
+                          if (is_closer(pair, closest)) {
+                              closest = pair;
+                          }
+                          return true;
+                      });
+        if (cut > longest) {
+            break;
+        }
+        distance *= 2;
+    }
+    return closest;
 }
 
 } // namespace geodisk::tools

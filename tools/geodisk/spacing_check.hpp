@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,17 +12,17 @@
 
 namespace geodisk::tools {
 
-/// Two rows of the sample file, the lower one first, closer than the minimum distance.
+/// Two rows of the sample file, the lower one first, and their geodesic distance.
 struct ClosePair {
     std::uint32_t row_a, row_b;
     double distance;
 };
 
 struct SpacingResult {
-    double cut = 0; ///< Distances were computed up to here.
-    double smallest = std::numeric_limits<double>::infinity(); ///< Infinite if beyond the cut.
-    std::vector<ClosePair> violations;                         ///< The closest pair first.
-    bool is_complete = true; ///< False if the check stopped at too many violations.
+    double cut = 0;                    ///< Distances were computed up to here.
+    std::optional<ClosePair> closest;  ///< None if all are farther apart than the cut.
+    std::vector<ClosePair> violations; ///< The closest pair first.
+    bool is_complete = true;           ///< False if the check stopped at too many violations.
 };
 
 /// Computes the geodesic distances of all pairs that are not farther apart than a cut somewhat
@@ -31,5 +31,10 @@ struct SpacingResult {
 /// Every row's face must be one of the mesh. Throws UserError when interrupted.
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                             double min_distance, ProgressLine& progress);
+
+/// The closest pair of all, however far apart; none if no path joins any two samples. Conditions
+/// and errors are those of check_spacing().
+std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
+                                      ProgressLine& progress);
 
 } // namespace geodisk::tools

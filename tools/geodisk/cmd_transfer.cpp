@@ -1,0 +1,208 @@
+#include "geodisk/cmd_transfer.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <geodisk/version.hpp>
+
+#include "common/atomic_file.hpp"
+#include "common/file_input.hpp"
+#include "common/sample_file.hpp"
+#include "common/text.hpp"
+#include "common/user_error.hpp"
+#include "geodisk/mesh_input.hpp"
+#include "geodisk/mesh_options.hpp"
+#include "geodisk/outputs.hpp"
+#include "geodisk/progress.hpp"
+#include "geodisk/sample_checks.hpp"
+#include "geodisk/spacing_check.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+struct TransferOptions {
+    std::string samples;
+    MeshOptions from, to;
+    std::string output, json;
+    bool ascii = false, quiet = false;
+};
+
+void check_outputs(const TransferOptions& options) {
+    std::vector<NamedFile> read{{"the samples read", options.samples}};
+    for (const MeshOptions* mesh : {&options.from, &options.to}) {
+        for (const std::string& file : mesh->files()) {
+            read.push_back({"a mesh", file});
+        }
+    }
+    check_distinct({{"the output", options.output}, {"the report", options.json}}, read);
+    check_output_path(options.output);
+    check_report_path(options.json);
+}
+
+std::string corners_text(const MeshFile& mesh, std::size_t face) {
+    std::string text;
+    for (std::size_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
+        text += (text.empty() ? "" : " ") + std::to_string(mesh.triangles[corner]);
+    }
+    return text;
+}
+
+/// A face and weights mean the same place only where the corners are the same.
+void check_connectivity(const TransferOptions& options, const MeshFile& from, const MeshFile& to) {
+    const std::size_t count = from.triangles.size() / 3;
+    if (to.triangles.size() != from.triangles.size()) {
+        fail_input(options.to.mesh, "has " +
+                                        counted(to.triangles.size() / 3, "triangle", "triangles") +
+                                        ", but " + options.from.mesh + " has " + grouped(count) +
+                                        "; samples go over between meshes of the same faces alone");
+    }
+    const auto difference =
+        std::mismatch(from.triangles.begin(), from.triangles.end(), to.triangles.begin()).first;
+    if (difference != from.triangles.end()) {
+        const auto face = static_cast<std::size_t>(difference - from.triangles.begin()) / 3;
+        fail_input(options.to.mesh,
+                   "face " + std::to_string(face) + " has the corners " + corners_text(to, face) +
+                       ", but " + corners_text(from, face) + " in " + options.from.mesh +
+                       " (all counted from 0); samples go over between meshes of the same faces "
+                       "alone");
+    }
+}
+
+/// Samples of another mesh would land anywhere.
+void check_samples(const TransferOptions& options, const SampleFile& samples,
+                   const MeshInput& from) {
+    check_rows(options.samples, samples, options.from.mesh, from);
+    const std::vector<StrayRow> strays = find_strays(samples, from);
+    if (!strays.empty()) {
+        fail_input(options.samples, row_text(samples, strays.front().row) + " is " +
+                                        offset_text(strays.front()) + " on " + options.from.mesh +
+                                        "; are these samples of another mesh?");
+    }
+}
+
+/// What holds of the new samples, then what the header of the old ones said, as "source_KEY".
+SampleHeader transferred_header(const TransferOptions& options, const SampleHeader& source,
+                                const std::optional<ClosePair>& closest) {
+    SampleHeader header{
+        {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", options.to.mesh}}};
+    for (const auto& entry : options.to.additions()) {
+        header.entries.push_back(entry);
+    }
+    if (closest) {
+        std::string distance;
+        append_number(distance, closest->distance);
+        header.entries.emplace_back("min_distance", distance);
+    }
+    header.entries.emplace_back("transferred_from", options.samples);
+    for (const auto& [key, value] : source.entries) {
+        header.entries.emplace_back("source_" + key, value);
+    }
+    return header;
+}
+
+std::string report_text(const TransferOptions& options, const SampleFile& samples,
+                        const std::optional<ClosePair>& closest) {
+    using Json = nlohmann::ordered_json;
+    Json smallest = nullptr;
+    if (closest) {
+        smallest = {
+            {"distance", closest->distance},
+            {"samples", {closest->row_a, closest->row_b}},
+            {"candidates",
+             {samples.rows[closest->row_a].candidate, samples.rows[closest->row_b].candidate}}};
+    }
+    const Json document{{"version", GEODISK_VERSION_STRING},
+                        {"transferred_from", options.samples},
+                        {"mesh_a", options.from.mesh},
+                        {"mesh_b", options.to.mesh},
+                        {"output", options.output},
+                        {"samples", samples.rows.size()},
+                        {"smallest", smallest}};
+    // Paths may be anything; text that is not UTF-8 must not end the program.
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void print_summary(const TransferOptions& options, const SampleFile& samples,
+                   const std::optional<ClosePair>& closest) {
+    std::cout << "from          " << one_line(options.from.mesh) << '\n'
+              << "to            " << one_line(options.to.mesh) << '\n'
+              << "samples       " << grouped(samples.rows.size()) << " of "
+              << one_line(options.samples) << '\n'
+              << "smallest      ";
+    if (closest) {
+        std::cout << rounded(closest->distance, 9) << " in mesh units, "
+                  << row_text(samples, closest->row_a) << " and "
+                  << row_text(samples, closest->row_b) << '\n';
+    } else {
+        std::cout << "none, no path joins two of them\n";
+    }
+    std::cout << "file          " << one_line(options.output) << '\n';
+    flush_or_fail("the summary");
+}
+
+void run_transfer(const TransferOptions& options) {
+    check_outputs(options);
+    ProgressLine progress(options.quiet);
+    const MeshInput from = load_mesh(options.from, progress);
+    const MeshInput to = load_mesh(options.to, progress);
+    check_connectivity(options, from.file, to.file);
+    check_dimension(options.output, to.dimension());
+    progress.begin_stage("reading the samples");
+    SampleFile samples = read_samples(options.samples);
+    progress.clear();
+    check_samples(options, samples, from);
+
+    for (SampleRow& row : samples.rows) {
+        to.place(row);
+    }
+    const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
+    AtomicFile file(options.output);
+    write_samples(file, options.output, transferred_header(options, samples.header, closest),
+                  samples.rows, options.ascii, to.dimension());
+    file.sync();
+    ReportFile report(options.json, report_text(options, samples, closest));
+    check_interrupted();
+    file.commit();
+    report.commit();
+    if (!options.quiet && options.json != "-") {
+        print_summary(options, samples, closest);
+    }
+}
+
+} // namespace
+
+void add_transfer_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "transfer", "Carry samples over to another pose of their mesh: the same faces,\n"
+                    "elsewhere; tells their smallest distance there");
+    const auto options = std::make_shared<TransferOptions>();
+    command->add_option("SAMPLES", options->samples, "Samples of MESH_A: *.ply or *.csv")
+        ->type_name("")
+        ->required();
+    add_mesh_argument(*command, options->from, "Mesh they were made on", "MESH_A");
+    add_mesh_argument(*command, options->to, "Mesh of the same faces to put them on", "MESH_B");
+    command
+        ->add_option("-o,--output", options->output,
+                     "File to write: *.ply (binary), *.csv or *.xyz (positions only)")
+        ->type_name("OUT")
+        ->required();
+    add_sidecar_options(*command, options->from, "MESH_A", "-a");
+    add_sidecar_options(*command, options->to, "MESH_B", "-b");
+    add_lift_option(*command, options->to, "-b");
+    command->add_option("--json", options->json, "Write a report as JSON, - for standard output")
+        ->type_name("FILE");
+    command->add_flag("--ascii", options->ascii, "Write PLY as text");
+    command->add_flag("-q,--quiet", options->quiet, "No progress and no summary");
+    command->callback([options] { run_transfer(*options); });
+}
+
+} // namespace geodisk::tools
