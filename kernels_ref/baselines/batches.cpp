@@ -1,6 +1,9 @@
 #include "baselines/batches.hpp"
 
+#include <algorithm>
+
 #include "constants.h"
+#include "kernels/count_calls.hpp"
 #include "kernels/resolve.hpp"
 #include "kernels/select.hpp"
 
@@ -24,6 +27,7 @@ BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls
         }
         std::vector<std::vector<std::uint32_t>> conflicts(ranks.size());
         std::vector<std::vector<std::uint32_t>> above(ranks.size());
+        std::vector<std::uint8_t> accepted(ranks.size(), 0);
         for (std::size_t slot = 0; slot < ranks.size(); ++slot) {
             disks.find(ranks[slot], is_open, disk);
             for (const std::uint32_t other : disk) {
@@ -33,6 +37,7 @@ BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls
                     above[slot].push_back(slot_of[other]);
                 }
             }
+            std::sort(above[slot].begin(), above[slot].end());
         }
         resolve_batch(ranks, conflicts, states);
         for (std::size_t slot = 0; slot < ranks.size(); ++slot) {
@@ -40,13 +45,14 @@ BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls
             slot_of[ranks[slot]] = kNotActive;
             if (states[ranks[slot]] == gpu::kAccepted) {
                 run.ranks.push_back(ranks[slot]);
+                accepted[slot] = 1;
                 for (const std::uint32_t other : conflicts[slot]) {
                     is_open[other] = 0;
                 }
             }
         }
         if (calls) {
-            calls->add(count_check_calls(above));
+            add_calls(*calls, count_calls(above, accepted));
         }
         run.disks += ranks.size();
         ++run.batches;

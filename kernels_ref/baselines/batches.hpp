@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "baselines/check_calls.hpp"
 #include "baselines/disk_query.hpp"
+#include "geodisk/call_histogram.hpp"
 
 namespace geodisk::ref {
 

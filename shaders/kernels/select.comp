@@ -3,13 +3,14 @@
 // Hands out the slots once the batch before is decided (paper section 4.2): first to the samples of
 // earlier chunks, for their disks to reject the chunk's candidates, then to the lowest-ranked idle
 // candidates. One work group; it may stop early, since how many are active never matters.
-// reads: samples (ranks), sums (idle bits)   writes: slots, control   spec: local size
+// reads: samples (ranks), sums (idle bits)   writes: slots, control   spec: local size, count calls
 
 #include "../lib/prelude.glsl"
 #include "../lib/group_scan.glsl"
 
 layout(local_size_x = 128) in;
 layout(constant_id = kSpecLocalSize) const uint kSlotLocalSize = 64u;
+layout(constant_id = kSpecCountCalls) const bool kCountCalls = false;
 
 GEODISK_BUFFER(kBindSlots, , uvec4, slots);
 GEODISK_WORDS(kBindSums, idle);
@@ -105,7 +106,7 @@ void main() {
         control.slots_used = taken;
         control.next_slot = 0u;
         control.unfinished = taken;
-        control.undecided = taken;
+        control.undecided = kCountCalls && !settled ? 2u * taken : taken;
         control.iterations += taken > 0u ? 1u : 0u;
         control.done = taken == 0u && (next == push.candidates || wanted == 0u) ? 1u : 0u;
         control.groups_x = (taken + kSlotLocalSize - 1u) / kSlotLocalSize;

@@ -46,6 +46,9 @@ GEODISK_CONST uint kOverflowSamples = 16u;
 
 // Set in a blocker word once an accepted candidate of lower rank conflicts.
 GEODISK_CONST uint kBlockedForGood = 0x80000000u;
+// Set in it, once the batch is decided and calls are counted, when the other bits are the calls.
+GEODISK_CONST uint kCallsKnown = 0x40000000u;
+GEODISK_CONST uint kMostCalls = 0x3fffffffu;
 
 // Where a lane stands.
 GEODISK_CONST uint kPhaseIdle = 0u;     // has no slot
@@ -62,6 +65,8 @@ GEODISK_CONST uint kSlotReady = 1u;     // waits for its disk
 GEODISK_CONST uint kSlotListed = 2u;    // the disk is complete, but not yet in the blockers of others
 GEODISK_CONST uint kSlotBlocked = 3u;   // ready to be resolved
 GEODISK_CONST uint kSlotDecided = 4u;
+GEODISK_CONST uint kSlotCounting = 5u;  // its calls are being counted
+GEODISK_CONST uint kSlotCounted = 6u;   // they are in the histogram
 
 // The place of a sample of an earlier chunk, whose disk only rejects.
 GEODISK_CONST uint kNoPlace = 0xffffffffu;
@@ -100,6 +105,9 @@ GEODISK_CONST uint kIterationsPerStep = 1u + kClearPerStep + kTripsPerStep * kIt
 // List entries that block and resolve go through in one dispatch.
 GEODISK_CONST uint kListPerDispatch = 4096u;
 
+// Candidates that cause 1, 2, ... calls of the paper's CheckStatus, the last for that many and more.
+GEODISK_CONST uint kCallBins = 10u;
+
 // Rows of a face, of a slot record and of a window.
 GEODISK_CONST uint kFaceRows = 4u;
 GEODISK_CONST uint kSlotRows = 4u;
@@ -111,6 +119,7 @@ GEODISK_CONST uint kSpecLocalSize = 0u;
 GEODISK_CONST uint kSpecNativeRounding = 1u;
 GEODISK_CONST uint kSpecPoolBlock = 2u;
 GEODISK_CONST uint kSpecCountedLanes = 3u;
+GEODISK_CONST uint kSpecCountCalls = 4u;
 
 // Lanes of a work group of find_idle, each with 32 ranks, and the most groups of one dispatch.
 GEODISK_CONST uint kFindLanes = 64u;

@@ -4,7 +4,7 @@
 #ifndef GEODISK_SHARED_RECORDS_H
 #define GEODISK_SHARED_RECORDS_H
 
-#include "abi.h"
+#include "constants.h"
 
 GEODISK_BEGIN_SHARED
 
@@ -33,7 +33,8 @@ struct SampleRec {
 };
 
 // One active candidate, and what its disk took and found; or a sample of an earlier chunk, whose rank
-// wraps around from below the chunk's first.
+// wraps around from below the chunk's first. While calls are counted, the last three words are the
+// cursor in the list, the nearest conflict and the one to start from.
 struct SlotRec {
     uint place; uint phase; uint idle_conflicts; uint active_conflicts;
     uint rank; uint face; float weight1; float weight2;
@@ -69,7 +70,8 @@ struct ControlRec {
     uint slots_used;       // slots of the active batch
     uint next_slot;        // the first that no lane has taken yet
     uint unfinished;       // slots whose disk is not complete or not yet in the blockers
-    uint undecided;        // slots neither accepted nor rejected
+    uint undecided;        // slots neither accepted nor rejected; where calls are counted, besides
+                           // those whose calls are not known yet
     uint overflow;         // kOverflow* bits
     uint done;             // 1 once no idle candidate is left, or stop_count accepted
     uint accepted;         // in all chunks
@@ -88,6 +90,9 @@ struct ControlRec {
     uint trips_high;
     uint lane_trips_low;   // the same if every lane did as many as the busiest of its subgroup
     uint lane_trips_high;
+    uint call_bins[kCallBins]; // candidates by their calls of CheckStatus, where these are counted
+    uint calls_low;        // all calls, 64 bits
+    uint calls_high;
 };
 
 GEODISK_END_SHARED
@@ -102,7 +107,7 @@ static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, spare) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 132 && offsetof(ControlRec, lane_trips_high) == 128);
+static_assert(sizeof(ControlRec) == 180 && offsetof(ControlRec, calls_high) == 176);
 } // namespace geodisk::gpu
 #endif
 

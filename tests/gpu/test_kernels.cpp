@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "constants.h"
 #include "device_run.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/candidates.hpp"
+#include "kernels/count_calls.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/resolve.hpp"
 #include "kernels/select.hpp"
@@ -35,7 +37,9 @@ struct Twin {
                    tolerances_for(mesh, params.min_distance, chain).limit),
           states(points.size(), gpu::kIdle) {}
 
-    ref::DiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts) {
+    /// `conflicts` are those of higher rank, `above` the active ones of lower rank.
+    ref::DiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts,
+                        std::vector<std::uint32_t>& above) {
         const auto count = detector.run(
             points[rank],
             [&](std::uint32_t q) {
@@ -44,11 +48,11 @@ struct Twin {
             },
             [&](std::uint32_t q, float) {
                 // What an active one of lower rank decides about this one is for that one to say.
-                if (bins.order[q] > rank) {
-                    conflicts.push_back(bins.order[q]);
-                }
+                (bins.order[q] > rank ? conflicts : above).push_back(bins.order[q]);
             });
         std::sort(conflicts.begin(), conflicts.end());
+        std::sort(above.begin(), above.end());
+        above.erase(std::unique(above.begin(), above.end()), above.end());
         return count;
     }
 
@@ -146,8 +150,35 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot
     return ranks;
 }
 
-/// What the disks of one batch took and found, slot by slot.
-void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place) {
+/// The calls of CheckStatus of one batch, slot by slot, and with them `all` so far. `above` has
+/// ranks.
+void compare_calls(const DeviceRun& run, const Twin& twin, const std::vector<std::uint32_t>& batch,
+                   std::vector<std::vector<std::uint32_t>> above, CallHistogram& all) {
+    std::vector<std::uint8_t> accepted;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        accepted.push_back(twin.states[batch[i]] == gpu::kAccepted ? 1 : 0);
+        for (std::uint32_t& rank : above[i]) {
+            rank = static_cast<std::uint32_t>(std::lower_bound(batch.begin(), batch.end(), rank) -
+                                              batch.begin());
+        }
+    }
+    const std::vector<std::uint32_t> want = ref::count_calls(above, accepted);
+    ref::add_calls(all, want);
+    const auto words =
+        run.read<std::uint32_t>(BufferRole::control, batch.size(), sizeof(gpu::ControlRec));
+    std::uint32_t wrong = 0;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        wrong += words[i] != (want[i] | gpu::kCallsKnown);
+    }
+    CHECK(wrong == 0);
+    const gpu::ControlRec control = run.control();
+    CHECK(std::equal(all.candidates.begin(), all.candidates.end(), control.call_bins));
+    CHECK((std::uint64_t{control.calls_high} << 32 | control.calls_low) == all.calls);
+}
+
+/// What the disks of one batch took and found, slot by slot; and its calls, unless they are null.
+void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
+                   CallHistogram* calls) {
     const gpu::ControlRec control = run.control();
     const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
     // A batch may be shorter than there are slots, but never skips a rank.
@@ -163,16 +194,20 @@ void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint
         twin.states[rank] = gpu::kActive;
     }
     std::vector<std::vector<std::uint32_t>> conflicts(batch.size());
+    std::vector<std::vector<std::uint32_t>> above(batch.size());
     std::uint32_t wrong = 0;
     for (std::size_t i = 0; i < slots.size(); ++i) {
         const auto at = static_cast<std::size_t>(
             std::lower_bound(batch.begin(), batch.end(), slots[i].rank) - batch.begin());
-        const ref::DiskCount want = twin.disk(batch[at], conflicts[at]);
+        const ref::DiskCount want = twin.disk(batch[at], conflicts[at], above[at]);
         wrong += !same(slots[i], want);
         wrong += listed(run, slots[i], i, by_place) != conflicts[at];
     }
     CHECK(wrong == 0);
     ref::resolve_batch(batch, conflicts, twin.states);
+    if (calls != nullptr) {
+        compare_calls(run, twin, batch, std::move(above), *calls);
+    }
 }
 
 void compare_states(const DeviceRun& run, const Twin& twin,
@@ -241,8 +276,8 @@ void step_through_samples(DeviceRun& run, Twin& twin, const std::vector<gpu::Sam
 }
 
 /// The rounds of a chunk, once the samples before it have rejected.
-void step_through_candidates(DeviceRun& run, Twin& twin,
-                             const std::vector<std::uint32_t>& by_place) {
+void step_through_candidates(DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
+                             CallHistogram* calls) {
     while (true) {
         run.rounds(1);
         gpu::ControlRec control = run.control();
@@ -254,35 +289,46 @@ void step_through_candidates(DeviceRun& run, Twin& twin,
             run.rounds(1);
             control = run.control();
         }
-        compare_batch(run, twin, by_place);
+        compare_batch(run, twin, by_place, calls);
         compare_states(run, twin, by_place);
     }
 }
 
-// The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively.
-const SamplerOptions kOnCpu{{0, 0, 1, 0, Reads::texels}, Rounding::native};
+SamplerOptions counting_calls(SamplerOptions options) {
+    options.count_calls = true;
+    return options;
+}
+
+// The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively. Without
+// calls of CheckStatus being counted, and with.
+const SamplerOptions kOnCpu = counting_calls({{0, 0, 1, 0, Reads::texels}, Rounding::native});
 const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
-const SamplerOptions kPlain{{0, 64, 32, 0, Reads::storage}, Rounding::native};
+const SamplerOptions kPlain = counting_calls({{0, 64, 32, 0, Reads::storage}, Rounding::native});
+
+/// Capacities so large that no disk overflows.
+RunPlan roomy_plan(std::uint32_t slots) {
+    RunPlan plan;
+    plan.slots = slots;
+    plan.window_capacity = 4096;
+    plan.table_capacity = 8192;
+    plan.list_capacity = 1024;
+    return plan;
+}
 
 struct Chunk {
     std::uint32_t first, count;
 };
 
 /// The chunks must fit the plan's; without any, all candidates are one.
-void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
-                  std::uint32_t slots, std::vector<Chunk> chunks = {}) {
-    const SampleParams params = params_for(mesh, count);
+void step_through(const PreparedMesh& mesh, const SampleParams& params,
+                  const SamplerOptions& options, const RunPlan& plan,
+                  std::vector<Chunk> chunks = {}) {
     if (chunks.empty()) {
         chunks = {{0, expect(pool_size(mesh, params))}};
     }
-    // Budgets and capacities so large that each round completes a batch.
-    RunPlan plan;
-    plan.slots = slots;
-    plan.window_capacity = 4096;
-    plan.table_capacity = 8192;
-    plan.list_capacity = 1024;
     DeviceRun run(mesh, params, plan, options);
     std::vector<gpu::SampleRec> samples;
+    CallHistogram calls;
     for (const Chunk& chunk : chunks) {
         run.set_chunk(chunk.first, chunk.count);
         Twin twin(mesh, params, run.plan().chain, chunk.first, chunk.count);
@@ -291,10 +337,15 @@ void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& 
         compare_bins(run, twin);
         const auto by_place = ranks_by_place(run);
         step_through_samples(run, twin, samples, by_place);
-        step_through_candidates(run, twin, by_place);
+        step_through_candidates(run, twin, by_place, options.count_calls ? &calls : nullptr);
         run.finish();
         compare_samples(run, twin, samples);
     }
+}
+
+void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
+                  std::uint32_t slots, const std::vector<Chunk>& chunks = {}) {
+    step_through(mesh, params_for(mesh, count), options, roomy_plan(slots), chunks);
 }
 
 } // namespace
@@ -341,6 +392,18 @@ TEST_SUITE("kernels") {
     TEST_CASE("step by step where candidates' indices end") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
         step_through(mesh, 200, kOnCpu, 64, {{0, 150}, {kMostCandidates - 900, 900}});
+    }
+
+    TEST_CASE("step by step with lists of conflicts longer than a dispatch goes through") {
+        const PreparedMesh mesh = prepared(builtin("terrain", 1));
+        SampleParams params = params_for(mesh, 1); // A disk covers most of the square.
+        params.pool_ratio = gpu::kListPerDispatch + 204;
+        RunPlan plan = roomy_plan(gpu::kListPerDispatch + 204);
+        plan.window_capacity = 256;
+        plan.table_capacity = 256;
+        plan.lanes = 16;
+        plan.list_capacity = gpu::kListPerDispatch + 256;
+        step_through(mesh, params, kOnCpu, plan);
     }
 
     TEST_CASE("step by step with one candidate at a time") {

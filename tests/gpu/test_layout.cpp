@@ -91,7 +91,10 @@ const Offsets kControl{GEODISK_OFFSET(ControlRec, groups_x),
                        GEODISK_OFFSET(ControlRec, trips_low),
                        GEODISK_OFFSET(ControlRec, trips_high),
                        GEODISK_OFFSET(ControlRec, lane_trips_low),
-                       GEODISK_OFFSET(ControlRec, lane_trips_high)};
+                       GEODISK_OFFSET(ControlRec, lane_trips_high),
+                       GEODISK_OFFSET(ControlRec, call_bins),
+                       GEODISK_OFFSET(ControlRec, calls_low),
+                       GEODISK_OFFSET(ControlRec, calls_high)};
 
 } // namespace
 
@@ -113,7 +116,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 20);
+        CHECK(controls == 22);
     }
 
     TEST_CASE("no kernel binds more than eight storage buffers") {

@@ -84,6 +84,44 @@ TEST_SUITE("limits") {
         CHECK(run.control().undecided == run.control().slots_used);
     }
 
+    TEST_CASE("batches that overflowed and were repeated are counted once") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 4));
+        const SampleParams params = params_for(mesh, 300);
+        RunPlan small;
+        small.window_capacity = 4;
+        small.list_capacity = 8;
+        small.slots = 64;
+        small.detect_passes = 1;
+        SamplerOptions options;
+        options.count_calls = true;
+        DeviceRun run(mesh, params, small, options);
+        run.begin();
+        gpu::ControlRec control{};
+        std::uint64_t active = 0; // In all batches that were decided.
+        std::uint32_t regrown = 0;
+        for (std::uint32_t counted = 0; control.done == 0;) {
+            run.rounds(1);
+            control = run.control();
+            if (control.overflow != 0) {
+                run.grow(control.overflow);
+                ++regrown;
+            } else if (control.undecided == 0 && control.iterations > counted) {
+                counted = control.iterations;
+                active += control.slots_used;
+            }
+        }
+        CHECK(regrown > 2);
+        std::uint64_t total = 0;
+        for (const std::uint32_t candidates : control.call_bins) {
+            total += candidates;
+        }
+        CHECK(total == active);
+        CHECK(control.calls_high == 0);
+        CHECK(control.calls_low > total);
+        CHECK(control.call_bins[0] < control.accepted);
+        CHECK(control.call_bins[1] > 0);
+    }
+
     TEST_CASE("a pool smaller than all lists takes fewer slots and returns the same set") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 4));
         SampleParams params = params_for(mesh, 600);

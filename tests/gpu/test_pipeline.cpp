@@ -143,6 +143,9 @@ TEST_SUITE("invariance") {
             CAPTURE(steps);
             CHECK(same(options));
         }
+        RunnerOptions counting;
+        counting.sampler.count_calls = true;
+        CHECK(same(counting));
         RunnerOptions timed;
         timed.time_stages = true;
         CHECK(same(timed));

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include <geodisk/call_histogram.hpp>
 #include <geodisk/device.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
@@ -54,13 +55,14 @@ struct RunReport {
     std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
     std::uint32_t most_vertices = 0;  ///< Reached by one disk.
     std::uint32_t most_conflicts = 0; ///< Listed by one disk.
+    CallHistogram calls;              ///< Empty without SamplerOptions::count_calls.
     /// Trips of the main loop of detect, each a window or corner, by all lanes; and as many as it
     /// would be if each did what the busiest of its subgroup did in the same dispatch, as all are
     /// held up by. 0 without SamplerOptions::count_trips.
     std::uint64_t trips = 0, lane_trips = 0;
-    double guard = 0;                 ///< Conflicts were tested against min_distance * (1 + guard).
-    std::uint64_t device_bytes = 0;   ///< Memory allocated on the device.
-    RunPlan plan;                     ///< As it stood at the end.
+    double guard = 0;               ///< Conflicts were tested against min_distance * (1 + guard).
+    std::uint64_t device_bytes = 0; ///< Memory allocated on the device.
+    RunPlan plan;                   ///< As it stood at the end.
     struct {
         double upload = 0, sample = 0, readback = 0;
     } seconds;

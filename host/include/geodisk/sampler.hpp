@@ -86,6 +86,9 @@ struct SamplerOptions {
     /// Counts in gpu::ControlRec how long lanes of detect wait for others of their subgroup; takes
     /// a little time.
     bool count_trips = false;
+    /// Counts what RunReport::calls tells, which takes dispatches of its own. Does not change the
+    /// samples.
+    bool count_calls = false;
 };
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.

@@ -21,6 +21,8 @@ namespace {
 #include "compact_gather_texels.spv.inc"
 #include "compact_mark.spv.inc"
 #include "compact_mark_texels.spv.inc"
+#include "count_calls.spv.inc"
+#include "count_calls_texels.spv.inc"
 #include "detect.spv.inc"
 #include "detect_texels.spv.inc"
 #include "find_idle.spv.inc"
@@ -74,6 +76,11 @@ constexpr Binding kResolve[] = {{kBindStates, storage},
                                 {kBindPool, read},
                                 {kBindControl, storage},
                                 {kBindMarks, read}};
+constexpr Binding kCountCalls[] = {{kBindStates, read},
+                                   {kBindSlots, storage},
+                                   {kBindPool, read},
+                                   {kBindControl, storage},
+                                   {kBindMarks, read}};
 constexpr Binding kRewind[] = {{kBindStates, storage}, {kBindSlots, read}, {kBindControl, storage}};
 constexpr Binding kCompactMark[] = {
     {kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindMarks, storage}};
@@ -96,6 +103,7 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true},
     {"block", k_block_spirv, k_block_texels_spirv, kBlock, true},
     {"resolve", k_resolve_spirv, k_resolve_texels_spirv, kResolve, true},
+    {"count_calls", k_count_calls_spirv, k_count_calls_texels_spirv, kCountCalls, true},
     {"rewind", k_rewind_spirv, k_rewind_texels_spirv, kRewind, true},
     {"compact_mark", k_compact_mark_spirv, k_compact_mark_texels_spirv, kCompactMark, false},
     {"compact_gather", k_compact_gather_spirv, k_compact_gather_texels_spirv, kCompactGather,

@@ -24,13 +24,14 @@ enum class Kernel : std::uint32_t {
     detect,
     block,
     resolve,
+    count_calls,
     rewind,
     compact_mark,
     compact_gather,
     compact_fill,
     self_test,
 };
-inline constexpr std::size_t kKernels = 17;
+inline constexpr std::size_t kKernels = 18;
 
 /// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
 enum class Access : std::uint8_t {

@@ -138,6 +138,9 @@ void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
         for (std::uint32_t pass = 0; pass < kResolvePasses; ++pass) {
             recorder.dispatch_per_slot(Kernel::resolve);
         }
+        for (std::uint32_t pass = 0; pass < impl_->count_passes(); ++pass) {
+            recorder.dispatch_per_slot(Kernel::count_calls);
+        }
         recorder.mark(Stage::resolve);
     }
 }

@@ -236,7 +236,8 @@ Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
             ++report_.dispatches;
         }
         runner_.sampler.record_rounds(commands, *job_, rounds);
-        report_.dispatches += rounds * (kDispatchesPerRound + job_->plan().detect_passes);
+        report_.dispatches += rounds * (kDispatchesPerRound + job_->plan().detect_passes +
+                                        runner_.engine().count_passes());
         barrier_compute_to_transfer(vk, commands);
         const VkBufferCopy copy{0, 0, sizeof control_};
         vk.vkCmdCopyBuffer(commands, memory_.buffers[index_of(BufferRole::control)].handle(),
@@ -459,6 +460,9 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
     report_.most_conflicts = control_.most_conflicts;
     report_.trips = wide(control_.trips_low, control_.trips_high);
     report_.lane_trips = wide(control_.lane_trips_low, control_.lane_trips_high);
+    std::copy(std::begin(control_.call_bins), std::end(control_.call_bins),
+              report_.calls.candidates.begin());
+    report_.calls.calls = wide(control_.calls_low, control_.calls_high);
     report_.device_bytes = memory_.bytes();
     report_.plan = job_->plan();
     if (runner_.clock) {

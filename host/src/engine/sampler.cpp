@@ -60,9 +60,9 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
         impl->native_rounding =
             options.rounding == Rounding::native ||
             (options.rounding == Rounding::automatic && report->rounds_natively);
+        impl->count_calls = options.count_calls;
         impl->tuning = *tuning;
-        impl->counted_lanes =
-            options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
+        impl->counted_lanes = options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
         impl->report = std::move(*report);
         if (auto created = impl->create_pipelines(); !created) {
             return created.error();
@@ -125,6 +125,9 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     if (result != VK_SUCCESS) {
         return vk_error("vkCreatePipelineLayout", result);
     }
+    if (kernel == Kernel::count_calls && !count_calls) {
+        return Done{}; // Never dispatched.
+    }
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     const std::span<const std::uint32_t> spirv = reads_texels() ? info.texels_spirv : info.spirv;
@@ -136,14 +139,16 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
         return vk_error("vkCreateShaderModule", result);
     }
     constexpr std::uint32_t kWord = sizeof(std::uint32_t);
-    const std::array<std::uint32_t, 4> constants{
+    const std::array<std::uint32_t, 5> constants{
         info.per_slot ? tuning.slot_local_size : tuning.local_size,
-        native_rounding ? VK_TRUE : VK_FALSE, tuning.pool_block, counted_lanes};
-    const std::array<VkSpecializationMapEntry, 4> entries{{
+        native_rounding ? VK_TRUE : VK_FALSE, tuning.pool_block, counted_lanes,
+        count_calls ? VK_TRUE : VK_FALSE};
+    const std::array<VkSpecializationMapEntry, 5> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
         {gpu::kSpecPoolBlock, 2 * kWord, kWord},
         {gpu::kSpecCountedLanes, 3 * kWord, kWord},
+        {gpu::kSpecCountCalls, 4 * kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};

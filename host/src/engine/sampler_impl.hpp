@@ -19,6 +19,7 @@ struct Sampler::Impl {
     Tuning tuning; ///< All chosen.
     bool native_rounding = false;
     std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
+    bool count_calls = false;
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
@@ -28,6 +29,8 @@ struct Sampler::Impl {
     ~Impl();
     /// Of the two variants of the kernels, which.
     bool reads_texels() const { return tuning.reads == Reads::texels; }
+    /// Dispatches of count_calls per round: as for resolve, the next round goes on.
+    std::uint32_t count_passes() const { return count_calls ? 2 : 0; }
     Result<Done> create_pipelines();
     Result<Done> create_pipeline(Kernel kernel);
 };

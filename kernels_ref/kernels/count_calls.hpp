@@ -1,0 +1,22 @@
+// Twin of shaders/kernels/count_calls.comp: how often the paper's CheckStatus would call itself
+// (section 5.4, Table 1).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geodisk/call_histogram.hpp"
+
+namespace geodisk::ref {
+
+/// Calls of CheckStatus that each candidate of a decided batch takes: its own, and those of every
+/// conflict above it, until one of them is accepted. A candidate come to twice is followed twice.
+/// `above[i]` are the active candidates of lower rank in the disk of candidate i, ascending, as
+/// indices into the batch; `accepted[i]` is 1 if it was accepted.
+std::vector<std::uint32_t> count_calls(std::span<const std::vector<std::uint32_t>> above,
+                                       std::span<const std::uint8_t> accepted);
+
+void add_calls(CallHistogram& histogram, std::span<const std::uint32_t> calls_each);
+
+} // namespace geodisk::ref
