@@ -53,6 +53,15 @@ TEST_CASE("the report has every documented key") {
         INFO(key);
         CHECK(report[key].is_number_unsigned());
     }
+    const Json& calls = report["check_calls"];
+    REQUIRE(calls["candidates"].size() == 10);
+    CHECK(calls["candidates"][0] > 0);
+    std::uint64_t active = 0;
+    for (const Json& candidates : calls["candidates"]) {
+        active += candidates.get<std::uint64_t>();
+    }
+    CHECK(active == report["disks"]);
+    CHECK(calls["mean"] > 1.0);
     for (const char* const key : {"min_distance", "radius", "rho", "guard", "pool_ratio"}) {
         INFO(key);
         CHECK(report[key].is_number_float());

@@ -227,6 +227,7 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     progress.begin_stage("compiling the shaders");
     RunnerOptions tuned = runner_options;
     tuned.sampler.tuning = load_tuning(report.device).value_or(Tuning());
+    tuned.sampler.count_calls = !options.json.empty();
     Runner runner = timed(report.seconds.pipelines, [&] {
         return take(Runner::create(context.device(), context.queue(), tuned));
     });

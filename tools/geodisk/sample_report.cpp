@@ -88,6 +88,11 @@ std::string samples_text(const SampleReport& report) {
     return text;
 }
 
+/// Of 1, 2, ..., 9 calls of the paper's CheckStatus, and of 10 or more.
+Json calls_json(const CallHistogram& calls) {
+    return {{"candidates", calls.candidates}, {"mean", calls.mean()}};
+}
+
 } // namespace
 
 SampleHeader sample_header(const SampleReport& report) {
@@ -132,6 +137,7 @@ std::string json_text(const SampleReport& report) {
                         {"most_waiting", run.most_waiting},
                         {"longest_chain", run.longest_chain},
                         {"regrown", run.regrown},
+                        {"check_calls", calls_json(run.calls)},
                         {"guard", run.guard},
                         {"device_bytes", run.device_bytes},
                         {"seconds", seconds_json(report)},

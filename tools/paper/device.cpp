@@ -9,25 +9,21 @@
 #include "program/tuning_file.hpp"
 
 namespace geodisk::paper {
-namespace {
-
-Runner make_runner(const Context& context) {
-    RunnerOptions options;
-    if (const auto kept = tools::load_tuning(context.report())) {
-        options.sampler.tuning = *kept;
-    }
-    return tools::take(Runner::create(context.device(), context.queue(), options));
-}
-
-} // namespace
 
 Device::Device(const std::string& name)
     : context_(tools::take(Context::create({name, /* validation */ false, {}}))),
-      runner_(make_runner(context_)) {}
+      runner_(make_runner()) {}
 
-SampleSet Device::run(const PaperMesh& mesh, const SampleParams& params) {
-    auto result = runner_.sample_and_wait(mesh.prepared, params,
-                                          [](const Progress&) { return !tools::is_interrupted(); });
+Runner Device::make_runner(RunnerOptions options) const {
+    if (const auto kept = tools::load_tuning(context_.report())) {
+        options.sampler.tuning = *kept;
+    }
+    return tools::take(Runner::create(context_.device(), context_.queue(), options));
+}
+
+SampleSet Device::run(Runner& runner, const PaperMesh& mesh, const SampleParams& params) {
+    auto result = runner.sample_and_wait(mesh.prepared, params,
+                                         [](const Progress&) { return !tools::is_interrupted(); });
     tools::check_interrupted();
     return tools::take(std::move(result), mesh.name);
 }
@@ -36,9 +32,9 @@ DeviceRun Device::sample(const PaperMesh& mesh, SampleParams params, int repeats
     DeviceRun mean;
     std::vector<double> seconds;
     std::vector<double> rhos;
-    run(mesh, params);
+    run(runner_, mesh, params);
     for (int i = 0; i < repeats; ++i, ++params.seed) {
-        const SampleSet set = run(mesh, params);
+        const SampleSet set = run(runner_, mesh, params);
         const auto samples = static_cast<double>(set.samples.size());
         mean.samples += samples / repeats;
         mean.candidates += static_cast<double>(set.report.candidates) / repeats;
@@ -50,6 +46,15 @@ DeviceRun Device::sample(const PaperMesh& mesh, SampleParams params, int repeats
     mean.most_rho = *std::max_element(rhos.begin(), rhos.end());
     mean.seconds = bench::median(seconds);
     return mean;
+}
+
+SampleSet Device::count_calls(const PaperMesh& mesh, const SampleParams& params,
+                              std::uint32_t slots) {
+    RunnerOptions options;
+    options.plan.slots = slots;
+    options.sampler.count_calls = true;
+    Runner runner = make_runner(options);
+    return run(runner, mesh, params);
 }
 
 } // namespace geodisk::paper

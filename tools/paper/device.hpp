@@ -30,8 +30,12 @@ class Device {
     /// One run to warm up and `repeats` with ascending seeds.
     DeviceRun sample(const PaperMesh& mesh, SampleParams params, int repeats);
 
+    /// A run with `slots` active candidates at a time and their calls of CheckStatus counted.
+    SampleSet count_calls(const PaperMesh& mesh, const SampleParams& params, std::uint32_t slots);
+
   private:
-    SampleSet run(const PaperMesh& mesh, const SampleParams& params);
+    Runner make_runner(RunnerOptions options = {}) const;
+    SampleSet run(Runner& runner, const PaperMesh& mesh, const SampleParams& params);
 
     Context context_;
     Runner runner_;
