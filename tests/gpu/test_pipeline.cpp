@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <tuple>
 
 #include "device_run.hpp"
 #include "sets.hpp"
@@ -32,9 +33,11 @@ void check_against_reference(const PreparedMesh& mesh, double count, std::uint64
 TEST_SUITE("pipeline") {
     TEST_CASE("generated surfaces equal sequential dart throwing") {
         const std::pair<const char*, int> shapes[] = {
-            {"cube", 1},          {"icosphere", 4},       {"torus-knot", 12},   {"plate", 8},
-            {"folded-sheet", 16}, {"unfolded-sheet", 16}, {"terrain", 48},      {"lattice", 1},
-            {"moebius", 8},       {"clifford-torus", 24}, {"klein-bottle", 20}, {"veronese", 4}};
+            {"cube", 1},          {"icosphere", 4},     {"torus-knot", 12},
+            {"plate", 8},         {"folded-sheet", 16}, {"unfolded-sheet", 16},
+            {"terrain", 48},      {"lattice", 1},       {"swiss-roll", 24},
+            {"crossed-sheet", 8}, {"moebius", 8},       {"clifford-torus", 24},
+            {"klein-bottle", 20}, {"veronese", 4}};
         for (const auto& [name, resolution] : shapes) {
             CAPTURE(name);
             const PreparedMesh mesh = prepared(builtin(name, resolution));
@@ -75,13 +78,19 @@ TEST_SUITE("pipeline") {
         }
     }
 
-    TEST_CASE("folded and unfolded sheet give the same set") {
-        const PreparedMesh folded = prepared(builtin("folded-sheet", 16));
-        const PreparedMesh flat = prepared(builtin("unfolded-sheet", 16));
-        const SampleParams params = params_for(flat, 2000);
-        const auto a = sample(folded, params);
-        const auto b = sample(flat, params);
-        CHECK(ranks_of(a) == ranks_of(b));
+    TEST_CASE("sheets folded, rolled up, crossing themselves and laid flat give the same set") {
+        const std::tuple<const char*, const char*, int> sheets[] = {
+            {"folded-sheet", "unfolded-sheet", 16},
+            {"swiss-roll", "unrolled-sheet", 24},
+            {"crossed-sheet", "uncrossed-sheet", 8}};
+        for (const auto& [bent, flat, resolution] : sheets) {
+            CAPTURE(bent);
+            const PreparedMesh mesh = prepared(builtin(flat, resolution));
+            const SampleParams params = params_for(mesh, 2000);
+            const auto a = sample(prepared(builtin(bent, resolution)), params);
+            const auto b = sample(mesh, params);
+            CHECK(ranks_of(a) == ranks_of(b));
+        }
     }
 
     TEST_CASE("weights sum to one and ranks ascend") {

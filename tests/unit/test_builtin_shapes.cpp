@@ -194,7 +194,8 @@ TEST_CASE("closed shapes are closed, of the right genus and face outwards") {
 }
 
 TEST_CASE("open shapes have one border") {
-    for (const char* name : {"folded-sheet", "unfolded-sheet", "terrain"}) {
+    for (const char* name : {"folded-sheet", "unfolded-sheet", "swiss-roll", "unrolled-sheet",
+                             "crossed-sheet", "uncrossed-sheet", "terrain"}) {
         CAPTURE(name);
         const MeshFacts facts = facts_of(name, std::nullopt);
         CHECK(facts.border_edges > 0);
@@ -265,18 +266,55 @@ TEST_CASE("sizes are as documented") {
     CHECK(total_area(make_builtin("icosphere", 6)) == doctest::Approx(sphere_area).epsilon(1e-3));
 }
 
-TEST_CASE("folding keeps every edge of the sheet") {
-    for (const int resolution : {1, 7, 32, 200}) {
-        CAPTURE(resolution);
-        const MeshFile folded = make_builtin("folded-sheet", resolution);
-        const MeshFile flat = make_builtin("unfolded-sheet", resolution);
-        REQUIRE(folded.triangles == flat.triangles);
-        double worst = 0;
-        for (std::size_t corner = 0; corner < flat.triangles.size(); ++corner) {
-            const double expected = edge_length(flat, corner);
-            worst = std::max(worst, std::abs(edge_length(folded, corner) / expected - 1));
+TEST_CASE("folding keeps every edge of the sheet, rolling and crossing to the last bit") {
+    struct Sheet {
+        const char* bent;
+        const char* flat;
+        double allowed;
+    };
+    for (const auto& [bent_name, flat_name, allowed] :
+         {Sheet{"folded-sheet", "unfolded-sheet", 1e-12}, Sheet{"swiss-roll", "unrolled-sheet", 0},
+          Sheet{"crossed-sheet", "uncrossed-sheet", 0}}) {
+        for (const int resolution : {3, 7, 32, 200, 1000}) {
+            CAPTURE(bent_name);
+            CAPTURE(resolution);
+            const MeshFile bent = make_builtin(bent_name, resolution);
+            const MeshFile flat = make_builtin(flat_name, resolution);
+            REQUIRE(bent.triangles == flat.triangles);
+            double worst = 0;
+            for (std::size_t corner = 0; corner < flat.triangles.size(); ++corner) {
+                const double expected = edge_length(flat, corner);
+                worst = std::max(worst, std::abs(edge_length(bent, corner) / expected - 1));
+            }
+            CHECK(worst <= allowed);
+            double height = 0;
+            for (std::size_t i = 2; i < flat.positions.size(); i += 3) {
+                height = std::max(height, std::abs(flat.positions[i]));
+            }
+            CHECK(height == 0);
         }
-        CHECK(worst < 1e-12);
+    }
+}
+
+TEST_CASE("the crossed sheet comes back to where it was, at a right angle") {
+    const std::size_t parts = 32;
+    const MeshFile mesh = make_builtin("crossed-sheet", parts);
+    const auto column = [&](std::size_t i) { return position_at(mesh, i * (parts + 1)); };
+    REQUIRE(mesh.positions.size() / 3 == (6 * parts + 1) * (parts + 1));
+    CHECK(length(column(parts) - column(5 * parts)) < 0.002);
+    const auto way = [&](std::size_t i) { return normalized(column(i + 1) - column(i - 1)); };
+    CHECK(std::abs(dot(way(parts), way(5 * parts))) < 0.05);
+}
+
+TEST_CASE("turns of the swiss roll lie close above each other") {
+    const MeshFile mesh = make_builtin("swiss-roll", 8);
+    const auto radius = [&](std::size_t column) {
+        const Vec3 from_axis = position_at(mesh, column * 9) - position_at(mesh, 0) -
+                               Vec3{-0.1, 0, 0}; // The sheet starts at (0.1, 0, 0) of its axis.
+        return length(from_axis);
+    };
+    for (const std::size_t column : {0u, 5u, 8u, 16u}) {
+        CHECK(radius(column + 8) == doctest::Approx(radius(column) + 0.05).epsilon(0.01));
     }
 }
 

@@ -51,6 +51,10 @@ MeshFile make_showpiece(int resolution);
 // shapes_sheet.cpp: open sheets
 MeshFile make_folded_sheet(int resolution);
 MeshFile make_unfolded_sheet(int resolution);
+MeshFile make_swiss_roll(int resolution);
+MeshFile make_unrolled_sheet(int resolution);
+MeshFile make_crossed_sheet(int resolution);
+MeshFile make_uncrossed_sheet(int resolution);
 MeshFile make_terrain(int resolution);
 
 // shapes_r4.cpp: closed surfaces with four coordinates

@@ -1,5 +1,7 @@
 #include "common/shape_makers.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -7,11 +9,11 @@ namespace geodisk::tools {
 
 namespace {
 
-/// One flat strip of the sheet: how long it is and which way it leads in the x-z plane.
+/// One flat strip of a sheet: how long it is and where it leads in the x-z plane.
 struct Strip {
     double length;
-    double x;
-    double z;
+    double dx;
+    double dz;
 };
 
 constexpr int kLayers = 5;
@@ -26,36 +28,92 @@ std::vector<Strip> fold_pattern(int parts_per_layer) {
     for (int layer = 0; layer < kLayers; ++layer) {
         const double direction = layer % 2 == 0 ? 1 : -1;
         for (int i = 0; i < parts_per_layer; ++i) {
-            strips.push_back({1.0 / parts_per_layer, direction, 0});
+            strips.push_back({1.0 / parts_per_layer, direction / parts_per_layer, 0});
         }
         for (int i = 0; i < kStripsPerTurn && layer + 1 < kLayers; ++i) {
             const double heading = kPi * (i + 0.5) / kStripsPerTurn;
-            strips.push_back({turn_length, direction * std::cos(heading), std::sin(heading)});
+            strips.push_back({turn_length, turn_length * (direction * std::cos(heading)),
+                              turn_length * std::sin(heading)});
         }
     }
     return strips;
 }
 
-MeshFile make_sheet(int parts_per_layer, bool folded) {
+/// Lengths are multiples of it where they are to be exact: sums of thousands, and of their squares,
+/// fit a double.
+constexpr double kGrain = 0x1p-24;
+
+/// A strip that leads about as `step`. Its length and coordinates are in the proportion of whole
+/// numbers, (n^2 - m^2)^2 + (2 m n)^2 = (n^2 + m^2)^2, so that bent and flat edges are equally long
+/// to the last bit.
+Strip exact_strip(Vec3 step) {
+    constexpr double n = 64;
+    const double m = std::round(n * step.z / (length(step) + std::abs(step.x)));
+    const double whole = n * n + m * m;
+    const double unit = std::max(1.0, std::round(length(step) / (whole * kGrain))) * kGrain;
+    return {whole * unit, std::copysign((n * n - m * m) * unit, step.x), 2 * m * n * unit};
+}
+
+/// Strips that follow the curve `point(0)`, ..., `point(count)` in the x-z plane.
+template <typename Curve>
+std::vector<Strip> strips_along(int count, const Curve& point) {
+    std::vector<Strip> strips;
+    Vec3 at = point(0);
+    for (int i = 1; i <= count; ++i) {
+        const Strip strip = exact_strip(point(i) - at);
+        at = at + Vec3{strip.dx, 0, strip.dz};
+        strips.push_back(strip);
+    }
+    return strips;
+}
+
+/// A spiral.
+std::vector<Strip> roll_pattern(int parts_per_turn) {
+    constexpr int kTurns = 3;
+    constexpr double kTurnGap = 0.05;
+    constexpr double kInnerRadius = 0.1;
+    return strips_along(kTurns * parts_per_turn, [&](int i) {
+        const double turns = static_cast<double>(i) / parts_per_turn;
+        const double radius = kInnerRadius + kTurnGap * turns;
+        return Vec3{radius * std::cos(2 * kPi * turns), 0, radius * std::sin(2 * kPi * turns)};
+    });
+}
+
+/// The curve x = t^2 - 1, z = t (t^2 - 1): a loop with straight ends that cross at a right angle
+/// where t is -1 and 1.
+std::vector<Strip> loop_pattern(int parts) {
+    constexpr double kReach = 1.5; // Of t.
+    return strips_along(6 * parts, [&](int i) {
+        const double t = kReach * (i - 3 * parts) / (3 * parts);
+        return Vec3{t * t - 1, 0, t * (t * t - 1)};
+    });
+}
+
+/// A sheet of strips in a row, bent as they lead or flat.
+MeshFile make_sheet(const std::vector<Strip>& strips, int rows, double width, bool bent) {
     MeshFile mesh;
-    const std::vector<Strip> strips = fold_pattern(parts_per_layer);
-    const std::uint32_t rows = static_cast<std::uint32_t>(parts_per_layer);
+    const auto count = static_cast<std::uint32_t>(rows);
     double x = 0;
     double z = 0;
     const auto add_column = [&] {
-        for (std::uint32_t j = 0; j <= rows; ++j) {
-            add_vertex(mesh, {x, static_cast<double>(j) / rows, z});
+        for (std::uint32_t j = 0; j <= count; ++j) {
+            add_vertex(mesh, {x, j * width / rows, z});
         }
     };
     add_column();
     for (const Strip& strip : strips) {
-        x += folded ? strip.length * strip.x : strip.length;
-        z += folded ? strip.length * strip.z : 0;
+        x += bent ? strip.dx : strip.length;
+        z += bent ? strip.dz : 0;
         add_column();
     }
-    add_grid(mesh, static_cast<std::uint32_t>(strips.size()), rows,
-             [&](std::uint32_t i, std::uint32_t j) { return i * (rows + 1) + j; });
+    add_grid(mesh, static_cast<std::uint32_t>(strips.size()), count,
+             [&](std::uint32_t i, std::uint32_t j) { return i * (count + 1) + j; });
     return mesh;
+}
+
+/// 1, to a grain for each of the rows, which then have exact lengths.
+double exact_width(int rows) {
+    return rows * std::round(1 / (rows * kGrain)) * kGrain;
 }
 
 /// A number in [-1, 1) for each grid point, the same on every machine.
@@ -102,11 +160,27 @@ double terrain_height(double x, double y) {
 } // namespace
 
 MeshFile make_folded_sheet(int resolution) {
-    return make_sheet(resolution, true);
+    return make_sheet(fold_pattern(resolution), resolution, 1, true);
 }
 
 MeshFile make_unfolded_sheet(int resolution) {
-    return make_sheet(resolution, false);
+    return make_sheet(fold_pattern(resolution), resolution, 1, false);
+}
+
+MeshFile make_swiss_roll(int resolution) {
+    return make_sheet(roll_pattern(resolution), resolution, exact_width(resolution), true);
+}
+
+MeshFile make_unrolled_sheet(int resolution) {
+    return make_sheet(roll_pattern(resolution), resolution, exact_width(resolution), false);
+}
+
+MeshFile make_crossed_sheet(int resolution) {
+    return make_sheet(loop_pattern(resolution), resolution, exact_width(resolution), true);
+}
+
+MeshFile make_uncrossed_sheet(int resolution) {
+    return make_sheet(loop_pattern(resolution), resolution, exact_width(resolution), false);
 }
 
 MeshFile make_terrain(int resolution) {
