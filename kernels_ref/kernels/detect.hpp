@@ -25,6 +25,15 @@ struct DiskCount {
     std::uint32_t tested = 0;   ///< Points whose distance was computed.
 };
 
+/// For distances in double precision: only its rounding has to be allowed for.
+inline Tolerances double_tolerances() {
+    Tolerances tolerances{};
+    tolerances.limit = 1;
+    tolerances.margin = 0x1p-40f;
+    tolerances.slack = 0x1p-40f;
+    return tolerances;
+}
+
 /// Computes geodesic disks one after the other; keeps its working memory between them.
 template <class Real>
 class Detector {

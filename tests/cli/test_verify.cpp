@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/command.hpp"
 #include "common/sample_file.hpp"
 
@@ -67,6 +69,7 @@ TEST_CASE("a sample moved onto another one is found") {
     CHECK(outcome.status == 1);
     CHECK(contains(outcome.err, "geodisk: b.csv: 1 pair of samples is closer than "));
     CHECK(contains(outcome.out, "violations    1\n"));
+    CHECK(contains(outcome.out, "too close     2 of "));
     CHECK(contains(outcome.out, "sample 7 (candidate " + std::to_string(candidate) +
                                     ") and sample 42 (candidate " +
                                     std::to_string(samples.rows[42].candidate) + "): 0\n"));
@@ -80,6 +83,42 @@ TEST_CASE("a larger distance is violated by many pairs, each counted once") {
     std::string plain = outcome.out;
     std::erase(plain, ',');
     CHECK(contains(plain, "violations    " + std::to_string(n * (n - 1) / 2) + "\n"));
+}
+
+TEST_CASE("the report has pairs and samples, whatever the exit status") {
+    const TemporaryFolder folder;
+    tools::SampleFile samples = make_samples(folder);
+    const auto report = [&](int status, const std::vector<std::string>& arguments) {
+        const Outcome outcome = run(folder, arguments);
+        CHECK(outcome.status == status);
+        return nlohmann::json::parse(outcome.out.empty() ? bytes_of(folder / "c.json")
+                                                         : outcome.out);
+    };
+    const auto good = report(0, {"verify", kMesh, "a.ply", "--json", "-"});
+    CHECK(good["samples"] == samples.rows.size());
+    CHECK(good["violations"]["pairs"] == 0);
+    CHECK(good["violations"]["samples"] == 0);
+    CHECK(good["smallest"]["distance"] > good["min_distance"]);
+    CHECK(good["off_the_mesh"] == 0);
+
+    // Three samples at one place are three pairs.
+    for (const std::size_t row : {7u, 9u}) {
+        samples.rows[row] = samples.rows[42];
+    }
+    write_back(folder, samples);
+    const auto bad = report(1, {"verify", kMesh, "b.csv", "--json", "c.json", "-q"});
+    CHECK(bad["violations"]["pairs"] == 3);
+    CHECK(bad["violations"]["samples"] == 3);
+    CHECK(bad["violations"]["complete"] == true);
+    CHECK(bad["smallest"]["distance"] == 0);
+    CHECK(bad["smallest"]["samples"] == nlohmann::json({7, 9}));
+
+    const auto far = report(0, {"verify", kMesh, "a.ply", "-d", "1e-6", "--json", "-"});
+    CHECK(far["smallest"].is_null());
+    check_fails(folder, 2, "a.ply: the report would replace the samples",
+                {"verify", kMesh, "a.ply", "--json", "a.ply"});
+    check_fails(folder, 4, "none", {"verify", kMesh, "a.ply", "--json", "none/c.json"});
+    check_fails(folder, 3, "no such file", {"verify", kMesh, "d.ply", "--json", "d.json"});
 }
 
 TEST_CASE("a distance that nobody comes near is bounded") {

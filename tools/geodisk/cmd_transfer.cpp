@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <geodisk/version.hpp>
 
@@ -17,6 +16,7 @@
 #include "common/sample_file.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
+#include "geodisk/json_text.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/mesh_options.hpp"
 #include "geodisk/outputs.hpp"
@@ -111,24 +111,13 @@ SampleHeader transferred_header(const TransferOptions& options, const SampleHead
 
 std::string report_text(const TransferOptions& options, const SampleFile& samples,
                         const std::optional<ClosePair>& closest) {
-    using Json = nlohmann::ordered_json;
-    Json smallest = nullptr;
-    if (closest) {
-        smallest = {
-            {"distance", closest->distance},
-            {"samples", {closest->row_a, closest->row_b}},
-            {"candidates",
-             {samples.rows[closest->row_a].candidate, samples.rows[closest->row_b].candidate}}};
-    }
-    const Json document{{"version", GEODISK_VERSION_STRING},
+    return text_of(Json{{"version", GEODISK_VERSION_STRING},
                         {"transferred_from", options.samples},
                         {"mesh_a", options.from.mesh},
                         {"mesh_b", options.to.mesh},
                         {"output", options.output},
                         {"samples", samples.rows.size()},
-                        {"smallest", smallest}};
-    // Paths may be anything; text that is not UTF-8 must not end the program.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+                        {"smallest", pair_json(samples, closest)}});
 }
 
 void print_summary(const TransferOptions& options, const SampleFile& samples,

@@ -11,11 +11,13 @@
 #include <CLI/CLI.hpp>
 
 #include <geodisk/params.hpp>
+#include <geodisk/version.hpp>
 
 #include "common/file_input.hpp"
 #include "common/sample_file.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
+#include "geodisk/json_text.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/mesh_options.hpp"
 #include "geodisk/outputs.hpp"
@@ -32,7 +34,7 @@ constexpr std::size_t kNamedViolations = 10;
 
 struct VerifyOptions {
     MeshOptions mesh;
-    std::string samples, min_distance;
+    std::string samples, min_distance, json;
     bool quiet = false;
 };
 
@@ -112,6 +114,10 @@ void print_result(std::ostream& out, const VerifyOptions& options, const SampleF
         out << "              " << row_text(samples, pair.row_a) << " and "
             << row_text(samples, pair.row_b) << ": " << rounded(pair.distance, 9) << '\n';
     }
+    if (!spacing.violations.empty()) {
+        out << "too close     " << count_text(spacing.violating_samples(), spacing.is_complete)
+            << " of " << counted(samples.rows.size(), "sample", "samples") << '\n';
+    }
     if (!strays.empty()) {
         out << "off the mesh  " << grouped(strays.size()) << '\n';
     }
@@ -119,6 +125,36 @@ void print_result(std::ostream& out, const VerifyOptions& options, const SampleF
         out << "              " << row_text(samples, strays[i].row) << ": "
             << offset_text(strays[i]) << '\n';
     }
+}
+
+std::string report_text(const VerifyOptions& options, const SampleFile& samples,
+                        const MeshStatistics& mesh, double min_distance,
+                        const SpacingResult& spacing, const std::vector<StrayRow>& strays) {
+    const double rho =
+        packing_density(mesh.area, min_distance, static_cast<double>(samples.rows.size()));
+    return text_of(Json{{"version", GEODISK_VERSION_STRING},
+                        {"mesh", options.mesh.mesh},
+                        {"samples_file", options.samples},
+                        {"samples", samples.rows.size()},
+                        {"min_distance", min_distance},
+                        {"rho", rho},
+                        {"cut", spacing.cut},
+                        {"smallest", pair_json(samples, spacing.closest)},
+                        {"violations",
+                         {{"pairs", spacing.violations.size()},
+                          {"samples", spacing.violating_samples()},
+                          {"complete", spacing.is_complete}}},
+                        {"off_the_mesh", strays.size()}});
+}
+
+/// Before the work: whether the report can be written.
+void check_report(const VerifyOptions& options) {
+    std::vector<NamedFile> read{{"the samples", options.samples}};
+    for (const std::string& file : options.mesh.files()) {
+        read.push_back({"the mesh", file});
+    }
+    check_distinct({{"the report", options.json}}, read);
+    check_report_path(options.json);
 }
 
 void fail_on_violations(const VerifyOptions& options, double min_distance,
@@ -143,6 +179,7 @@ void run_verify(const VerifyOptions& options) {
     if (!options.min_distance.empty()) {
         parse_length("--min-distance", options.min_distance); // Before the files are read.
     }
+    check_report(options);
     ProgressLine progress(options.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
     progress.begin_stage("reading the samples");
@@ -155,7 +192,10 @@ void run_verify(const VerifyOptions& options) {
 
     const std::vector<StrayRow> strays = find_strays(samples, mesh);
     const SpacingResult spacing = check_spacing(mesh, samples.rows, min_distance, progress);
-    if (!options.quiet) {
+    ReportFile report(options.json,
+                      report_text(options, samples, statistics, min_distance, spacing, strays));
+    report.commit();
+    if (!options.quiet && options.json != "-") {
         print_result(std::cout, options, samples, statistics, min_distance, spacing, strays);
         flush_or_fail("the result");
     }
@@ -179,6 +219,8 @@ void add_verify_command(CLI::App& app) {
                      "without it, that of the file's header")
         ->type_name("D");
     add_mesh_options(*command, options->mesh);
+    command->add_option("--json", options->json, "Write a report as JSON, - for standard output")
+        ->type_name("FILE");
     command->add_flag("-q,--quiet", options->quiet,
                       "No progress and no result but the exit status");
     command->callback([options] { run_verify(*options); });

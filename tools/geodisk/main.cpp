@@ -32,7 +32,7 @@ Exit status:
   7    the device was lost, or an error inside geodisk or the driver
   130  interrupted (SIGINT)
   143  terminated (SIGTERM)
-Whenever the status is not 0, no output file is written or replaced.)";
+Whenever the status is 2 or more, no output file is written or replaced.)";
 
 } // namespace
 

@@ -2,17 +2,14 @@
 
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include <geodisk/version.hpp>
 
 #include "common/text.hpp"
+#include "geodisk/json_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <typename Number>
 std::string exact_text(Number value) {
@@ -151,8 +148,7 @@ std::string json_text(const SampleReport& report) {
                          {{"name", report.device.name},
                           {"driver", driver_text(report.device)},
                           {"type", type_name(report.device.type)}}}};
-    // Paths and driver names may be anything; text that is not UTF-8 must not end the program.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return text_of(document);
 }
 
 void print_summary(std::ostream& out, const SampleReport& report) {

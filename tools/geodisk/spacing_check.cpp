@@ -56,15 +56,6 @@ double choose_unit(const PreparedMesh& mesh, double min_distance) {
     return unit;
 }
 
-/// Only rounding in double precision has to be allowed for.
-Tolerances double_tolerances() {
-    Tolerances tolerances{};
-    tolerances.limit = 1;
-    tolerances.margin = 0x1p-40f;
-    tolerances.slack = 0x1p-40f;
-    return tolerances;
-}
-
 std::vector<ref::FacePoint<double>> points_of(std::span<const SampleRow> rows) {
     std::vector<ref::FacePoint<double>> points;
     points.reserve(rows.size());
@@ -102,7 +93,7 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     const ref::Surface<double> surface(mesh.prepared, unit);
     const ref::Bins<double> bins(surface, points_of(rows));
-    ref::Detector<double> detector(surface, bins, double_tolerances(), cut / unit);
+    ref::Detector<double> detector(surface, bins, ref::double_tolerances(), cut / unit);
 
     std::vector<double> distances(rows.size(), kUnknown); // By place, of the current source.
     std::vector<std::uint32_t> near;                      // Places with a distance.
@@ -139,6 +130,15 @@ double longest_path(const PreparedMesh& mesh) {
 }
 
 } // namespace
+
+std::size_t SpacingResult::violating_samples() const {
+    std::vector<std::uint32_t> rows;
+    for (const ClosePair& pair : violations) {
+        rows.insert(rows.end(), {pair.row_a, pair.row_b});
+    }
+    std::sort(rows.begin(), rows.end());
+    return static_cast<std::size_t>(std::unique(rows.begin(), rows.end()) - rows.begin());
+}
 
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                             double min_distance, ProgressLine& progress) {

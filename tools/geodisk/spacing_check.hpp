@@ -23,6 +23,9 @@ struct SpacingResult {
     std::optional<ClosePair> closest;  ///< None if all are farther apart than the cut.
     std::vector<ClosePair> violations; ///< The closest pair first.
     bool is_complete = true;           ///< False if the check stopped at too many violations.
+
+    /// Samples in at least one violation.
+    std::size_t violating_samples() const;
 };
 
 /// Computes the geodesic distances of all pairs that are not farther apart than a cut somewhat
