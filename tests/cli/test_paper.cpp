@@ -63,6 +63,20 @@ TEST_CASE("fig5 sweeps samples and candidates") {
     CHECK(contains(outcome.out, "0.70 and 0.76"));
 }
 
+TEST_CASE("fig7 shows what each metric loses, and that exact distances lose nothing") {
+    const Outcome outcome = check_figure("fig7", {"fig7.svg"}, 4 * 3 * 2,
+                                         {"fig7", "--distances", "0.15,0.3", "--repeats", "1"});
+    CHECK(contains(outcome.out, "same set"));
+    CHECK_FALSE(contains(outcome.out, "another set"));
+}
+
+TEST_CASE("fig9 counts pairs that are too close") {
+    const Outcome outcome =
+        check_figure("fig9", {"fig9.svg"}, 6,
+                     {"fig9", "builtin:plate:4", "--counts", "40,200", "--repeats", "1"});
+    CHECK(contains(outcome.out, "closed form"));
+}
+
 TEST_CASE("fig8 has a row for each mesh") {
     const Outcome outcome = check_figure(
         "fig8", {"fig8.svg"}, 2,
@@ -91,6 +105,7 @@ TEST_CASE("the paper's figures explain their failures") {
     check_fails(folder, 2, "subcommand", {}, paper());
     check_fails(folder, 2, "MESH is required", {"table1"}, paper());
     check_fails(folder, 2, "--count", {"fig8", "builtin:cube", "-n", "few"}, paper());
+    check_fails(folder, 2, "--distances", {"fig7", "--distances", "0"}, paper());
     check_fails(folder, 2, "--ratios", {"fig14", "--ratios", "0.5"}, paper());
     check_fails(folder, 3, "missing.obj", {"fig13", "missing.obj"}, paper());
     check_fails(folder, 4, "cannot write", {"fig14", "--out", "none"}, paper());

@@ -6,10 +6,10 @@
 
 #include <doctest/doctest.h>
 
-#include "baselines/curve_disks.hpp"
 #include "baselines/geodesic_disks.hpp"
 #include "baselines/phase_groups.hpp"
 #include "baselines/pool_darts.hpp"
+#include "baselines/space_disks.hpp"
 #include "ref/dart_check.hpp"
 
 using namespace geodisk;
@@ -128,12 +128,29 @@ TEST_CASE("pool darts: exact disks") {
     }
 }
 
-TEST_CASE("pool darts: disks by the closed form") {
+TEST_CASE("pool darts: disks by straight lines and by the closed form") {
     const Scene scenes[] = {Scene(builtin("icosphere", 3), 60), Scene(builtin("plate", 4), 60)};
     for (const Scene& scene : scenes) {
-        ref::CurveDisks disks(scene.points, scene.darts.min_distance);
-        check_methods(scene, disks);
+        for (const auto length : {ref::straight_length, ref::curve_length}) {
+            ref::SpaceDisks disks(scene.points, scene.darts.min_distance, length);
+            check_methods(scene, disks);
+        }
     }
+}
+
+TEST_CASE("pool darts: straight lines see through a thin plate, and no farther than they reach") {
+    const Scene scene(builtin("plate", 4), 60);
+    const auto of = [&](std::uint32_t rank) { return scene.positions[rank]; };
+    ref::SpaceDisks disks(scene.points, scene.darts.min_distance, ref::straight_length);
+    const auto brute = ref::throw_brute_force(disks.size(), [&](std::uint32_t i, std::uint32_t j) {
+        return std::hypot(of(i)[0] - of(j)[0], of(i)[1] - of(j)[1], of(i)[2] - of(j)[2]) <
+               scene.darts.min_distance;
+    });
+    const auto straight = ref::throw_in_order(disks);
+    CHECK(straight == brute);
+    // Of the two sides together about as many as one has.
+    CHECK(straight.size() < 0.7 * static_cast<double>(scene.darts.ranks.size()));
+    CHECK(straight.size() > 0.4 * static_cast<double>(scene.darts.ranks.size()));
 }
 
 TEST_CASE("phase groups: darts of different cells of a group cannot conflict") {

@@ -7,7 +7,9 @@ namespace geodisk::paper {
 
 void add_table1(CLI::App& app);
 void add_fig5(CLI::App& app);
+void add_fig7(CLI::App& app);
 void add_fig8(CLI::App& app);
+void add_fig9(CLI::App& app);
 void add_fig13(CLI::App& app);
 void add_fig14(CLI::App& app);
 

@@ -8,10 +8,11 @@
 #include <memory>
 
 #include "baselines/batches.hpp"
-#include "baselines/curve_disks.hpp"
 #include "baselines/geodesic_disks.hpp"
 #include "baselines/phase_groups.hpp"
+#include "baselines/space_disks.hpp"
 #include "bench/statistics.hpp"
+#include "paper/metrics.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
 #include "paper/pool.hpp"
@@ -43,21 +44,6 @@ struct Comparison {
     double relative() const { return (samples / curve_seconds) / (phase_samples / phase_seconds); }
 };
 
-/// How many of `samples` are closer to another than the exact metric allows.
-double count_close(ref::DiskQuery& exact, const std::vector<std::uint32_t>& samples) {
-    std::vector<std::uint8_t> is_sample(exact.size(), 0);
-    for (const std::uint32_t rank : samples) {
-        is_sample[rank] = 1;
-    }
-    std::vector<std::uint32_t> disk;
-    double close = 0;
-    for (const std::uint32_t rank : samples) {
-        exact.find(rank, is_sample, disk);
-        close += disk.empty() ? 0 : 1;
-    }
-    return close;
-}
-
 Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
                    std::uint32_t trials) {
     const double distance = pool.params.min_distance;
@@ -67,7 +53,7 @@ Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
         positions.push_back(point.position);
     }
     ref::GeodesicDisks exact(mesh.prepared, distance, pool.by_rank, pool.tolerances);
-    ref::CurveDisks curve(points, distance);
+    ref::SpaceDisks curve(points, distance, ref::curve_length);
     const ref::PhaseGroups groups(positions, distance);
 
     Comparison result{};
@@ -81,7 +67,7 @@ Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
     result.samples = static_cast<double>(batches.ranks.size());
     result.disks = static_cast<double>(batches.disks);
     result.phase_samples = static_cast<double>(phases.size());
-    result.close_samples = count_close(exact, batches.ranks);
+    result.close_samples = static_cast<double>(find_violations(mesh, pool, batches.ranks).samples);
     return result;
 }
 

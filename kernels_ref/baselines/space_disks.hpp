@@ -1,5 +1,6 @@
-// Disks by the closed form that approximates geodesic distance from two points and their normals
-// (Bowers, Wang, Wei and Maletz 2010). The paper compares with it in sections 5.2, 5.6 and 6.1.
+// Disks by metrics that know of a surface no more than points and normals, on cells in space: the
+// straight line, and the closed form that approximates geodesic distance (Bowers, Wang, Wei and
+// Maletz 2010). The paper compares with these in sections 5.2, 5.6 and 6.1.
 #pragma once
 
 #include <array>
@@ -19,6 +20,9 @@ struct OrientedPoint {
     std::array<double, 3> position, normal;
 };
 
+/// Length of the straight line, normals aside.
+double straight_length(const OrientedPoint& a, const OrientedPoint& b);
+
 /// Length of a curve between both points whose normals turn evenly: exact on planes and spheres,
 /// never shorter than the straight line.
 double curve_length(const OrientedPoint& a, const OrientedPoint& b);
@@ -27,9 +31,12 @@ double curve_length(const OrientedPoint& a, const OrientedPoint& b);
 std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
                                            std::span<const FacePoint<double>> points);
 
-class CurveDisks : public DiskQuery {
+class SpaceDisks : public DiskQuery {
   public:
-    CurveDisks(std::span<const OrientedPoint> by_rank, double min_distance);
+    /// A metric that is never shorter than the straight line.
+    using Length = double (*)(const OrientedPoint& a, const OrientedPoint& b);
+
+    SpaceDisks(std::span<const OrientedPoint> by_rank, double min_distance, Length length);
 
     std::uint32_t size() const override { return static_cast<std::uint32_t>(places_.size()); }
     void find(std::uint32_t center, std::span<const std::uint8_t> wanted,
@@ -39,6 +46,7 @@ class CurveDisks : public DiskQuery {
     std::array<double, 3> in_box(const OrientedPoint& point) const;
 
     double min_distance_;
+    Length length_;
     std::array<double, 3> corner_{}; ///< Of the bounding box.
     BoxCells cells_;
     std::vector<std::uint32_t> starts_; ///< One more than cells.

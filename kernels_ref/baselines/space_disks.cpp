@@ -1,4 +1,4 @@
-#include "baselines/curve_disks.hpp"
+#include "baselines/space_disks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,11 +67,16 @@ Box bounds(std::span<const OrientedPoint> points, double thickness, Vector& corn
 
 } // namespace
 
+double straight_length(const OrientedPoint& a, const OrientedPoint& b) {
+    const Vector way = difference(b.position, a.position);
+    return std::sqrt(dot(way, way));
+}
+
 double curve_length(const OrientedPoint& a, const OrientedPoint& b) {
     // Below it the quotient loses more digits than its limit is off.
     constexpr double kSameAngle = 1e-6;
     const Vector way = difference(b.position, a.position);
-    const double straight = std::sqrt(dot(way, way));
+    const double straight = straight_length(a, b);
     if (straight == 0) {
         return 0;
     }
@@ -111,8 +116,9 @@ std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
     return result;
 }
 
-CurveDisks::CurveDisks(std::span<const OrientedPoint> by_rank, double min_distance)
-    : min_distance_(min_distance), cells_(bounds(by_rank, min_distance, corner_), min_distance),
+SpaceDisks::SpaceDisks(std::span<const OrientedPoint> by_rank, double min_distance, Length length)
+    : min_distance_(min_distance), length_(length),
+      cells_(bounds(by_rank, min_distance, corner_), min_distance),
       starts_(std::size_t{cells_.count()} + 1, 0), ranks_(by_rank.size()), places_(by_rank.size()) {
     for (const OrientedPoint& point : by_rank) {
         ++starts_[std::size_t{cells_.cell_of(in_box(point))} + 1];
@@ -128,11 +134,11 @@ CurveDisks::CurveDisks(std::span<const OrientedPoint> by_rank, double min_distan
     }
 }
 
-std::array<double, 3> CurveDisks::in_box(const OrientedPoint& point) const {
+std::array<double, 3> SpaceDisks::in_box(const OrientedPoint& point) const {
     return difference(point.position, corner_);
 }
 
-void CurveDisks::find(std::uint32_t center, std::span<const std::uint8_t> wanted,
+void SpaceDisks::find(std::uint32_t center, std::span<const std::uint8_t> wanted,
                       std::vector<std::uint32_t>& found) {
     found.clear();
     const OrientedPoint& from = points_[places_[center]];
@@ -145,7 +151,7 @@ void CurveDisks::find(std::uint32_t center, std::span<const std::uint8_t> wanted
             const OrientedPoint& to = points_[place];
             const Vector way = difference(to.position, from.position);
             if (dot(way, way) < min_distance_ * min_distance_ &&
-                curve_length(from, to) < min_distance_) {
+                length_(from, to) < min_distance_) {
                 found.push_back(rank);
             }
         }

@@ -1,0 +1,90 @@
+// Fig. 9: samples that the closed form of Bowers et al. 2010 places too close together, by exact
+// distances (section 5.2).
+#include "paper/commands.hpp"
+
+#include <iostream>
+#include <memory>
+
+#include "paper/metrics.hpp"
+#include "paper/options.hpp"
+#include "paper/outputs.hpp"
+#include "program/arguments.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::paper {
+namespace {
+
+struct Options {
+    CommonOptions common;
+    std::vector<std::string> meshes;
+    NumberList counts{"", {"300", "1000", "3000", "10000"}};
+};
+
+Tally measure(const PaperMesh& mesh, double count, Metric metric, const CommonOptions& common) {
+    Tally tally;
+    for (int i = 0; i < common.repeats; ++i) {
+        const Pool pool = draw_pool(mesh, params_for(mesh, count, kDefaultPoolRatio,
+                                                     common.seed + static_cast<std::uint64_t>(i)));
+        const std::vector<std::uint32_t> samples = throw_darts(mesh, pool, metric);
+        tally.add(samples.size(), find_violations(mesh, pool, samples));
+    }
+    return tally;
+}
+
+void run(const Options& options) {
+    Outputs outputs(options.common.out, "fig9");
+    const std::vector<double> counts = options.counts.counts();
+    const std::vector<PaperMesh> meshes = load_meshes(options.meshes);
+    Table table({"mesh", "metric", "samples", "pairs too close", "samples too close", "%"});
+    bench::LogPlot plot;
+    plot.title = "Samples of the closed form that are too close";
+    plot.x_label = "samples";
+    plot.y_label = "too close to another by exact distance";
+    plot.y_unit = "%";
+    plot.is_linear_y = true;
+    const double repeats = options.common.repeats;
+    for (const PaperMesh& mesh : meshes) {
+        plot.lines.push_back({mesh.name, plot.lines.size(), false, {}});
+        for (const double count : counts) {
+            for (const Metric metric : kMetrics) {
+                const Tally tally = measure(mesh, count, metric, options.common);
+                table.add({mesh.name, name_of(metric), fixed(tally.samples / repeats, 1),
+                           fixed(tally.pairs / repeats, 1), fixed(tally.close / repeats, 1),
+                           fixed(tally.close_percent(), 2)});
+                if (metric == Metric::curve) {
+                    plot.lines.back().points.push_back(
+                        {tally.samples / repeats, tally.close_percent()});
+                }
+            }
+        }
+    }
+    std::cout
+        << "Samples whose exact distance to another one is below the minimum, by the metric"
+           "\nthat placed them, means of "
+        << options.common.repeats << " runs\n\n"
+        << table.text()
+        << "\nStraight lines are never too long, so that they place none too close; what they"
+           "\nlose instead, fig7 shows. The paper gives no figures: with the closed form some"
+           "\nsamples are too close where a surface has rich details, as Gargoyle and Lion do,"
+           "\nwhile it works well on smooth ones, such as Bunny; with exact distances none"
+           "\nare.\n";
+    outputs.add_table(table, {"repeats " + std::to_string(options.common.repeats) + " from seed " +
+                              std::to_string(options.common.seed) + ", values are means"});
+    outputs.add_plot("", plot);
+    outputs.write();
+}
+
+} // namespace
+
+void add_fig9(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    options->common.repeats = 3;
+    CLI::App* const command = app.add_subcommand(
+        "fig9", "Fig. 9: samples that the closed form places too close together");
+    add_meshes(*command, options->meshes);
+    add_list(*command, options->counts, "--counts", "Sample counts to aim at");
+    add_common_options(*command, options->common);
+    command->callback([options] { run(*options); });
+}
+
+} // namespace geodisk::paper
