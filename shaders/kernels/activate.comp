@@ -6,36 +6,17 @@
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"
+#include "../lib/ready_slot.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_BUFFER(kBindStates, , uint, states);
-GEODISK_WORDS(kBindPlaces, places);
-GEODISK_BUFFER(kBindSlots, , uvec4, slots);
-GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
-GEODISK_CONTROL;
-
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    uint row = slot * kSlotRows;
-    if (slot >= control.slots_used || slots[row].y != kSlotSelected) {
+    if (!is_due(slot)) {
         return;
     }
-    uint rank = slots[row + 1u].x;
-    bool settled = rank >= push.candidates;
-    uint place = kNoPlace;
-    if (!settled) {
-        place = word_at(places, rank);
-    }
+    uint rank = rank_of(slot);
     Candidate c = draw_candidate(rank);
-    slots[row] = uvec4(place, kSlotReady, 0u, 0u);
-    slots[row + 1u] = uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
-                            floatBitsToUint(weight_of(c.weight2)));
-    slots[row + 2u] = uvec4(0u);
-    slots[row + 3u] = uvec4(0u);
-    blockers[slot] = 0u;
-    if (!settled) {
-        marks[place] = slot;
-        states[place] |= kActive;
-    }
+    ready_slot(slot, uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
+                           floatBitsToUint(weight_of(c.weight2))));
 }

@@ -32,6 +32,7 @@ GEODISK_CONTROL;
 Push P;
 
 #include "../lib/slice.glsl"
+#include "../lib/list.glsl"
 #include "../lib/waiting.glsl"
 #include "../lib/vertex_table.glsl"
 #include "../lib/propagate.glsl"

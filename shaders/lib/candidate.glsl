@@ -17,7 +17,8 @@ struct Candidate {
 
 // `rank` counts from the first of the chunk.
 Candidate draw_candidate(uint rank) {
-    uvec4 random = philox(uvec2(push.seed_low, push.seed_high), push.first_rank + rank);
+    uvec4 random =
+        philox(uvec2(push.seed_low, push.seed_high), uvec2(push.first_rank + rank, 0u));
     // A 64-bit fraction times the number of faces: the integer part is the column.
     uint high, low, fine, unused;
     umulExtended(random.x, push.faces, high, low);

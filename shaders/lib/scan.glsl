@@ -11,9 +11,6 @@ uint scan_row_end;  // and that of the row after the last
 uint scan_columns;  // cells of a row that can be reached
 uint scan_stride;   // cells of a whole row
 uint tested;
-uint idle_conflicts; // listed so far
-uint active_conflicts;
-uint list_first;    // row of this slot's list
 
 bool scanning() { return scan_place < scan_end || scan_row != scan_row_end; }
 
@@ -51,17 +48,6 @@ void begin_scan(float sx, float sy) {
     scan_row_end = scan_row + (row1 - row0 + 1u) * grid.columns;
     scan_place = 0u;
     scan_end = 0u;
-}
-
-void list_conflict(uint place, bool is_active) {
-    if (idle_conflicts + active_conflicts >= P.list_capacity) {
-        overflow |= kOverflowConflicts;
-        return;
-    }
-    uint at = is_active ? active_entry(P.list_capacity, active_conflicts) : idle_conflicts;
-    pool[list_first + (at >> 2)][at & 3u] = place;
-    active_conflicts += is_active ? 1u : 0u;
-    idle_conflicts += is_active ? 0u : 1u;
 }
 
 // Tests candidates against the operation in flight, no more than a trip may.

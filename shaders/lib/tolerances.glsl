@@ -17,5 +17,7 @@ const float kNearVertex = 0.0009765625;     // 2^-10
 const float kEdgeGrain = 4.7683716e-7;      // 2^-21
 // Rounding of positions against cell borders, relative to the face's extent.
 const float kCellPadding = 9.5367432e-7;    // 2^-20
+// Cosines of angles closer than this count as equal.
+const float kSameAngle = 0.015625;          // 2^-6
 
 #endif

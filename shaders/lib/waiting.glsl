@@ -12,7 +12,6 @@ uint event_head;   // events taken
 uint event_tail;   // events pushed
 uint most_waiting; // most on the stack or in the ring
 uint pushed;       // windows and events ever pushed
-uint overflow;     // kOverflow* bits
 
 // A row of this lane in the pool.
 uint own_row(uint at) { return slice + at * kPoolBlock; }

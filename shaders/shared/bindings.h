@@ -8,8 +8,12 @@
 GEODISK_BEGIN_SHARED
 
 GEODISK_CONST uint kBindFaces = 0u;      // per face three rows of HalfEdgeRec and one of FaceLinksRec
+                                         // where distances go through space, a row per corner with
+                                         // its coordinates in multiples of 2^-32 of the bounding
+                                         // box, then one with its normal
 GEODISK_CONST uint kBindFans = 1u;       // a row of FanRec per vertex; then the fans' corners, pairs of
                                          // half-edge and angles; then the angles by half-edge
+GEODISK_CONST uint kBindAxes = kBindFans; // of grids in space: AxisRec per axis
 GEODISK_CONST uint kBindAlias = 2u;      // AliasRec per face
 GEODISK_CONST uint kBindCells = 3u;      // the place where each cell's candidates start, and one past
                                          // the last
@@ -17,6 +21,9 @@ GEODISK_CONST uint kBindStates = 4u;     // a word per candidate, sorted by cell
                                          // weight of its face's second corner
 GEODISK_CONST uint kBindWeights = 5u;    // likewise the weight of the third corner, in units of 2^-24;
                                          // while binning, the rank
+GEODISK_CONST uint kBindPoints = kBindWeights; // the same: coordinates of the candidates, sorted by
+                                         // cell, axis after axis; where lengths of curves are taken,
+                                         // then those of the normals
 GEODISK_CONST uint kBindPlaces = 6u;     // rank -> place in the sorted order
 GEODISK_CONST uint kBindSlots = 7u;      // SlotRec per slot of an active candidate
 GEODISK_CONST uint kBindPool = 8u;       // a slice per lane: LaneRec, windows, events, vertex table;

@@ -105,11 +105,26 @@ GEODISK_CONST uint kIterationsPerStep = 1u + kClearPerStep + kTripsPerStep * kIt
 // List entries that block and resolve go through in one dispatch.
 GEODISK_CONST uint kListPerDispatch = 4096u;
 
+// Grids of cells over boxes, at least half a minimum distance wide: a disk reaches kGridReach cells
+// to either side of its own, kGridDigits in all. A turn tells which of them are next, a digit of
+// kDigitBits for each axis.
+GEODISK_CONST uint kMostAxes = 6u;
+GEODISK_CONST uint kGridReach = 2u;
+GEODISK_CONST uint kGridDigits = 5u;
+GEODISK_CONST uint kDigitBits = 3u;
+GEODISK_CONST uint kDigitMask = 7u;
+// In AxisRec::cells: both ends of the axis are one.
+GEODISK_CONST uint kPeriodicAxis = 0x80000000u;
+// A trip of grid_detect: cells of a row found, and most candidates tested.
+GEODISK_CONST uint kScanPerGridTrip = 16u;
+GEODISK_CONST uint kIterationsPerGridTrip =
+    1u + 3u * kMostAxes + kGridDigits + kScanPerGridTrip * (1u + kMostAxes);
 // Candidates that cause 1, 2, ... calls of the paper's CheckStatus, the last for that many and more.
 GEODISK_CONST uint kCallBins = 10u;
 
 // Rows of a face, of a slot record and of a window.
 GEODISK_CONST uint kFaceRows = 4u;
+GEODISK_CONST uint kSpaceRows = 6u; // of a face, where distances go through space
 GEODISK_CONST uint kSlotRows = 4u;
 GEODISK_CONST uint kLaneRows = 9u;
 GEODISK_CONST uint kWindowRows = 2u;
@@ -120,6 +135,8 @@ GEODISK_CONST uint kSpecNativeRounding = 1u;
 GEODISK_CONST uint kSpecPoolBlock = 2u;
 GEODISK_CONST uint kSpecCountedLanes = 3u;
 GEODISK_CONST uint kSpecCountCalls = 4u;
+GEODISK_CONST uint kSpecDimension = 5u;
+GEODISK_CONST uint kSpecCurved = 6u;
 
 // Lanes of a work group of find_idle, each with 32 ranks, and the most groups of one dispatch.
 GEODISK_CONST uint kFindLanes = 64u;

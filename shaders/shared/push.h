@@ -11,10 +11,11 @@ struct Push {
     uint candidates;      // of the chunk; ranks count from its first candidate
     uint faces;
     uint vertices;
-    uint cells;
+    uint cells;           // of boxes: heads of the table of cells, a power of two
     uint seed_low;
     uint seed_high;
-    float limit;          // conflict below it: 1 + guard, in units of the minimum distance
+    float limit;          // conflict below it: 1 + guard, in units of the minimum distance; in
+                          // boxes its square
     float margin;         // by how much a window must be beaten before it is dropped
     float slack;          // by how much an interval is widened for hits
     uint splits_once;     // 1 unless an edge has three faces, see lib/propagate.glsl

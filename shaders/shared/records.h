@@ -26,6 +26,14 @@ struct AliasRec {
     uint threshold; uint alias;
 };
 
+// An axis of the grid over a box. Coordinates are multiples of 2^-32 of the side.
+struct AxisRec {
+    uint cells;    // along the axis, and kPeriodicAxis
+    uint stride;   // a cell further along the axis, so many heads further in the table
+    float unit;    // 2^-32 of the side, in minimum distances
+    float width;   // of a cell, in minimum distances
+};
+
 // An accepted candidate, its rank among all. The weights are multiples of 2^-24 and that of the first
 // corner is exactly one minus both.
 struct SampleRec {
@@ -34,7 +42,9 @@ struct SampleRec {
 
 // One active candidate, and what its disk took and found; or a sample of an earlier chunk, whose rank
 // wraps around from below the chunk's first. While calls are counted, the last three words are the
-// cursor in the list, the nearest conflict and the one to start from.
+// cursor in the list, the nearest conflict and the one to start from. Where distances go through
+// space, the three words behind the rank tell which cells are next, and the candidates left in the
+// last ones.
 struct SlotRec {
     uint place; uint phase; uint idle_conflicts; uint active_conflicts;
     uint rank; uint face; float weight1; float weight2;
@@ -104,6 +114,7 @@ static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, origin) == 12);
 static_assert(sizeof(FaceLinksRec) == 16 && offsetof(FaceLinksRec, cells) == 12);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
+static_assert(sizeof(AxisRec) == 16 && offsetof(AxisRec, width) == 12);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, spare) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);

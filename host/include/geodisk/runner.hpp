@@ -121,6 +121,8 @@ class GEODISK_API Runner {
                                       const ProgressCallback& progress = {}) noexcept;
 
     const Sampler& sampler() const noexcept;
+    /// The tuning that was chosen for the device.
+    const Tuning& tuning() const noexcept;
 
     struct Impl; ///< Internal.
 

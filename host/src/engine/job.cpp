@@ -170,7 +170,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.lanes = plan.lanes;
     push.lane_rows = plan.lane_rows();
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
-    push.step_budget = std::min(plan.step_budget, most_steps(sampler->report));
+    push.step_budget = std::min(plan.step_budget, most_steps);
     push.sample_capacity = plan.sample_capacity;
 }
 
@@ -253,14 +253,9 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         if (auto checked = check_workspace(workspace, *needs, impl_->report.limits); !checked) {
             return checked.error();
         }
-        auto job = std::make_unique<Job::Impl>();
-        job->sampler = impl_.get();
-        job->workspace = workspace;
-        job->most_slots = plan.slots;
         const Tolerances tolerances = tolerances_for(mesh, params.min_distance, plan.chain);
-        gpu::Push& push = job->push;
-        job->most_candidates = std::min(plan.chunk, *pool_size(mesh, params));
-        push.candidates = job->most_candidates;
+        gpu::Push push{};
+        push.candidates = std::min(plan.chunk, *pool_size(mesh, params));
         push.stop_count = params.stop_count != 0 ? params.stop_count : kMostCandidates;
         push.faces = mesh.face_count();
         push.vertices = mesh.vertex_count();
@@ -271,19 +266,32 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         push.margin = tolerances.margin;
         push.slack = tolerances.slack;
         push.splits_once = mesh.statistics().nonmanifold_edges == 0 ? 1 : 0;
-        job->apply_plan(plan);
-        for (std::size_t i = 0; i < kBufferRoles; ++i) {
-            auto view = job->create_view(i, workspace[i]);
-            if (!view) {
-                return view.error();
-            }
-            job->views[i] = *view;
-        }
-        if (auto written = job->write_sets(); !written) {
-            return written.error();
-        }
-        return Job(std::move(job));
+        return Job::Impl::open(*impl_, plan, workspace, push, most_steps(impl_->report));
     });
+}
+
+Result<Job> Job::Impl::open(const Sampler::Impl& sampler, const RunPlan& plan,
+                            const Workspace& workspace, const gpu::Push& push,
+                            std::uint32_t most_steps) {
+    auto job = std::make_unique<Job::Impl>();
+    job->sampler = &sampler;
+    job->workspace = workspace;
+    job->most_slots = plan.slots;
+    job->most_candidates = push.candidates;
+    job->most_steps = most_steps;
+    job->push = push;
+    job->apply_plan(plan);
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        auto view = job->create_view(i, workspace[i]);
+        if (!view) {
+            return view.error();
+        }
+        job->views[i] = *view;
+    }
+    if (auto written = job->write_sets(); !written) {
+        return written.error();
+    }
+    return Job(std::move(job));
 }
 
 Result<Done> Job::Impl::write_sets() {
@@ -308,25 +316,39 @@ Result<Done> Job::Impl::write_sets() {
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateDescriptorPool", result);
     }
+    std::vector<std::size_t> kernels;
+    std::vector<VkDescriptorSetLayout> layouts;
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        if (sampler->has(k)) {
+            kernels.push_back(k);
+            layouts.push_back(sampler->set_layouts[k]);
+        }
+    }
     for (std::uint32_t role = 0; role < kSetRoles; ++role) {
         VkDescriptorSetAllocateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
         info.descriptorPool = descriptor_pool;
-        info.descriptorSetCount = kKernels;
-        info.pSetLayouts = sampler->set_layouts.data();
-        result = vk.vkAllocateDescriptorSets(device, &info, sets[role].data());
+        info.descriptorSetCount = static_cast<std::uint32_t>(layouts.size());
+        info.pSetLayouts = layouts.data();
+        std::vector<VkDescriptorSet> allocated(layouts.size());
+        result = vk.vkAllocateDescriptorSets(device, &info, allocated.data());
         if (result != VK_SUCCESS) {
             return vk_error("vkAllocateDescriptorSets", result);
         }
+        for (std::size_t i = 0; i < kernels.size(); ++i) {
+            sets[role][kernels[i]] = allocated[i];
+        }
     }
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        write_buffer(i);
+        if (workspace[i].buffer != VK_NULL_HANDLE) {
+            write_buffer(i);
+        }
     }
     return Done{};
 }
 
 Result<VkBufferView> Job::Impl::create_view(std::size_t buffer, const BufferRange& range) const {
-    if (!sampler->reads_texels() || !read_as_texels(buffer)) {
+    if (range.buffer == VK_NULL_HANDLE || !sampler->reads_texels() || !read_as_texels(buffer)) {
         return VkBufferView{VK_NULL_HANDLE};
     }
     VkBufferViewCreateInfo info{};
@@ -378,7 +400,7 @@ void Job::Impl::write_buffer(std::size_t buffer) const {
     };
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
-            if (!has_binding(binding.access, sampler->reads_texels())) {
+            if (!sampler->has(k) || !has_binding(binding.access, sampler->reads_texels())) {
                 continue;
             }
             for (const SetRole role : {SetRole::workspace, SetRole::cell_scan}) {

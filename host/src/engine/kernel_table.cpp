@@ -13,6 +13,10 @@ namespace {
 #include "bin_place_texels.spv.inc"
 #include "block.spv.inc"
 #include "block_texels.spv.inc"
+#include "box_candidates.spv.inc"
+#include "box_candidates_texels.spv.inc"
+#include "box_fill.spv.inc"
+#include "box_fill_texels.spv.inc"
 #include "candidates.spv.inc"
 #include "candidates_texels.spv.inc"
 #include "compact_fill.spv.inc"
@@ -27,6 +31,10 @@ namespace {
 #include "detect_texels.spv.inc"
 #include "find_idle.spv.inc"
 #include "find_idle_texels.spv.inc"
+#include "grid_activate.spv.inc"
+#include "grid_activate_texels.spv.inc"
+#include "grid_detect.spv.inc"
+#include "grid_detect_texels.spv.inc"
 #include "resolve.spv.inc"
 #include "resolve_texels.spv.inc"
 #include "rewind.spv.inc"
@@ -41,6 +49,10 @@ namespace {
 #include "select_texels.spv.inc"
 #include "self_test.spv.inc"
 #include "self_test_texels.spv.inc"
+#include "space_candidates.spv.inc"
+#include "space_candidates_texels.spv.inc"
+#include "space_fill.spv.inc"
+#include "space_fill_texels.spv.inc"
 
 using namespace gpu;
 
@@ -89,18 +101,35 @@ constexpr Binding kCompactGather[] = {
 constexpr Binding kCompactFill[] = {
     {kBindAlias, read}, {kBindControl, storage}, {kBindSamples, storage}};
 constexpr Binding kSelfTest[] = {{kBindSums, storage}};
+constexpr Binding kBoxCandidates[] = {
+    {kBindAxes, read}, {kBindCells, storage}, {kBindPlaces, storage}, {kBindMarks, storage}};
+constexpr Binding kBoxFill[] = {{kBindStates, storage}, {kBindPoints, storage}};
+constexpr Binding kSpaceCandidates[] = {{kBindFaces, read},     {kBindAxes, read},
+                                        {kBindAlias, read},     {kBindCells, storage},
+                                        {kBindPlaces, storage}, {kBindMarks, storage}};
+constexpr Binding kSpaceFill[] = {
+    {kBindFaces, read}, {kBindAlias, read}, {kBindStates, storage}, {kBindPoints, storage}};
+constexpr Binding kGridActivate[] = {{kBindStates, storage},
+                                     {kBindPlaces, read},
+                                     {kBindSlots, storage},
+                                     {kBindControl, storage},
+                                     {kBindMarks, storage}};
+constexpr Binding kGridDetect[] = {
+    {kBindAxes, read},     {kBindCells, read},   {kBindStates, read},    {kBindPoints, read},
+    {kBindSlots, storage}, {kBindPool, storage}, {kBindControl, storage}};
 
 const std::array<KernelInfo, kKernels> kTable{{
-    {"candidates", k_candidates_spirv, k_candidates_texels_spirv, kCandidates, false},
+    {"candidates", k_candidates_spirv, k_candidates_texels_spirv, kCandidates, false,
+     Domain::surface},
     {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanData, false},
     {"scan_sums", k_scan_sums_spirv, k_scan_sums_texels_spirv, kScanSums, false},
     {"scan_add", k_scan_add_spirv, k_scan_add_texels_spirv, kScanAdd, false},
     {"bin_place", k_bin_place_spirv, k_bin_place_texels_spirv, kBinPlace, false},
-    {"bin_fill", k_bin_fill_spirv, k_bin_fill_texels_spirv, kBinFill, false},
+    {"bin_fill", k_bin_fill_spirv, k_bin_fill_texels_spirv, kBinFill, false, Domain::surface},
     {"find_idle", k_find_idle_spirv, k_find_idle_texels_spirv, kFindIdle, false},
     {"select", k_select_spirv, k_select_texels_spirv, kSelect, true},
-    {"activate", k_activate_spirv, k_activate_texels_spirv, kActivate, true},
-    {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true},
+    {"activate", k_activate_spirv, k_activate_texels_spirv, kActivate, true, Domain::surface},
+    {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true, Domain::surface},
     {"block", k_block_spirv, k_block_texels_spirv, kBlock, true},
     {"resolve", k_resolve_spirv, k_resolve_texels_spirv, kResolve, true},
     {"count_calls", k_count_calls_spirv, k_count_calls_texels_spirv, kCountCalls, true},
@@ -108,14 +137,37 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"compact_mark", k_compact_mark_spirv, k_compact_mark_texels_spirv, kCompactMark, false},
     {"compact_gather", k_compact_gather_spirv, k_compact_gather_texels_spirv, kCompactGather,
      false},
-    {"compact_fill", k_compact_fill_spirv, k_compact_fill_texels_spirv, kCompactFill, false},
+    {"compact_fill", k_compact_fill_spirv, k_compact_fill_texels_spirv, kCompactFill, false,
+     Domain::on_surface},
     {"self_test", k_self_test_spirv, k_self_test_texels_spirv, kSelfTest, false},
+    {"box_candidates", k_box_candidates_spirv, k_box_candidates_texels_spirv, kBoxCandidates, false,
+     Domain::box},
+    {"box_fill", k_box_fill_spirv, k_box_fill_texels_spirv, kBoxFill, false, Domain::box},
+    {"space_candidates", k_space_candidates_spirv, k_space_candidates_texels_spirv,
+     kSpaceCandidates, false, Domain::space},
+    {"space_fill", k_space_fill_spirv, k_space_fill_texels_spirv, kSpaceFill, false, Domain::space},
+    {"grid_activate", k_grid_activate_spirv, k_grid_activate_texels_spirv, kGridActivate, true,
+     Domain::in_space},
+    {"grid_detect", k_grid_detect_spirv, k_grid_detect_texels_spirv, kGridDetect, true,
+     Domain::in_space},
 }};
 
 } // namespace
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept {
     return kTable[static_cast<std::size_t>(kernel)];
+}
+
+DomainKernels kernels_of(Domain domain) noexcept {
+    if (domain == Domain::box) {
+        return {Kernel::box_candidates, Kernel::box_fill, Kernel::grid_activate,
+                Kernel::grid_detect};
+    }
+    if (domain == Domain::space) {
+        return {Kernel::space_candidates, Kernel::space_fill, Kernel::grid_activate,
+                Kernel::grid_detect};
+    }
+    return {Kernel::candidates, Kernel::bin_fill, Kernel::activate, Kernel::detect};
 }
 
 } // namespace geodisk

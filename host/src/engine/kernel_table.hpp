@@ -30,8 +30,24 @@ enum class Kernel : std::uint32_t {
     compact_gather,
     compact_fill,
     self_test,
+    box_candidates,
+    box_fill,
+    space_candidates,
+    space_fill,
+    grid_activate,
+    grid_detect,
 };
-inline constexpr std::size_t kKernels = 18;
+inline constexpr std::size_t kKernels = 24;
+
+/// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
+enum class Domain : std::uint8_t {
+    surface = 1,    ///< By geodesic distance.
+    box = 2,        ///< By straight-line distance, as all that follow.
+    space = 4,      ///< A surface in space.
+    on_surface = 5, ///< Of kernels: both with faces.
+    in_space = 6,   ///< Of kernels: both with a grid.
+    any = 7,
+};
 
 /// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
 enum class Access : std::uint8_t {
@@ -51,7 +67,18 @@ struct KernelInfo {
     std::span<const std::uint32_t> texels_spirv; ///< Reads from texel buffers.
     std::span<const Binding> bindings;           ///< Ascending; at most eight storage buffers.
     bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
+    Domain domain = Domain::any;
+
+    bool serves(Domain other) const {
+        return (static_cast<std::uint8_t>(domain) & static_cast<std::uint8_t>(other)) != 0;
+    }
 };
+
+/// The kernels that each domain has of its own.
+struct DomainKernels {
+    Kernel candidates, fill, activate, detect;
+};
+DomainKernels kernels_of(Domain domain) noexcept;
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept;
 

@@ -1,11 +1,11 @@
 #include "geodisk/params.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include "mesh/extent.hpp"
+#include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
@@ -21,16 +21,6 @@ constexpr std::uint32_t kMaximumChain = 1u << 16;
 double faces_per_disk(const PreparedMesh& mesh, double min_distance) {
     return 2.0 * mesh.face_count() /
            std::max(1.0, expected_count(mesh.statistics().area, min_distance));
-}
-
-/// A large number for a message, three digits, the same in every locale.
-std::string number(double value) {
-    if (!std::isfinite(value)) {
-        return "more than 1e308";
-    }
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
-    return {text, end.ptr};
 }
 
 } // namespace
@@ -72,13 +62,15 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
     const double wanted = params.throws != 0 ? params.throws : std::max(pool, kMinimumPool);
     if (!(wanted <= kMostCandidates)) {
         return invalid("the minimum distance is too small for this surface: the pool would take " +
-                       number(wanted) + " candidates, the most is " + number(kMostCandidates));
+                       number_text(wanted) + " candidates, the most is " +
+                       number_text(kMostCandidates));
     }
     const double longest = statistics.longest_edge / params.min_distance;
     if (!(longest <= kLongestEdge)) {
         return invalid("the minimum distance is too small for this mesh: its longest edge is " +
-                       number(longest) + " times as long, and single precision resolves at most " +
-                       number(kLongestEdge) + " times; split long edges");
+                       number_text(longest) +
+                       " times as long, and single precision resolves at most " +
+                       number_text(kLongestEdge) + " times; split long edges");
     }
     return static_cast<std::uint32_t>(wanted);
 }

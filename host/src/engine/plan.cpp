@@ -7,6 +7,7 @@
 
 #include <geodisk/sampler.hpp>
 
+#include "bindings.h"
 #include "constants.h"
 #include "engine/device_mesh.hpp"
 #include "engine/plan.hpp"
@@ -38,10 +39,6 @@ constexpr double kMostChunk = 1024;
 constexpr double kChunkToStop = 64;
 // No more darts than need a list of conflicts of this part of the pool.
 constexpr double kListShare = 16;
-
-std::uint32_t pow2_at_least(double x) {
-    return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
-}
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
@@ -80,18 +77,6 @@ std::uint32_t wanted_chunk(const SampleParams& params, std::uint32_t candidates,
 std::uint32_t cpu_lanes(const DeviceReport& report) {
     return std::max(1u, std::thread::hardware_concurrency()) *
            std::max(1u, report.limits.subgroup_size);
-}
-
-/// As many as the tuning's batches ask for, and enough to fill the device; where that cannot be
-/// had, a CPU rather waits than computes disks for losers.
-std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
-    const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    const double least = cpu ? std::clamp<double>(disks / 8, 8, cpu_lanes(report)) : 64;
-    const auto slots = static_cast<std::uint32_t>(
-        std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
-    // No lane is to wait for the others with its last one.
-    const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
-    return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
 }
 
 /// A CPU runs as many lanes as it has; a GPU is to have one for every slot.
@@ -163,6 +148,21 @@ const char* to_string(BufferRole role) noexcept {
     return kNames[static_cast<std::size_t>(role)];
 }
 
+std::uint32_t pow2_at_least(double x) {
+    return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
+}
+
+// Where both cannot be had, a CPU rather waits than computes disks for losers.
+std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
+    const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const double least = cpu ? std::clamp<double>(disks / 8, 8, cpu_lanes(report)) : 64;
+    const auto slots = static_cast<std::uint32_t>(
+        std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
+    // No lane is to wait for the others with its last one.
+    const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
+    return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
+}
+
 std::uint32_t most_steps(const DeviceReport& report) noexcept {
     return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeSteps : kDefaultSteps;
 }
@@ -231,14 +231,21 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
         plan.sample_capacity =
             wanted_sample_capacity(*candidates, disks, params.stop_count, report);
         plan.chain = provided_chain(mesh, params.min_distance);
-        pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
-        fit(plan, pool_bytes);
-        if (plan.lanes == 0) {
-            return slice_error(plan, pool_bytes);
+        auto fitting = fitted(plan, pool_bytes, report.limits);
+        if (fitting) {
+            fitting->detect_passes = wanted_passes(*fitting, faces_per_disk);
         }
-        plan.detect_passes = wanted_passes(plan, faces_per_disk);
-        return plan;
+        return fitting;
     });
+}
+
+Result<RunPlan> fitted(RunPlan plan, std::uint64_t pool_bytes, const DeviceLimits& limits) {
+    pool_bytes = std::min(pool_bytes, limits.max_storage_buffer_range);
+    fit(plan, pool_bytes);
+    if (plan.lanes == 0) {
+        return slice_error(plan, pool_bytes);
+    }
+    return plan;
 }
 
 Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
@@ -274,38 +281,50 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
         if (!cells) {
             return cells.error();
         }
-        const std::uint64_t count = std::min(plan.chunk, *candidates);
-        const std::uint64_t scanned = std::max<std::uint64_t>(count, std::uint64_t{*cells} + 1);
-        WorkspaceNeeds needs;
-        needs.bytes = {face_bytes(mesh),
-                       fan_bytes(mesh),
-                       alias_bytes(mesh),
-                       (std::uint64_t{*cells} + 1) * 4,
-                       count * 4,
-                       count * 4,
-                       count * 4,
-                       plan.slots * sizeof(gpu::SlotRec),
-                       plan.pool_bytes(),
-                       sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * 4,
-                       count * 4,
-                       std::max(blocks_of(scanned) * 4, kIdleBytes),
-                       std::uint64_t{plan.sample_capacity} * sizeof(gpu::SampleRec)};
-        const std::uint64_t limit = impl_->report.limits.max_storage_buffer_range;
-        for (std::size_t i = 0; i < kBufferRoles; ++i) {
-            if (needs.bytes[i] > limit) {
-                const bool of_mesh = mesh_bytes_size(mesh, static_cast<BufferRole>(i)) != 0;
-                return Error{Status::device_lacks,
-                             std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) +
-                                 " for " + std::to_string(*candidates) + " candidates and " +
-                                 std::to_string(mesh.face_count()) + " faces takes " +
-                                 std::to_string(needs.bytes[i]) + " bytes, but " +
-                                 impl_->report.name + " binds at most " + std::to_string(limit) +
-                                 (of_mesh ? "; give a mesh of fewer faces"
-                                          : "; raise the minimum distance")};
-            }
+        WorkspaceNeeds needs = needs_of_run(std::min(plan.chunk, *candidates), *cells, plan);
+        needs.bytes[gpu::kBindFaces] = face_bytes(mesh);
+        needs.bytes[gpu::kBindFans] = fan_bytes(mesh);
+        needs.bytes[gpu::kBindAlias] = alias_bytes(mesh);
+        const std::string what = "for " + std::to_string(*candidates) + " candidates and " +
+                                 std::to_string(mesh.face_count()) + " faces";
+        if (auto checked = check_needs(needs, what, impl_->report); !checked) {
+            return checked.error();
         }
         return needs;
     });
+}
+
+WorkspaceNeeds needs_of_run(std::uint64_t candidates, std::uint64_t cells, const RunPlan& plan) {
+    const std::uint64_t scanned = std::max(candidates, cells + 1);
+    WorkspaceNeeds needs;
+    needs.bytes[gpu::kBindCells] = (cells + 1) * 4;
+    for (const std::uint32_t per_candidate :
+         {gpu::kBindStates, gpu::kBindWeights, gpu::kBindPlaces, gpu::kBindMarks}) {
+        needs.bytes[per_candidate] = candidates * 4;
+    }
+    needs.bytes[gpu::kBindSlots] = plan.slots * sizeof(gpu::SlotRec);
+    needs.bytes[gpu::kBindPool] = plan.pool_bytes();
+    needs.bytes[gpu::kBindControl] = sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * 4;
+    needs.bytes[gpu::kBindSums] = std::max(blocks_of(scanned) * 4, kIdleBytes);
+    needs.bytes[gpu::kBindSamples] = std::uint64_t{plan.sample_capacity} * sizeof(gpu::SampleRec);
+    return needs;
+}
+
+Result<Done> check_needs(const WorkspaceNeeds& needs, const std::string& what,
+                         const DeviceReport& report) {
+    const std::uint64_t limit = report.limits.max_storage_buffer_range;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindAlias;
+        if (needs.bytes[i] > limit) {
+            return Error{
+                Status::device_lacks,
+                std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) + ' ' + what +
+                    " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
+                    " binds at most " + std::to_string(limit) +
+                    (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
+        }
+    }
+    return Done{};
 }
 
 } // namespace geodisk

@@ -41,6 +41,17 @@ class Recorder {
         barrier_compute_to_compute(sampler_.vk, commands_);
     }
 
+    /// Geodesic disks are for lanes to share, straight ones are all alike.
+    void dispatch_detect() const {
+        const Kernel detect = kernels_of(sampler_.domain).detect;
+        if (sampler_.domain == Domain::surface) {
+            dispatch(detect, groups_for(job_.push.lanes, sampler_.tuning.slot_local_size),
+                     job_.push);
+        } else {
+            dispatch_per_slot(detect);
+        }
+    }
+
     void dispatch_per_slot(Kernel kernel) const {
         dispatch_indirect(kernel, offsetof(gpu::ControlRec, groups_x));
     }
@@ -102,6 +113,7 @@ class Recorder {
 void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
+    const DomainKernels own = kernels_of(impl_->domain);
     const std::uint32_t starts = push.cells + 1;
     if (push.first_rank == 0) {
         recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
@@ -112,11 +124,11 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     }
     recorder.fill(BufferRole::cells, VkDeviceSize{starts} * 4);
     barrier_transfer_to_compute(impl_->vk, commands);
-    recorder.dispatch_per_candidate(Kernel::candidates);
+    recorder.dispatch_per_candidate(own.candidates);
     recorder.mark(Stage::draw);
     recorder.scan(starts, SetRole::cell_scan);
     recorder.dispatch_per_candidate(Kernel::bin_place);
-    recorder.dispatch_per_candidate(Kernel::bin_fill);
+    recorder.dispatch_per_candidate(own.fill);
     recorder.mark(Stage::bin);
 }
 
@@ -124,14 +136,13 @@ void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
                             std::uint32_t rounds) const noexcept {
     const Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    const Groups lanes = groups_for(push.lanes, impl_->tuning.slot_local_size);
     for (std::uint32_t round = 0; round < rounds; ++round) {
         recorder.dispatch_indirect(Kernel::find_idle, offsetof(gpu::ControlRec, find_x));
         recorder.dispatch(Kernel::select, {1, 1}, push);
-        recorder.dispatch_per_slot(Kernel::activate);
+        recorder.dispatch_per_slot(kernels_of(impl_->domain).activate);
         recorder.mark(Stage::select);
         for (std::uint32_t pass = 0; pass < job.impl_->plan.detect_passes; ++pass) {
-            recorder.dispatch(Kernel::detect, lanes, push);
+            recorder.dispatch_detect();
         }
         recorder.mark(Stage::detect);
         recorder.dispatch_per_slot(Kernel::block);
@@ -163,10 +174,13 @@ void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noex
     recorder.dispatch_per_candidate(Kernel::compact_mark);
     recorder.scan(push.candidates, SetRole::workspace);
     recorder.dispatch_per_candidate(Kernel::compact_gather);
-    recorder.dispatch(
-        Kernel::compact_fill,
-        groups_for(std::min(push.sample_capacity, push.candidates), impl_->tuning.local_size),
-        push);
+    // In boxes the ranks say all.
+    if (impl_->domain != Domain::box) {
+        recorder.dispatch(
+            Kernel::compact_fill,
+            groups_for(std::min(push.sample_capacity, push.candidates), impl_->tuning.local_size),
+            push);
+    }
     recorder.mark(Stage::gather);
 }
 

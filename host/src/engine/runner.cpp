@@ -98,8 +98,7 @@ check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const Que
 /// One run: its memory, its job and what the device reported last.
 class Run {
   public:
-    Run(Runner::Impl& runner, const PreparedMesh& mesh, const SampleParams& params)
-        : runner_(runner), mesh_(mesh), params_(params) {}
+    Run(Runner::Impl& runner, const RunSource& source) : runner_(runner), source_(source) {}
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
     ~Run() {
@@ -109,7 +108,7 @@ class Run {
         }
     }
 
-    Result<SampleSet> go(const ProgressCallback& progress, std::uint32_t chain);
+    Result<RunResult> go(const ProgressCallback& progress, std::uint32_t chain);
 
   private:
     Result<Done> prepare(std::uint32_t chain);
@@ -120,17 +119,16 @@ class Run {
     Result<Done> gather_chunk();
     std::uint32_t chunk_size() const;
     bool has_all() const {
-        return params_.stop_count != 0 && control_.accepted == params_.stop_count;
+        return source_.stop_count() != 0 && control_.accepted == source_.stop_count();
     }
     Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
     Result<Done> grow();
     Result<Done> detect_longer();
     Result<Done> enlarge_samples();
-    Result<std::vector<Sample>> read_samples();
+    Result<std::vector<gpu::SampleRec>> read_samples();
 
     Runner::Impl& runner_;
-    const PreparedMesh& mesh_;
-    const SampleParams& params_;
+    const RunSource& source_;
     RunMemory memory_;
     std::optional<Job> job_;
     std::uint32_t slots_ = 0; ///< Of the first plan.
@@ -143,8 +141,7 @@ class Run {
 };
 
 Result<Done> Run::prepare(std::uint32_t chain) {
-    const Sampler& sampler = runner_.sampler;
-    auto plan = sampler.plan_run(mesh_, params_, runner_.options.pool_bytes);
+    auto plan = source_.plan(runner_.options.pool_bytes);
     if (!plan) {
         return plan.error();
     }
@@ -156,11 +153,14 @@ Result<Done> Run::prepare(std::uint32_t chain) {
                      "the plan asked for takes a pool of " + std::to_string(plan->pool_bytes()) +
                          " bytes, which may take " + std::to_string(runner_.options.pool_bytes)};
     }
-    const auto needs = sampler.workspace_needs(mesh_, params_, *plan);
+    const auto needs = source_.needs(*plan);
     if (!needs) {
         return needs.error();
     }
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs->bytes[i] == 0) {
+            continue;
+        }
         auto buffer = runner_.allocate(needs->bytes[i], kWorkspaceUsage, MemoryKind::device);
         if (!buffer) {
             return buffer.error();
@@ -174,7 +174,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
         return staging.error();
     }
     memory_.staging = std::move(*staging);
-    auto job = sampler.make_job(mesh_, params_, *plan, memory_.workspace());
+    auto job = source_.make_job(*plan, memory_.workspace());
     if (!job) {
         return job.error();
     }
@@ -185,21 +185,21 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     }
     slots_ = plan->slots;
     lanes_ = plan->lanes;
-    candidates_ = *pool_size(mesh_, params_);
-    report_.guard = tolerances_for(mesh_, params_.min_distance, plan->chain).guard;
+    candidates_ = source_.candidates();
+    report_.guard = source_.guard(*plan);
     return Done{};
 }
 
 Result<Done> Run::upload_buffer(BufferRole role) {
-    std::vector<std::byte> bytes(runner_.sampler.mesh_bytes_size(mesh_, role));
-    if (auto written = runner_.sampler.mesh_bytes(mesh_, params_, role, bytes); !written) {
-        return written.error();
+    const auto bytes = source_.bytes(role);
+    if (!bytes) {
+        return bytes.error();
     }
     const DeviceTable& vk = runner_.engine().vk;
-    for (std::size_t done = 0; done < bytes.size();) {
+    for (std::size_t done = 0; done < bytes->size();) {
         const std::size_t part =
-            std::min<std::size_t>(bytes.size() - done, memory_.staging.bytes().size());
-        std::memcpy(memory_.staging.bytes().data(), bytes.data() + done, part);
+            std::min<std::size_t>(bytes->size() - done, memory_.staging.bytes().size());
+        std::memcpy(memory_.staging.bytes().data(), bytes->data() + done, part);
         auto copied = runner_.submitter->run([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{0, done, part};
             vk.vkCmdCopyBuffer(commands, memory_.staging.handle(),
@@ -325,13 +325,13 @@ Result<Done> Run::enlarge_samples() {
 /// A run that may stop starts with as many as should do, and then doubles what was thrown.
 std::uint32_t Run::chunk_size() const {
     const std::uint32_t most = std::min(job_->plan().chunk, candidates_ - thrown_);
-    if (params_.stop_count == 0) {
+    const std::uint32_t stop_count = source_.stop_count();
+    if (stop_count == 0) {
         return most;
     }
-    const double room = expected_count(mesh_.statistics().area, params_.min_distance);
-    const double per_sample = params_.stop_count < room / 2 ? kDartsWhileSparse : kDartsWhileFull;
+    const double per_sample = stop_count < source_.room() / 2 ? kDartsWhileSparse : kDartsWhileFull;
     const double wanted =
-        std::max({kLeastFirstChunk, per_sample * params_.stop_count, static_cast<double>(thrown_)});
+        std::max({kLeastFirstChunk, per_sample * stop_count, static_cast<double>(thrown_)});
     return static_cast<std::uint32_t>(std::min<double>(most, wanted));
 }
 
@@ -400,9 +400,8 @@ Result<Done> Run::gather_chunk() {
     });
 }
 
-Result<std::vector<Sample>> Run::read_samples() {
-    std::vector<Sample> samples;
-    samples.reserve(control_.accepted);
+Result<std::vector<gpu::SampleRec>> Run::read_samples() {
+    std::vector<gpu::SampleRec> samples(control_.accepted);
     const DeviceTable& vk = runner_.engine().vk;
     const std::size_t per_part = memory_.staging.bytes().size() / sizeof(gpu::SampleRec);
     for (std::size_t first = 0; first < control_.accepted; first += per_part) {
@@ -417,19 +416,13 @@ Result<std::vector<Sample>> Run::read_samples() {
         if (!done) {
             return done.error();
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            gpu::SampleRec record;
-            std::memcpy(&record, memory_.staging.bytes().data() + i * sizeof record, sizeof record);
-            samples.push_back(
-                {record.rank,
-                 record.face,
-                 {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
-        }
+        std::memcpy(samples.data() + first, memory_.staging.bytes().data(),
+                    count * sizeof(gpu::SampleRec));
     }
     return samples;
 }
 
-Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain) {
+Result<RunResult> Run::go(const ProgressCallback& progress, std::uint32_t chain) {
     auto start = Clock::now();
     if (auto done = prepare(chain); !done) {
         return done.error();
@@ -449,7 +442,7 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
         return samples.error();
     }
     report_.seconds.readback = seconds_since(start);
-    report_.candidates = has_all() ? samples->back().candidate + 1 : candidates_;
+    report_.candidates = has_all() ? samples->back().rank + 1 : candidates_;
     report_.iterations = control_.iterations;
     report_.disks = control_.disks;
     report_.windows = wide(control_.windows_low, control_.windows_high);
@@ -468,7 +461,7 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, std::uint32_t chain)
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }
-    return SampleSet{std::move(*samples), report_};
+    return RunResult{std::move(*samples), report_};
 }
 
 } // namespace
@@ -480,6 +473,9 @@ Runner::~Runner() = default;
 
 const Sampler& Runner::sampler() const noexcept {
     return impl_->sampler;
+}
+const Tuning& Runner::tuning() const noexcept {
+    return impl_->sampler.tuning();
 }
 
 Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
@@ -511,62 +507,93 @@ Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>&
     return done ? clock->collect() : done;
 }
 
+Result<std::unique_ptr<Runner::Impl>>
+Runner::Impl::create(Result<Sampler> sampler, const QueueRef& queue, const RunnerOptions& options) {
+    if (!sampler) {
+        return sampler.error();
+    }
+    auto impl = std::make_unique<Impl>(std::move(*sampler));
+    const DeviceRefs& device = impl->engine().device;
+    const auto instance = load_instance_table(device.get_instance_proc_addr, device.instance);
+    if (!instance) {
+        return instance.error();
+    }
+    const auto family = check_queue(*instance, device.physical_device, queue);
+    if (!family) {
+        return family.error();
+    }
+    impl->options = options;
+    instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
+    auto submitter = Submitter::create(device, impl->engine().vk, queue,
+                                       std::chrono::seconds(options.stall_seconds));
+    if (!submitter) {
+        return submitter.error();
+    }
+    impl->submitter.emplace(std::move(*submitter));
+    if (options.time_stages && family->timestampValidBits != 0) {
+        auto clock = StageClock::create(device, impl->engine().vk,
+                                        impl->sampler.report().limits.timestamp_period,
+                                        family->timestampValidBits);
+        if (!clock) {
+            return clock.error();
+        }
+        impl->clock.emplace(std::move(*clock));
+    }
+    if (auto checked = impl->check_rounding(); !checked) {
+        return checked.error();
+    }
+    return impl;
+}
+
+Result<RunResult> run_and_wait(Runner::Impl& runner, const RunSource& source,
+                               const ProgressCallback& progress) {
+    if (auto usable = runner.submitter->ready(); !usable) {
+        return usable.error();
+    }
+    std::uint32_t chain = 0;
+    for (;;) {
+        Run run(runner, source);
+        auto result = run.go(progress, chain);
+        if (!result || result->report.longest_chain <= result->report.plan.chain) {
+            return result;
+        }
+        // The guard was made for shorter chains than were met: widen it and start over.
+        chain = 2 * result->report.longest_chain;
+    }
+}
+
+SampleSet to_samples(const RunResult& result) {
+    SampleSet set{{}, result.report};
+    set.samples.reserve(result.samples.size());
+    for (const gpu::SampleRec& record : result.samples) {
+        set.samples.push_back(
+            {record.rank,
+             record.face,
+             {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
+    }
+    return set;
+}
+
 Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
                               const RunnerOptions& options) noexcept {
     return guarded([&]() -> Result<Runner> {
-        auto sampler = Sampler::create(device, options.sampler);
-        if (!sampler) {
-            return sampler.error();
+        auto impl = Impl::create(Sampler::create(device, options.sampler), queue, options);
+        if (!impl) {
+            return impl.error();
         }
-        const auto instance = load_instance_table(device.get_instance_proc_addr, device.instance);
-        if (!instance) {
-            return instance.error();
-        }
-        const auto family = check_queue(*instance, device.physical_device, queue);
-        if (!family) {
-            return family.error();
-        }
-        auto impl = std::make_unique<Impl>(std::move(*sampler));
-        impl->options = options;
-        instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
-        auto submitter = Submitter::create(impl->engine().device, impl->engine().vk, queue,
-                                           std::chrono::seconds(options.stall_seconds));
-        if (!submitter) {
-            return submitter.error();
-        }
-        impl->submitter.emplace(std::move(*submitter));
-        if (options.time_stages && family->timestampValidBits != 0) {
-            auto clock = StageClock::create(impl->engine().device, impl->engine().vk,
-                                            impl->sampler.report().limits.timestamp_period,
-                                            family->timestampValidBits);
-            if (!clock) {
-                return clock.error();
-            }
-            impl->clock.emplace(std::move(*clock));
-        }
-        if (auto checked = impl->check_rounding(); !checked) {
-            return checked.error();
-        }
-        return Runner(std::move(impl));
+        return Runner(std::move(*impl));
     });
 }
 
 Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                           const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SampleSet> {
-        if (auto usable = impl_->submitter->ready(); !usable) {
-            return usable.error();
+        const auto result =
+            run_and_wait(*impl_, SurfaceSource(impl_->sampler, mesh, params), progress);
+        if (!result) {
+            return result.error();
         }
-        std::uint32_t chain = 0;
-        for (;;) {
-            Run run(*impl_, mesh, params);
-            auto result = run.go(progress, chain);
-            if (!result || result->report.longest_chain <= result->report.plan.chain) {
-                return result;
-            }
-            // The guard was made for shorter chains than were met: widen it and start over.
-            chain = 2 * result->report.longest_chain;
-        }
+        return to_samples(*result);
     });
 }
 

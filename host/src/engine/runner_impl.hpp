@@ -1,7 +1,10 @@
 // What Runner holds; shared by the files that implement it.
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include <geodisk/runner.hpp>
 
@@ -20,6 +23,9 @@ struct Runner::Impl {
     std::optional<Submitter> submitter;
     std::optional<StageClock> clock;
 
+    /// Opens the queue and checks the device's arithmetic.
+    static Result<std::unique_ptr<Impl>> create(Result<Sampler> sampler, const QueueRef& queue,
+                                                const RunnerOptions& options);
     explicit Impl(Sampler s) : sampler(std::move(s)) {}
     ~Impl() { settle(); }
 
@@ -55,5 +61,74 @@ struct RunMemory {
     std::uint64_t bytes() const;
     void abandon() noexcept;
 };
+
+/// What a run samples.
+class RunSource {
+  public:
+    virtual ~RunSource() = default;
+    /// Of all chunks.
+    virtual std::uint32_t candidates() const = 0;
+    /// Samples to stop at; 0 for none.
+    virtual std::uint32_t stop_count() const { return 0; }
+    /// Samples that there should be room for.
+    virtual double room() const = 0;
+    virtual Result<RunPlan> plan(std::uint64_t pool_bytes) const = 0;
+    virtual Result<WorkspaceNeeds> needs(const RunPlan& plan) const = 0;
+    virtual Result<Job> make_job(const RunPlan& plan, const Workspace& workspace) const = 0;
+    /// What to upload before the run; empty for most buffers.
+    virtual Result<std::vector<std::byte>> bytes(BufferRole role) const = 0;
+    virtual double guard(const RunPlan& plan) const = 0;
+};
+
+/// A mesh and what is asked of it; all must outlive the source.
+class SurfaceSource : public RunSource {
+  public:
+    SurfaceSource(const Sampler& sampler, const PreparedMesh& mesh, const SampleParams& params)
+        : sampler_(sampler), mesh_(mesh), params_(params) {}
+
+    std::uint32_t candidates() const override { return *pool_size(mesh_, params_); }
+    std::uint32_t stop_count() const override { return params_.stop_count; }
+    double room() const override {
+        return expected_count(mesh_.statistics().area, params_.min_distance);
+    }
+    Result<RunPlan> plan(std::uint64_t pool_bytes) const override {
+        return sampler_.plan_run(mesh_, params_, pool_bytes);
+    }
+    Result<WorkspaceNeeds> needs(const RunPlan& plan) const override {
+        return sampler_.workspace_needs(mesh_, params_, plan);
+    }
+    Result<Job> make_job(const RunPlan& plan, const Workspace& workspace) const override {
+        return sampler_.make_job(mesh_, params_, plan, workspace);
+    }
+    Result<std::vector<std::byte>> bytes(BufferRole role) const override {
+        std::vector<std::byte> bytes(sampler_.mesh_bytes_size(mesh_, role));
+        if (!bytes.empty()) {
+            if (auto written = sampler_.mesh_bytes(mesh_, params_, role, bytes); !written) {
+                return written.error();
+            }
+        }
+        return bytes;
+    }
+    double guard(const RunPlan& plan) const override {
+        return tolerances_for(mesh_, params_.min_distance, plan.chain).guard;
+    }
+
+  private:
+    const Sampler& sampler_;
+    const PreparedMesh& mesh_;
+    const SampleParams& params_;
+};
+
+struct RunResult {
+    std::vector<gpu::SampleRec> samples; ///< In dart-throwing order.
+    RunReport report;
+};
+
+/// Of a run on a surface.
+SampleSet to_samples(const RunResult& result);
+
+/// Runs until window chains are as short as the guard provides for.
+Result<RunResult> run_and_wait(Runner::Impl& runner, const RunSource& source,
+                               const ProgressCallback& progress);
 
 } // namespace geodisk

@@ -36,39 +36,45 @@ const Tuning& Sampler::tuning() const noexcept {
 }
 
 Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& options) noexcept {
-    return guarded([&]() -> Result<Sampler> {
-        auto report =
-            query_device(device.get_instance_proc_addr, device.instance, device.physical_device);
-        if (!report) {
-            return report.error();
-        }
-        if (!report->usable()) {
-            return Error{Status::device_lacks,
-                         report->name + " cannot run geodisk: " + join(report->reasons_against)};
-        }
-        auto tuning = chosen_tuning(options.tuning, *report);
-        if (!tuning) {
-            return tuning.error();
-        }
-        auto table = load_device_table(device);
-        if (!table) {
-            return table.error();
-        }
-        auto impl = std::make_unique<Impl>();
-        impl->device = device;
-        impl->vk = *table;
-        impl->native_rounding =
-            options.rounding == Rounding::native ||
-            (options.rounding == Rounding::automatic && report->rounds_natively);
-        impl->count_calls = options.count_calls;
-        impl->tuning = *tuning;
-        impl->counted_lanes = options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
-        impl->report = std::move(*report);
-        if (auto created = impl->create_pipelines(); !created) {
-            return created.error();
-        }
-        return Sampler(std::move(impl));
-    });
+    return guarded([&] { return Impl::create_for(Domain::surface, 0, device, options); });
+}
+
+Result<Sampler> Sampler::Impl::create_for(Domain domain, std::uint32_t dimension,
+                                          const DeviceRefs& device, const SamplerOptions& options,
+                                          bool takes_curves) {
+    auto report =
+        query_device(device.get_instance_proc_addr, device.instance, device.physical_device);
+    if (!report) {
+        return report.error();
+    }
+    if (!report->usable()) {
+        return Error{Status::device_lacks,
+                     report->name + " cannot run geodisk: " + join(report->reasons_against)};
+    }
+    auto tuning = chosen_tuning(options.tuning, *report);
+    if (!tuning) {
+        return tuning.error();
+    }
+    auto table = load_device_table(device);
+    if (!table) {
+        return table.error();
+    }
+    auto impl = std::make_unique<Impl>();
+    impl->device = device;
+    impl->vk = *table;
+    impl->native_rounding = options.rounding == Rounding::native ||
+                            (options.rounding == Rounding::automatic && report->rounds_natively);
+    impl->domain = domain;
+    impl->dimension = dimension;
+    impl->takes_curves = takes_curves;
+    impl->count_calls = options.count_calls;
+    impl->tuning = *tuning;
+    impl->counted_lanes = options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
+    impl->report = std::move(*report);
+    if (auto created = impl->create_pipelines(); !created) {
+        return created.error();
+    }
+    return Sampler(std::move(impl));
 }
 
 Sampler::Impl::~Impl() {
@@ -84,6 +90,9 @@ Sampler::Impl::~Impl() {
 
 Result<Done> Sampler::Impl::create_pipelines() {
     for (std::uint32_t k = 0; k < kKernels; ++k) {
+        if (!has(k)) {
+            continue;
+        }
         if (auto created = create_pipeline(static_cast<Kernel>(k)); !created) {
             return created.error();
         }
@@ -139,16 +148,22 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
         return vk_error("vkCreateShaderModule", result);
     }
     constexpr std::uint32_t kWord = sizeof(std::uint32_t);
-    const std::array<std::uint32_t, 5> constants{
-        info.per_slot ? tuning.slot_local_size : tuning.local_size,
-        native_rounding ? VK_TRUE : VK_FALSE, tuning.pool_block, counted_lanes,
-        count_calls ? VK_TRUE : VK_FALSE};
-    const std::array<VkSpecializationMapEntry, 5> entries{{
+    const std::array<std::uint32_t, 7> constants{info.per_slot ? tuning.slot_local_size
+                                                               : tuning.local_size,
+                                                 native_rounding ? VK_TRUE : VK_FALSE,
+                                                 tuning.pool_block,
+                                                 counted_lanes,
+                                                 count_calls ? VK_TRUE : VK_FALSE,
+                                                 dimension,
+                                                 takes_curves ? VK_TRUE : VK_FALSE};
+    const std::array<VkSpecializationMapEntry, 7> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
         {gpu::kSpecPoolBlock, 2 * kWord, kWord},
         {gpu::kSpecCountedLanes, 3 * kWord, kWord},
         {gpu::kSpecCountCalls, 4 * kWord, kWord},
+        {gpu::kSpecDimension, 5 * kWord, kWord},
+        {gpu::kSpecCurved, 6 * kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};

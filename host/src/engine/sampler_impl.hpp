@@ -20,13 +20,24 @@ struct Sampler::Impl {
     bool native_rounding = false;
     std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
     bool count_calls = false;
+    Domain domain = Domain::surface;
+    std::uint32_t dimension = 0; ///< Of boxes and space.
+    bool takes_curves = false;   ///< Instead of straight lines in space.
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
     /// The device may be using these objects and those of the jobs for ever: destroy none.
     bool abandoned = false;
 
+    /// As Sampler::create, with the kernels of a domain; the rest is as in the members.
+    static Result<Sampler> create_for(Domain domain, std::uint32_t dimension,
+                                      const DeviceRefs& device, const SamplerOptions& options,
+                                      bool takes_curves = false);
+    static const Impl& of(const Sampler& sampler) { return *sampler.impl_; }
     ~Impl();
+    bool has(std::size_t kernel) const {
+        return kernel_info(static_cast<Kernel>(kernel)).serves(domain);
+    }
     /// Of the two variants of the kernels, which.
     bool reads_texels() const { return tuning.reads == Reads::texels; }
     /// Dispatches of count_calls per round: as for resolve, the next round goes on.
@@ -51,9 +62,15 @@ struct Job::Impl {
     std::array<VkBufferView, kBufferRoles> views{};
     std::uint32_t most_slots = 0;      ///< What the slot and control buffers hold.
     std::uint32_t most_candidates = 0; ///< What the buffers of candidates hold.
+    std::uint32_t most_steps = 0;      ///< Steps that a dispatch of detect may safely take.
     RunPlan plan;
     gpu::Push push{};
 
+    /// Writes the descriptor sets of a workspace that is large enough. `push` is what the plan does
+    /// not tell.
+    static Result<Job> open(const Sampler::Impl& sampler, const RunPlan& plan,
+                            const Workspace& workspace, const gpu::Push& push,
+                            std::uint32_t most_steps);
     static Impl& of(Job& job) { return *job.impl_; }
     ~Impl();
     Result<Done> write_sets();

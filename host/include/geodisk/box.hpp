@@ -1,0 +1,96 @@
+// BoxRunner: samples boxes of R^n, n = 1 to 6, by straight-line distance (paper section 5.9), on a
+// lent device and queue. It allocates, submits and waits.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <geodisk/device.hpp>
+#include <geodisk/export.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+inline constexpr std::uint32_t kMostBoxDimensions = 6;
+
+/// The guard band of boxes: conflicts are tested against `min_distance * (1 + kBoxGuard)`, which
+/// covers what rounding makes of a distance in float.
+inline constexpr double kBoxGuard = 0x1p-20;
+
+/// A sampling job in [0, extents[0]) x [0, extents[1]) x ...
+struct BoxParams {
+    std::vector<double> extents{1, 1}; ///< 1 to 6 sides, each positive.
+    /// Opposite sides are glued together: distances go around, and copies of the box side by side
+    /// keep the minimum distance. It must not exceed the shortest side then.
+    bool is_periodic = false;
+    double min_distance = 0; ///< D > 0: no two samples are closer, in the units of the sides.
+    std::uint64_t seed = 0;
+    double pool_ratio = kDefaultPoolRatio; ///< Candidates per expected sample, 1 to 10,000.
+};
+
+/// Expected number of samples, by densities measured for each dimension with the default pool
+/// ratio and 30 to 30,000 samples (host/docs/boxes.md). An estimate where sides are shorter than a
+/// few distances, and a poor one where some are much shorter than one.
+GEODISK_API double expected_count(const BoxParams& box) noexcept;
+
+/// The distance that should give about `count` samples, at least 1; `box.min_distance` does not
+/// enter. A periodic box with much shorter sides than others may be too thin for it, as pool_size()
+/// tells.
+GEODISK_API double distance_for_count(const BoxParams& box, double count) noexcept;
+
+/// Candidates in the pool: pool_ratio times the expected count, at least 64.
+///
+/// Fails with `invalid_argument` when a parameter is out of range; when a side is more than 2^24
+/// distances long, or the pool cannot be indexed with 32 bits; and when the minimum distance
+/// exceeds a side of a periodic box.
+GEODISK_API Result<std::uint32_t> pool_size(const BoxParams& box) noexcept;
+
+/// The coordinates of a candidate, a pure function of seed and index: multiples of 2^-32 of the
+/// sides, rounded to double. `point` holds as many as the box has sides.
+GEODISK_API void candidate_point(const BoxParams& box, std::uint32_t candidate,
+                                 std::span<double> point) noexcept;
+
+struct BoxSampleSet {
+    std::uint32_t dimension = 0;
+    std::vector<std::uint32_t> candidates; ///< Of each sample, in dart-throwing order.
+    std::vector<double> points;            ///< `dimension` coordinates of each, in that order.
+    /// `windows` counts the rows of cells visited; what concerns windows, chains and vertices
+    /// otherwise is 0.
+    RunReport report;
+};
+
+/// Not thread-safe; several runners may share a device, and a queue through QueueRef's lock.
+class GEODISK_API BoxRunner {
+  public:
+    /// Compiles the pipelines for boxes of so many dimensions and checks the device's arithmetic.
+    /// Errors: `invalid_argument` for a dimension other than 1 to 6; else as Runner::create.
+    static Result<BoxRunner> create(const DeviceRefs& device, const QueueRef& queue,
+                                    std::uint32_t dimension,
+                                    const RunnerOptions& options = {}) noexcept;
+    BoxRunner(BoxRunner&&) noexcept;
+    BoxRunner& operator=(BoxRunner&&) noexcept;
+    ~BoxRunner();
+
+    /// Returns the set that sequential dart throwing over the same candidates returns, whatever
+    /// device, driver or plan.
+    ///
+    /// Errors: `invalid_argument` as pool_size(), or for a box of another dimension; `device_lacks`
+    /// when the candidates do not fit the device in one piece; else as Runner::sample_and_wait.
+    Result<BoxSampleSet> sample_and_wait(const BoxParams& box,
+                                         const ProgressCallback& progress = {}) noexcept;
+
+    std::uint32_t dimension() const noexcept;
+    /// The device, and the tuning that was chosen for it.
+    const DeviceReport& report() const noexcept;
+    const Tuning& tuning() const noexcept;
+
+  private:
+    explicit BoxRunner(std::unique_ptr<Runner::Impl> impl) noexcept;
+    std::unique_ptr<Runner::Impl> impl_;
+};
+
+} // namespace geodisk

@@ -1,0 +1,215 @@
+// Twin of shaders/kernels/box_candidates.comp, box_fill.comp and grid_detect.comp: boxes of R^n.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "constants.h"
+#include "geodisk/box.hpp"
+#include "kernels/curve.hpp"
+
+namespace geodisk::ref {
+
+/// Coordinates in multiples of 2^-32 of the sides.
+using BoxPoint = std::array<std::uint32_t, gpu::kMostAxes>;
+
+BoxPoint draw_in_box(std::uint64_t seed, std::uint32_t rank, std::size_t dimension);
+
+/// All candidates in a box, by rank.
+std::vector<BoxPoint> draw_pool(const BoxParams& box, std::uint32_t candidates);
+
+template <class Real>
+struct GridAxis {
+    std::uint32_t cells, stride;
+    Real unit, width; ///< Of a coordinate and of a cell, in minimum distances.
+};
+
+/// Cells of half the minimum distance and a little more over a box, in a table of heads.
+template <class Real>
+struct BoxCellTable {
+    std::vector<GridAxis<Real>> axes;
+    bool is_periodic;
+    std::uint32_t heads;
+    Real limit2;
+
+    BoxCellTable(const BoxParams& box, std::uint32_t candidates, double guard = kBoxGuard);
+    std::uint32_t head_of(const BoxPoint& point) const;
+};
+
+/// The pool, sorted by head: `order[starts[h] .. starts[h + 1])` are the ranks of head h,
+/// ascending.
+template <class Real>
+struct BoxPool {
+    BoxCellTable<Real> table;
+    std::vector<BoxPoint> points; ///< By rank.
+    /// The same; with normals, distances are lengths of curves.
+    std::vector<std::array<Real, 3>> normals;
+    std::vector<std::uint32_t> starts;
+    std::vector<std::uint32_t> order;
+
+    BoxPool(const BoxParams& box, std::uint32_t candidates);
+    /// Points that lie in the box somehow.
+    BoxPool(const BoxParams& box, std::vector<BoxPoint> by_rank, double guard);
+};
+
+struct BoxDiskCount {
+    std::uint32_t rows = 0, tested = 0;
+};
+
+/// Calls `hit(rank)` for each candidate in the disk of another whose `wanted(rank)` holds: once, or
+/// more often where cells share a head.
+template <class Real>
+class BoxDetector {
+  public:
+    explicit BoxDetector(const BoxPool<Real>& pool) : pool_(pool) {}
+
+    template <class Wanted, class Hit>
+    BoxDiskCount run(std::uint32_t rank, Wanted&& wanted, Hit&& hit);
+
+  private:
+    static constexpr Real kFar = 0x1p30;
+    static constexpr Real kPadding = 0x1p-20;
+
+    bool takes_all(const GridAxis<Real>& axis) const {
+        return pool_.table.is_periodic && axis.cells < gpu::kGridDigits;
+    }
+    Real gap_to(std::size_t axis, std::uint32_t digit) const;
+    std::uint32_t cell_at(std::size_t axis, std::uint32_t digit) const;
+    Real square_to(const BoxPoint& other) const;
+    bool conflicts_with(std::uint32_t other) const;
+    template <class Visit>
+    void visit_rows(std::size_t axis, Real sum, std::uint32_t head, Visit& visit) const;
+
+    const BoxPool<Real>& pool_;
+    std::uint32_t own_rank_ = 0;
+    BoxPoint own_{};
+    std::array<std::uint32_t, gpu::kMostAxes> own_cell_{};
+    std::array<Real, gpu::kMostAxes> own_inside_{};
+};
+
+/// Sequential dart throwing over the pool: the ranks accepted, ascending.
+template <class Real>
+std::vector<std::uint32_t> throw_darts(const BoxPool<Real>& pool);
+
+template <class Real>
+Real BoxDetector<Real>::gap_to(std::size_t axis, std::uint32_t digit) const {
+    const GridAxis<Real>& a = pool_.table.axes[axis];
+    if (takes_all(a)) {
+        return digit < a.cells ? Real{0} : kFar;
+    }
+    const auto offset = static_cast<std::int32_t>(digit - gpu::kGridReach);
+    const std::int64_t cell = std::int64_t{own_cell_[axis]} + offset;
+    if (!pool_.table.is_periodic && (cell < 0 || cell >= a.cells)) {
+        return kFar;
+    }
+    if (offset == 0) {
+        return 0;
+    }
+    const Real cells = offset > 0 ? static_cast<Real>(offset) - own_inside_[axis]
+                                  : static_cast<Real>(-offset - 1) + own_inside_[axis];
+    const Real gap = cells * a.width - kPadding;
+    return gap < 0 ? Real{0} : gap;
+}
+
+template <class Real>
+std::uint32_t BoxDetector<Real>::cell_at(std::size_t axis, std::uint32_t digit) const {
+    const GridAxis<Real>& a = pool_.table.axes[axis];
+    if (takes_all(a)) {
+        return digit;
+    }
+    const std::uint64_t cell = std::uint64_t{own_cell_[axis]} + digit + a.cells - gpu::kGridReach;
+    return static_cast<std::uint32_t>(cell % a.cells);
+}
+
+template <class Real>
+Real BoxDetector<Real>::square_to(const BoxPoint& other) const {
+    Real sum = 0;
+    for (std::size_t i = 0; i < pool_.table.axes.size(); ++i) {
+        const std::uint32_t ahead = other[i] - own_[i];
+        const std::uint32_t back = own_[i] - other[i];
+        const std::uint32_t steps = pool_.table.is_periodic ? std::min(ahead, back)
+                                    : other[i] < own_[i]    ? back
+                                                            : ahead;
+        const Real along = static_cast<Real>(steps) * pool_.table.axes[i].unit;
+        sum = sum + along * along;
+    }
+    return sum;
+}
+
+template <class Real>
+bool BoxDetector<Real>::conflicts_with(std::uint32_t other) const {
+    const BoxPoint& point = pool_.points[other];
+    const Real square = square_to(point);
+    if (pool_.normals.empty() || square >= pool_.table.limit2) {
+        return square < pool_.table.limit2;
+    }
+    std::array<Real, 3> way;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const bool is_back = point[i] < own_[i];
+        const Real along = static_cast<Real>(is_back ? own_[i] - point[i] : point[i] - own_[i]) *
+                           pool_.table.axes[i].unit;
+        way[i] = is_back ? -along : along;
+    }
+    return is_short_curve(way, square, pool_.normals[own_rank_], pool_.normals[other],
+                          pool_.table.limit2);
+}
+
+/// From the last axis down to the second; then a row.
+template <class Real>
+template <class Visit>
+void BoxDetector<Real>::visit_rows(std::size_t axis, Real sum, std::uint32_t head,
+                                   Visit& visit) const {
+    const Real limit2 = pool_.table.limit2;
+    for (std::uint32_t digit = 0; digit < gpu::kGridDigits; ++digit) {
+        const Real gap = gap_to(axis, digit);
+        const Real next = sum + gap * gap;
+        if (next >= limit2) {
+            continue;
+        }
+        const std::uint32_t cell = cell_at(axis, digit);
+        if (axis > 0) {
+            visit_rows(axis - 1, next, head + cell * pool_.table.axes[axis].stride, visit);
+            continue;
+        }
+        visit(cell, (head + cell) & (pool_.table.heads - 1));
+    }
+}
+
+template <class Real>
+template <class Wanted, class Hit>
+BoxDiskCount BoxDetector<Real>::run(std::uint32_t rank, Wanted&& wanted, Hit&& hit) {
+    own_rank_ = rank;
+    own_ = pool_.points[rank];
+    for (std::size_t i = 0; i < pool_.table.axes.size(); ++i) {
+        const std::uint64_t product = std::uint64_t{own_[i]} * pool_.table.axes[i].cells;
+        own_cell_[i] = static_cast<std::uint32_t>(product >> 32);
+        own_inside_[i] = static_cast<Real>(static_cast<std::uint32_t>(product) >> 8) *
+                         static_cast<Real>(0x1p-24);
+    }
+    BoxDiskCount count;
+    std::uint32_t next_cell = 0;
+    std::uint32_t next_head = 0;
+    auto visit = [&](std::uint32_t cell, std::uint32_t head) {
+        // Cells in a row whose heads follow each other make one visit.
+        const bool goes_on = count.rows > 0 && cell == next_cell && head == next_head;
+        count.rows += goes_on ? 0 : 1;
+        next_cell = cell + 1;
+        next_head = head + 1;
+        for (std::uint32_t p = pool_.starts[head]; p < pool_.starts[std::size_t{head} + 1]; ++p) {
+            const std::uint32_t other = pool_.order[p];
+            if (other == rank || !wanted(other)) {
+                continue;
+            }
+            ++count.tested;
+            if (conflicts_with(other)) {
+                hit(other);
+            }
+        }
+    };
+    visit_rows(pool_.table.axes.size() - 1, 0, 0, visit);
+    return count;
+}
+
+} // namespace geodisk::ref

@@ -1,0 +1,24 @@
+// Twin of shaders/kernels/space_candidates.comp and space_fill.comp: candidates on a surface,
+// placed in its bounding box for straight-line distances.
+#pragma once
+
+#include <vector>
+
+#include "geodisk/mesh.hpp"
+#include "geodisk/params.hpp"
+#include "kernels/grid.hpp"
+
+namespace geodisk::ref {
+
+struct SpacePoints {
+    BoxParams box;                             ///< The bounding box of the mesh, as a job.
+    std::vector<BoxPoint> by_rank;             ///< In multiples of 2^-32 of its sides.
+    std::vector<std::array<float, 3>> normals; ///< Likewise, of unit length or zero.
+    double guard;                              ///< Conflicts are tested against 1 + guard.
+};
+
+/// `mesh` was prepared from `view`, of three coordinates per vertex.
+SpacePoints draw_in_space(const MeshView& view, const PreparedMesh& mesh,
+                          const SampleParams& params);
+
+} // namespace geodisk::ref

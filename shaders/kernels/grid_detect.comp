@@ -1,0 +1,225 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// The disk of every active candidate, by a distance through space, and the idle and active candidates in it (paper
+// DetectCollision, section 5.9). One invocation per slot; resumable. It visits the cells of the grid
+// that the disk reaches, a row along the first axis at a time, in trips of a bounded number of
+// iterations, push.step_budget of them to a dispatch.
+// reads: axes, cells, states, points   writes: pool, slots, control
+// spec: local size, rounding, pool block, dimension, curved
+
+#include "../lib/prelude.glsl"
+#include "../lib/tolerances.glsl"
+#include "../lib/curve.glsl"
+#include "../lib/grid.glsl"
+
+layout(local_size_x_id = 0) in;
+// Lengths of curves instead of straight distances, in three dimensions.
+layout(constant_id = kSpecCurved) const bool kCurved = false;
+
+GEODISK_WORDS(kBindCells, cells);
+GEODISK_WORDS(kBindStates, states);
+GEODISK_WORDS(kBindPoints, points);
+GEODISK_BUFFER(kBindSlots, , uvec4, slots);
+GEODISK_BUFFER(kBindPool, writeonly, uvec4, pool);
+GEODISK_CONTROL;
+
+// A copy that stays in registers; reading push constants in a branch is a gather on lavapipe.
+Push P;
+
+#include "../lib/slice.glsl"
+#include "../lib/list.glsl"
+
+Axis grid[kMostAxes];
+uint own[kMostAxes];       // coordinates
+uint own_cell[kMostAxes];
+float own_inside[kMostAxes]; // the cell, as part of its width, rounded down
+vec3 own_normal;
+uint own_place;
+uint turn;
+uint scan_place;           // next candidate
+uint scan_end;
+uint tested;
+uint rows_visited;
+
+vec3 normal_at(uint place) {
+    return uintBitsToFloat(uvec3(word_at(points, 3u * P.candidates + place),
+                                 word_at(points, 4u * P.candidates + place),
+                                 word_at(points, 5u * P.candidates + place)));
+}
+
+void load_own() {
+    for (uint i = 0u; i < kDimension; ++i) {
+        grid[i] = load_axis(i);
+        own[i] = word_at(points, i * P.candidates + own_place);
+        uint inside;
+        own_cell[i] = cell_on(grid[i], own[i], inside);
+        precise float part = float(inside >> 8) * 5.9604645e-8;
+        own_inside[i] = part;
+    }
+    own_normal = kCurved ? normal_at(own_place) : vec3(0.0);
+}
+
+// So few cells around the axis that all of them are visited, each once, from the first on.
+bool takes_all(Axis axis) { return axis.is_periodic && axis.cells < kGridDigits; }
+
+// How far cells are along an axis, a little less for the sake of rounding; kFar if there are none.
+float gap_to(uint i, uint digit) {
+    int offset = int(digit) - int(kGridReach);
+    int cell = int(own_cell[i]) + offset;
+    bool is_there =
+        takes_all(grid[i]) ? digit < grid[i].cells
+                           : grid[i].is_periodic || (cell >= 0 && cell < int(grid[i].cells));
+    precise float after = float(offset) - own_inside[i];
+    precise float before = float(-offset - 1) + own_inside[i];
+    precise float gap = (offset > 0 ? after : before) * grid[i].width - kCellPadding;
+    bool is_near = offset == 0 || takes_all(grid[i]) || gap < 0.0;
+    return is_there ? (is_near ? 0.0 : gap) : kFar;
+}
+
+uint cell_at(uint i, uint digit) {
+    int count = int(grid[i].cells);
+    int cell = int(own_cell[i]) + int(digit) - int(kGridReach);
+    cell += cell < 0 ? count : (cell >= count ? -count : 0);
+    return takes_all(grid[i]) ? digit : uint(cell);
+}
+
+float plus_square(float sum, float x) {
+    precise float more = sum + x * x;
+    return more;
+}
+
+// The turn after all that share its digits from `level` on.
+uint turn_after(uint at, uint level) {
+    uint next = ((at >> (kDigitBits * level)) + 1u) << (kDigitBits * level);
+    for (uint i = level; i < kDimension; ++i) {
+        uint shift = kDigitBits * i;
+        bool carries = ((next >> shift) & kDigitMask) == kGridDigits;
+        next += carries ? (kDigitMask + 1u - kGridDigits) << shift : 0u;
+    }
+    return next;
+}
+
+bool turns_left() { return turn >> (kDigitBits * kDimension) == 0u; }
+
+// Sets out the next cells of a row within reach, or passes over cells that are not.
+void next_cells() {
+    float sum = 0.0;
+    uint head = 0u;
+    uint beyond = 0u; // the slowest axis along which the cells are out of reach
+    for (uint k = kDimension - 1u; k > 0u; --k) {
+        uint digit = (turn >> (kDigitBits * k)) & kDigitMask;
+        sum = plus_square(sum, gap_to(k, digit));
+        beyond = beyond == 0u && sum >= P.limit ? k : beyond;
+        head += cell_at(k, digit) * grid[k].stride;
+    }
+    uint first = kGridDigits;
+    uint last = 0u;
+    for (uint digit = 0u; digit < kGridDigits; ++digit) {
+        bool is_due = digit >= (turn & kDigitMask) && plus_square(sum, gap_to(0u, digit)) < P.limit;
+        first = is_due ? min(first, digit) : first;
+        last = is_due ? digit : last;
+    }
+    if (beyond != 0u || first > last) {
+        turn = turn_after(turn, max(beyond, 1u));
+        return;
+    }
+    uint cell = cell_at(0u, first);
+    head = head_in_table(head + cell);
+    // Neither around the box nor around the table in one go.
+    uint count = min(last - first + 1u, min(grid[0].cells - cell, P.cells - head));
+    scan_place = word_at(cells, head);
+    scan_end = word_at(cells, head + count);
+    first += count;
+    turn = first > last ? turn_after(turn, 1u) : ((turn & ~kDigitMask) | first);
+    ++rows_visited;
+}
+
+// So many steps of a coordinate, in minimum distances. Halves convert exactly.
+float along_axis(uint i, uint steps) {
+    precise float whole = float(steps >> 16) * 65536.0 + float(steps & 0xffffu);
+    precise float along = whole * grid[i].unit;
+    return along;
+}
+
+// Square of the distance to the candidate at this place.
+float square_to(uint place) {
+    float sum = 0.0;
+    for (uint i = 0u; i < kDimension; ++i) {
+        uint other = word_at(points, i * P.candidates + place);
+        uint ahead = other - own[i];
+        uint back = own[i] - other;
+        uint steps = grid[i].is_periodic ? min(ahead, back) : (other < own[i] ? back : ahead);
+        sum = plus_square(sum, along_axis(i, steps));
+    }
+    return sum;
+}
+
+// The straight way to the candidate at this place.
+vec3 way_to(uint place) {
+    vec3 way = vec3(0.0);
+    for (uint i = 0u; i < 3u; ++i) {
+        uint other = word_at(points, i * P.candidates + place);
+        float along = along_axis(i, other < own[i] ? own[i] - other : other - own[i]);
+        way[i] = other < own[i] ? -along : along;
+    }
+    return way;
+}
+
+bool conflicts_with(uint place) {
+    float square = square_to(place);
+    if (!kCurved) {
+        return square < P.limit;
+    }
+    // No curve is shorter than the straight way.
+    return square < P.limit && is_short_curve(way_to(place), square, own_normal, normal_at(place), P.limit);
+}
+
+void trip() {
+    if (scan_place >= scan_end) {
+        next_cells();
+    }
+    for (uint k = 0u; k < kScanPerGridTrip && scan_place < scan_end; ++k) {
+        uint place = scan_place;
+        ++scan_place;
+        uint state = word_at(states, place) & kStateMask;
+        if (state > kActive || place == own_place) {
+            continue;
+        }
+        ++tested;
+        if (conflicts_with(place)) {
+            list_conflict(place, state == kActive);
+        }
+    }
+}
+
+bool running() { return (turns_left() || scan_place < scan_end) && overflow == 0u; }
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    uint row = slot * kSlotRows;
+    P = push;
+    if (slot >= control.slots_used || control.unfinished == 0u || control.overflow != 0u ||
+        slots[row].y != kSlotReady) {
+        return;
+    }
+    uvec4 head = slots[row];
+    uvec4 cursor = slots[row + 1u];
+    own_place = head.x, idle_conflicts = head.z, active_conflicts = head.w;
+    turn = cursor.y, scan_place = cursor.z, scan_end = cursor.w;
+    tested = slots[row + 2u].x;
+    rows_visited = slots[row + 2u].y;
+    overflow = 0u;
+    list_first = list_row(slot);
+    load_own();
+    for (uint i = 0u; i < P.step_budget && running(); ++i) {
+        trip();
+    }
+    if (overflow != 0u) {
+        atomicOr(control.overflow, overflow);
+    }
+    bool is_complete = !turns_left() && scan_place >= scan_end;
+    slots[row] =
+        uvec4(own_place, is_complete ? kSlotListed : kSlotReady, idle_conflicts, active_conflicts);
+    slots[row + 1u] = uvec4(cursor.x, turn, scan_place, scan_end);
+    slots[row + 2u] = uvec4(tested, rows_visited, 0u, 0u);
+}

@@ -1,0 +1,34 @@
+// A grid of cells over a box of R^n. A cell's head in the table is a linear form of its place modulo
+// the table's size: one to one where the table holds the whole grid, else a hash. Cells next to each
+// other along the first axis have heads next to each other.
+#ifndef GEODISK_GRID_GLSL
+#define GEODISK_GRID_GLSL
+
+layout(constant_id = kSpecDimension) const uint kDimension = 3u;
+
+GEODISK_ROWS(kBindAxes, axes);
+
+struct Axis {
+    uint cells;
+    bool is_periodic;
+    uint stride;
+    float unit;  // of a coordinate, in minimum distances
+    float width; // of a cell, in minimum distances
+};
+
+Axis load_axis(uint axis) {
+    uvec4 row = row_at(axes, axis);
+    return Axis(row.x & ~kPeriodicAxis, (row.x & kPeriodicAxis) != 0u, row.y,
+                uintBitsToFloat(row.z), uintBitsToFloat(row.w));
+}
+
+// The cell that holds a coordinate, and where in it, in units of 2^-32 of its width.
+uint cell_on(Axis axis, uint coordinate, out uint inside) {
+    uint cell;
+    umulExtended(coordinate, axis.cells, cell, inside);
+    return cell;
+}
+
+uint head_in_table(uint head) { return head & (push.cells - 1u); }
+
+#endif

@@ -1,0 +1,61 @@
+// Where a candidate on a surface lies in the bounding box, in multiples of 2^-32 of its sides: the
+// corners of its face in these units, weighted in integers and rounded down.
+#ifndef GEODISK_SPACE_CANDIDATE_GLSL
+#define GEODISK_SPACE_CANDIDATE_GLSL
+
+#include "candidate.glsl"
+#include "curve.glsl"
+#include "grid.glsl"
+
+GEODISK_ROWS(kBindFaces, corners); // kSpaceRows to a face: a row per corner, then their normals
+
+layout(constant_id = kSpecCurved) const bool kCurved = false;
+
+// A 64-bit sum of products of a weight and a coordinate.
+uvec2 plus_product(uvec2 sum, uint weight, uint coordinate) {
+    uint high, low, carry;
+    umulExtended(weight, coordinate, high, low);
+    uint next = uaddCarry(sum.x, low, carry);
+    return uvec2(next, sum.y + high + carry);
+}
+
+// Of unit length, or zero.
+vec3 normal_of(Candidate c) {
+    uint row = kSpaceRows * c.face + 3u;
+    float weight0 = weight_of(16777216u - c.weight1 - c.weight2);
+    float weight1 = weight_of(c.weight1);
+    float weight2 = weight_of(c.weight2);
+    vec3 normal0 = uintBitsToFloat(row_at(corners, row).xyz);
+    vec3 normal1 = uintBitsToFloat(row_at(corners, row + 1u).xyz);
+    vec3 normal2 = uintBitsToFloat(row_at(corners, row + 2u).xyz);
+    precise vec3 sum = weight0 * normal0 + weight1 * normal1 + weight2 * normal2;
+    float len = root(product3(sum, sum));
+    return vec3(signed_ratio(sum.x, len), signed_ratio(sum.y, len), signed_ratio(sum.z, len));
+}
+
+uint words_per_point() { return kCurved ? 6u : 3u; }
+
+uint[kMostAxes] draw_point(uint rank) {
+    Candidate c = draw_candidate(rank);
+    uint weight0 = 16777216u - c.weight1 - c.weight2;
+    uint row = kSpaceRows * c.face;
+    uvec4 corner0 = row_at(corners, row);
+    uvec4 corner1 = row_at(corners, row + 1u);
+    uvec4 corner2 = row_at(corners, row + 2u);
+    uint point[kMostAxes] = uint[kMostAxes](0u, 0u, 0u, 0u, 0u, 0u);
+    for (uint i = 0u; i < 3u; ++i) {
+        uvec2 sum = plus_product(uvec2(0u), weight0, corner0[i]);
+        sum = plus_product(sum, c.weight1, corner1[i]);
+        sum = plus_product(sum, c.weight2, corner2[i]);
+        point[i] = sum.y << 8 | sum.x >> 24;
+    }
+    if (kCurved) {
+        uvec3 normal = floatBitsToUint(normal_of(c));
+        point[3] = normal.x;
+        point[4] = normal.y;
+        point[5] = normal.z;
+    }
+    return point;
+}
+
+#endif
