@@ -65,11 +65,12 @@ bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
 /// What the columns of a file are.
 struct Layout {
     std::uint32_t dimension;
-    bool has_xyz; ///< The first three coordinates by these names.
+    std::uint32_t named; ///< How many of the first three coordinates by the names x, y and z.
     bool has_float_positions;
+    bool is_on_surface = true;
 
     bool has_numbered() const { return dimension > 3; }
-    bool has_normals() const { return dimension == 3; }
+    bool has_normals() const { return is_on_surface && dimension == 3; }
 };
 
 struct Column {
@@ -86,8 +87,8 @@ std::vector<Column> columns_of(const Layout& layout) {
         }
     };
     const char* const coordinate = layout.has_float_positions ? "float" : "double";
-    if (layout.has_xyz) {
-        add(SampleColumn::x, SampleColumn::z, coordinate);
+    for (std::size_t axis = 0; axis < layout.named; ++axis) {
+        columns.push_back({kSampleColumnNames[axis], coordinate});
     }
     for (std::size_t axis = 0; axis < layout.dimension && layout.has_numbered(); ++axis) {
         columns.push_back({kNumberedColumnNames[axis], coordinate});
@@ -95,8 +96,10 @@ std::vector<Column> columns_of(const Layout& layout) {
     if (layout.has_normals()) {
         add(SampleColumn::nx, SampleColumn::nz, "float");
     }
-    add(SampleColumn::face_index, SampleColumn::face_index, "int");
-    add(SampleColumn::bary_u, SampleColumn::bary_w, "float");
+    if (layout.is_on_surface) {
+        add(SampleColumn::face_index, SampleColumn::face_index, "int");
+        add(SampleColumn::bary_u, SampleColumn::bary_w, "float");
+    }
     add(SampleColumn::candidate, SampleColumn::candidate, "uint");
     return columns;
 }
@@ -128,9 +131,7 @@ void for_each_value(const SampleRow& row, const Layout& layout, const Append& ap
             }
         }
     };
-    if (layout.has_xyz) {
-        append_coordinates(3);
-    }
+    append_coordinates(layout.named);
     if (layout.has_numbered()) {
         append_coordinates(layout.dimension);
     }
@@ -139,9 +140,11 @@ void for_each_value(const SampleRow& row, const Layout& layout, const Append& ap
             append(coordinate);
         }
     }
-    append(row.face);
-    for (const float weight : row.bary) {
-        append(weight);
+    if (layout.is_on_surface) {
+        append(row.face);
+        for (const float weight : row.bary) {
+            append(weight);
+        }
     }
     append(row.candidate);
 }
@@ -156,8 +159,7 @@ void append_text_row(std::string& line, const SampleRow& row, const Layout& layo
 }
 
 void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               bool ascii, std::uint32_t dimension) {
-    const Layout layout{dimension, dimension >= 3, float_is_enough(rows, dimension)};
+               bool ascii, const Layout& layout) {
     write_ply_header(file, header, rows.size(), ascii, layout);
     std::string record;
     for (const SampleRow& row : rows) {
@@ -172,8 +174,7 @@ void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const Sam
 }
 
 void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               std::uint32_t dimension) {
-    const Layout layout{dimension, dimension == 3, false};
+               const Layout& layout) {
     write_entries(file, header, "# ");
     std::string line;
     for (const Column& column : columns_of(layout)) {
@@ -215,10 +216,27 @@ void write_samples(AtomicFile& file, const std::filesystem::path& path, const Sa
                    std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension) {
     switch (format_of(path)) {
     case Format::ply:
-        write_ply(file, header, rows, ascii_ply, dimension);
+        write_ply(file, header, rows, ascii_ply,
+                  {dimension, dimension >= 3 ? 3u : 0u, float_is_enough(rows, dimension)});
         break;
     case Format::csv:
-        write_csv(file, header, rows, dimension);
+        write_csv(file, header, rows, {dimension, dimension == 3 ? 3u : 0u, false});
+        break;
+    case Format::xyz:
+        write_xyz(file, rows);
+        break;
+    }
+}
+
+void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
+                       const SampleHeader& header, std::span<const SampleRow> rows, bool ascii_ply,
+                       std::uint32_t dimension) {
+    switch (format_of(path)) {
+    case Format::ply:
+        write_ply(file, header, rows, ascii_ply, {dimension, 3, false, false});
+        break;
+    case Format::csv:
+        write_csv(file, header, rows, {dimension, dimension > 3 ? 0 : dimension, false, false});
         break;
     case Format::xyz:
         write_xyz(file, rows);
@@ -239,6 +257,12 @@ void check_dimension(const std::filesystem::path& path, std::uint32_t dimension)
                             "have " +
                             (dimension == 0 ? "none" : std::to_string(dimension)) +
                             "; use .ply or .csv");
+    }
+}
+
+void check_box_dimension(const std::filesystem::path& path, std::uint32_t dimension) {
+    if (dimension > 3) {
+        check_dimension(path, dimension);
     }
 }
 

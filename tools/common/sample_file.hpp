@@ -52,12 +52,21 @@ void write_samples(const std::filesystem::path& path, const SampleHeader& header
 void write_samples(AtomicFile& file, const std::filesystem::path& path, const SampleHeader& header,
                    std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension = 3);
 
+/// The same for samples in a box of 1 to 6 dimensions: no normals, faces and weights; coordinates
+/// are double. PLY has x y z in any case and XYZ is such a line: 0 for what a box of fewer
+/// dimensions lacks; CSV has just the coordinates there are.
+void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
+                       const SampleHeader& header, std::span<const SampleRow> rows, bool ascii_ply,
+                       std::uint32_t dimension);
+
 /// Fails before long work where write_samples() would fail after it: UserError(usage) for an
 /// unknown extension, UserError(bad_output) for a folder, a missing folder or no permission.
 void check_output_path(const std::filesystem::path& path);
 
 /// UserError(usage) if the format cannot hold samples of so many coordinates.
 void check_dimension(const std::filesystem::path& path, std::uint32_t dimension);
+/// The same for samples in a box.
+void check_box_dimension(const std::filesystem::path& path, std::uint32_t dimension);
 
 /// Reads a sample file of either PLY format or CSV. Columns may come in any order and type;
 /// face_index bary_u bary_v bary_w must be there, and either x0 x1 ... or x y z or none of these;

@@ -14,11 +14,13 @@
 
 #include <geodisk/context.hpp>
 #include <geodisk/runner.hpp>
+#include <geodisk/space.hpp>
 
 #include "common/atomic_file.hpp"
 #include "common/sample_file.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
+#include "geodisk/device_run.hpp"
 #include "geodisk/mesh_input.hpp"
 #include "geodisk/mesh_options.hpp"
 #include "geodisk/outputs.hpp"
@@ -28,7 +30,6 @@
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
-#include "program/tuning_file.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -43,7 +44,8 @@ struct SampleOptions {
     MeshOptions mesh;
     std::string output, json, device;
     std::string min_distance, radius, count, throws;
-    std::string method = "psdp", seed = "0", pool_ratio = "20", memory = "256M";
+    std::string method = "psdp", metric = "geodesic", seed = "0", pool_ratio = "20",
+                memory = "256M";
     bool has_pool_ratio = false, ascii = false, quiet = false, validate = false;
 
     bool throws_darts() const { return method == "pdts"; }
@@ -156,6 +158,24 @@ SampleRequest parse_request(const SampleOptions& options) {
     return request;
 }
 
+/// Straight lines need the space that lengths and lifts do without.
+void check_metric(const SampleOptions& options) {
+    if (options.metric != "geodesic" && options.metric != "euclidean" &&
+        options.metric != "approximate") {
+        throw UserError(ExitCode::usage, "--metric: " + in_quotes(options.metric) +
+                                             " is none of geodesic, euclidean and approximate");
+    }
+    if (options.metric != "geodesic" && options.throws_darts()) {
+        throw UserError(ExitCode::usage, "--method pdts takes no --metric but geodesic");
+    }
+    if (options.metric != "geodesic" && !options.mesh.additions().empty()) {
+        throw UserError(ExitCode::usage, "--metric " + options.metric +
+                                             " goes by the coordinates of the mesh file, so it "
+                                             "takes no --" +
+                                             options.mesh.additions().front().first);
+    }
+}
+
 /// Finds out before the work that it would be in vain.
 void check_outputs(const SampleOptions& options) {
     std::vector<NamedFile> read;
@@ -167,73 +187,49 @@ void check_outputs(const SampleOptions& options) {
     check_report_path(options.json);
 }
 
-/// Runs `work` and adds its seconds to `seconds`.
-template <typename Work>
-auto timed(double& seconds, const Work& work) {
-    const auto start = Clock::now();
-    auto result = work();
-    seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    return result;
-}
-
-SampleSet run_sampler(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
-                      ProgressLine& progress) {
-    double expected = std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
-    if (params.stop_count != 0) {
-        expected = std::min<double>(expected, params.stop_count);
-    }
-    progress.begin_stage("sampling");
-    auto result = runner.sample_and_wait(mesh, params, [&](const Progress& state) {
-        // Work is in the disks of accepted candidates, but only the ranks are sure to reach the
-        // end.
-        const double accepted = std::min(0.99, state.accepted / expected);
-        const double passed = static_cast<double>(state.ranks_passed) / state.candidates;
-        progress.update(std::max(accepted, passed), grouped(state.accepted) + " samples");
-        return !is_interrupted();
+/// Opens a runner, SpaceRunner of some metric or Runner, and lets `work` use it.
+template <class AnyRunner, class Work, class... Choice>
+SampleSet run_on(const Context& context, const RunnerOptions& options, SampleReport& report,
+                 ProgressLine& progress, const Work& work, Choice... choice) {
+    progress.begin_stage("compiling the shaders");
+    AnyRunner runner = timed(report.seconds.pipelines, [&] {
+        return take(AnyRunner::create(context.device(), context.queue(), choice...,
+                                      tuned(options, report.device)));
     });
-    progress.clear();
+    report.tuning = runner.tuning();
     check_interrupted();
-    // The device was found good enough, so what it lacks here is room for this job.
-    if (!result && result.error().status == Status::device_lacks) {
-        throw UserError(ExitCode::out_of_memory, result.error().message);
+    progress.begin_stage("sampling");
+    double expected = expected_count(report.mesh.area, report.params.min_distance);
+    if (report.params.stop_count != 0) {
+        expected = std::min<double>(expected, report.params.stop_count);
     }
-    if (!result && result.error().status == Status::workspace_too_small) {
-        throw UserError(ExitCode::out_of_memory,
-                        result.error().message + "; give more with --memory");
-    }
-    return take(std::move(result));
-}
-
-void check_validation(const Context& context) {
-    if (context.validation_message_count() > 0) {
-        const auto messages = take(context.validation_messages());
-        throw UserError(ExitCode::internal,
-                        std::to_string(context.validation_message_count()) +
-                            " messages of the validation layer, the first: " + messages.front());
-    }
+    return take_run(work(runner, show_progress(progress, expected)), progress);
 }
 
 std::vector<Sample> sample_on_device(const SampleOptions& options,
-                                     const RunnerOptions& runner_options, const PreparedMesh& mesh,
+                                     const RunnerOptions& runner_options, const MeshInput& mesh,
                                      SampleReport& report, ProgressLine& progress) {
-    ContextOptions context_options;
-    context_options.device = options.device;
-    context_options.validation = options.validate;
-    progress.begin_stage("opening the device");
     const Context context =
-        timed(report.seconds.device, [&] { return take(Context::create(context_options)); });
+        open_device(options.device, options.validate, report.seconds.device, progress);
     report.device = context.report();
-    check_interrupted();
-    progress.begin_stage("compiling the shaders");
-    RunnerOptions tuned = runner_options;
-    tuned.sampler.tuning = load_tuning(report.device).value_or(Tuning());
-    tuned.sampler.count_calls = !options.json.empty();
-    Runner runner = timed(report.seconds.pipelines, [&] {
-        return take(Runner::create(context.device(), context.queue(), tuned));
-    });
-    report.tuning = runner.sampler().tuning();
-    check_interrupted();
-    SampleSet set = run_sampler(runner, mesh, report.params, progress);
+    RunnerOptions counting = runner_options;
+    counting.sampler.count_calls = !options.json.empty();
+    SampleSet set;
+    if (options.metric == "geodesic") {
+        set = run_on<Runner>(context, counting, report, progress,
+                             [&](Runner& runner, const ProgressCallback& callback) {
+                                 return runner.sample_and_wait(mesh.prepared, report.params,
+                                                               callback);
+                             });
+    } else {
+        const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
+        set = run_on<SpaceRunner>(
+            context, counting, report, progress,
+            [&](SpaceRunner& runner, const ProgressCallback& callback) {
+                return runner.sample_and_wait(view, mesh.prepared, report.params, callback);
+            },
+            options.metric == "euclidean" ? Metric::euclidean : Metric::approximate);
+    }
     check_validation(context);
     report.run = set.report;
     report.samples = set.samples.size();
@@ -292,15 +288,23 @@ void write_outputs(const SampleOptions& options, const std::vector<SampleRow>& r
 
 void run_sample(const SampleOptions& options) {
     const SampleRequest request = parse_request(options);
+    check_metric(options);
     check_outputs(options);
     ProgressLine progress(options.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
     check_dimension(options.output, mesh.dimension());
+    if (options.metric != "geodesic" && mesh.dimension() != 3) {
+        throw UserError(ExitCode::usage,
+                        "--metric " + options.metric +
+                            " needs three coordinates per vertex; the mesh has " +
+                            (mesh.dimension() == 0 ? "none" : std::to_string(mesh.dimension())));
+    }
 
     SampleReport report;
     report.mesh_path = options.mesh.mesh;
     report.mesh_additions = options.mesh.additions();
     report.output_path = options.output;
+    report.metric = options.metric;
     report.mesh = mesh.prepared.statistics();
     report.throws_darts = options.throws_darts();
     report.params = request.params_on(report.mesh);
@@ -310,7 +314,7 @@ void run_sample(const SampleOptions& options) {
     take(pool_size(mesh.prepared, report.params)); // Fails before a device is needed.
 
     const std::vector<Sample> samples =
-        sample_on_device(options, request.runner, mesh.prepared, report, progress);
+        sample_on_device(options, request.runner, mesh, report, progress);
     check_count(request, report);
     write_outputs(options, to_rows(mesh, samples), mesh.dimension(), report, progress);
 }
@@ -347,6 +351,13 @@ void add_sample_command(CLI::App& app) {
 
     add_mesh_options(*command, options->mesh);
 
+    command
+        ->add_option("--metric", options->metric,
+                     "geodesic: exact, along the surface. For comparison alone,\n"
+                     "euclidean: straight through space; approximate: a closed\n"
+                     "form by normals (Bowers et al. 2010)")
+        ->type_name("NAME")
+        ->capture_default_str();
     const char* const method = "Method";
     command
         ->add_option("--method", options->method,

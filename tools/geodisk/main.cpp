@@ -3,6 +3,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "geodisk/cmd_box.hpp"
 #include "geodisk/cmd_info.hpp"
 #include "geodisk/cmd_sample.hpp"
 #include "geodisk/cmd_shapes.hpp"
@@ -20,6 +21,7 @@ constexpr const char* kFooter = R"(Examples:
   geodisk verify bunny.obj points.csv
   geodisk sample bunny.obj -o points.ply --count 10000 --lift normals:0.05
   geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv
+  geodisk box -o points.csv --dim 4 --count 1e5 --periodic
 
 Exit status:
   0    success
@@ -48,6 +50,7 @@ int main(int argc, char** argv) {
     geodisk::tools::add_sample_command(app);
     geodisk::tools::add_verify_command(app);
     geodisk::tools::add_transfer_command(app);
+    geodisk::tools::add_box_command(app);
     geodisk::tools::add_shapes_command(app);
     geodisk::tools::add_info_command(app);
     return geodisk::tools::run_program(app, argc, argv);

@@ -4,19 +4,12 @@
 
 #include <geodisk/version.hpp>
 
-#include "common/text.hpp"
 #include "geodisk/json_text.hpp"
+#include "geodisk/report_parts.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-template <typename Number>
-std::string exact_text(Number value) {
-    std::string text;
-    append_number(text, value);
-    return text;
-}
 
 Json seconds_json(const SampleReport& report) {
     return {{"load", report.seconds.load},
@@ -67,6 +60,11 @@ Json mesh_json(const SampleReport& report) {
     return mesh;
 }
 
+/// Says what is not exact.
+std::string metric_text(const std::string& metric) {
+    return metric == "geodesic" ? metric : metric + ", not exact along the surface";
+}
+
 /// What ended the run.
 const char* stopped_by(const SampleReport& report) {
     const bool has_all = report.samples == report.params.stop_count;
@@ -104,6 +102,9 @@ SampleHeader sample_header(const SampleReport& report) {
                          {"driver", driver_text(report.device)}}};
     header.entries.insert(header.entries.begin() + 2, report.mesh_additions.begin(),
                           report.mesh_additions.end());
+    if (report.metric != "geodesic") {
+        header.entries.emplace_back("metric", metric_text(report.metric));
+    }
     return header;
 }
 
@@ -117,6 +118,7 @@ std::string json_text(const SampleReport& report) {
                         {"output", report.output_path},
                         {"min_distance", report.params.min_distance},
                         {"radius", report.params.min_distance / 2},
+                        {"metric", metric_text(report.metric)},
                         {"seed", report.params.seed},
                         {"method", report.throws_darts ? "pdts" : "psdp"},
                         {"pool_ratio", pool_ratio},
@@ -138,16 +140,8 @@ std::string json_text(const SampleReport& report) {
                         {"guard", run.guard},
                         {"device_bytes", run.device_bytes},
                         {"seconds", seconds_json(report)},
-                        {"tuning",
-                         {{"batches", report.tuning.batches},
-                          {"local_size", report.tuning.local_size},
-                          {"slot_local_size", report.tuning.slot_local_size},
-                          {"pool_block", report.tuning.pool_block},
-                          {"reads", to_string(report.tuning.reads)}}},
-                        {"device",
-                         {{"name", report.device.name},
-                          {"driver", driver_text(report.device)},
-                          {"type", type_name(report.device.type)}}}};
+                        {"tuning", tuning_json(report.tuning)},
+                        {"device", device_json(report.device)}};
     return text_of(document);
 }
 
@@ -159,7 +153,8 @@ void print_summary(std::ostream& out, const SampleReport& report) {
     }
     out << "              " << mesh_text(report.mesh) << '\n'
         << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
-        << ") in mesh units\n"
+        << ") in mesh units"
+        << (report.metric == "geodesic" ? "" : ", " + metric_text(report.metric)) << '\n'
         << "samples       " << samples_text(report) << ", rho " << rounded(report.rho, 3) << '\n'
         << (report.throws_darts ? "darts         " : "candidates    ")
         << grouped(report.run.candidates) << ", seed " << report.params.seed << '\n'

@@ -20,6 +20,7 @@ struct SampleReport {
     std::string mesh_path;
     std::vector<std::pair<std::string, std::string>> mesh_additions; ///< MeshOptions::additions().
     std::string output_path;
+    std::string metric; ///< "geodesic", or one that does not go along the surface.
     MeshStatistics mesh;
     SampleParams params;
     bool throws_darts = false; ///< --method pdts.

@@ -10,14 +10,20 @@
 
 namespace geodisk::paper {
 
-Device::Device(const std::string& name)
-    : context_(tools::take(Context::create({name, /* validation */ false, {}}))),
-      runner_(make_runner()) {}
+Context open_context(const std::string& name) {
+    return tools::take(Context::create({name, /* validation */ false, {}}));
+}
+
+RunnerOptions kept_options(const Context& context) {
+    RunnerOptions options;
+    options.sampler.tuning = tools::load_tuning(context.report()).value_or(Tuning());
+    return options;
+}
+
+Device::Device(const std::string& name) : context_(open_context(name)), runner_(make_runner()) {}
 
 Runner Device::make_runner(RunnerOptions options) const {
-    if (const auto kept = tools::load_tuning(context_.report())) {
-        options.sampler.tuning = *kept;
-    }
+    options.sampler.tuning = kept_options(context_).sampler.tuning;
     return tools::take(Runner::create(context_.device(), context_.queue(), options));
 }
 

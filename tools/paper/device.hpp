@@ -11,6 +11,12 @@
 
 namespace geodisk::paper {
 
+/// An empty name for the default device.
+Context open_context(const std::string& name);
+
+/// With the tuning that is kept for the device.
+RunnerOptions kept_options(const Context& context);
+
 struct DeviceRun {
     double samples = 0; ///< Mean over the repetitions.
     double candidates = 0;

@@ -13,8 +13,8 @@ namespace {
 constexpr const char* kFooter =
     R"(The paper is Ying, Xin, Sun and He, "An Intrinsic Algorithm for Parallel Poisson Disk Sampling
 on Arbitrary Surfaces", IEEE TVCG 19(9), 2013. Each subcommand prints a table and writes it as CSV,
-with plots as SVG, into the folder --out. fig5 and fig8 run on a Vulkan device, table1 on one and
-on the host; the others are sequential, in double precision, on one core.
+with plots as SVG, into the folder --out. fig5, fig8 and boxes run on a Vulkan device, table1 on
+one and on the host; the others are sequential, in double precision, on one core.
 
 Examples:
   geodisk_paper table1 gargoyle.obj
@@ -37,5 +37,6 @@ int main(int argc, char** argv) {
     geodisk::paper::add_fig9(app);
     geodisk::paper::add_fig13(app);
     geodisk::paper::add_fig14(app);
+    geodisk::paper::add_boxes(app);
     return geodisk::tools::run_program(app, argc, argv);
 }

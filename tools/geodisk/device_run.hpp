@@ -1,0 +1,55 @@
+// Runs on a device, for the commands that sample.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include <geodisk/context.hpp>
+#include <geodisk/runner.hpp>
+
+#include "geodisk/progress.hpp"
+#include "program/failure.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+
+/// Runs `work` and adds its seconds to `seconds`.
+template <typename Work>
+auto timed(double& seconds, const Work& work) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    auto result = work();
+    seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    return result;
+}
+
+/// As --device and --validate ask; adds to `seconds`.
+Context open_device(const std::string& device, bool validate, double& seconds,
+                    ProgressLine& progress);
+
+/// `options` with the tuning that is kept for the device.
+RunnerOptions tuned(RunnerOptions options, const DeviceReport& device);
+
+/// Draws how far a run is that should give about `expected` samples, and stops it on a signal.
+ProgressCallback show_progress(ProgressLine& progress, double expected);
+
+/// Throws UserError for an error of a run: the device was found good enough, so what it lacks is
+/// room for this job.
+void check_run(const Error& error);
+
+/// What a run returned.
+template <class T>
+T take_run(Result<T>&& result, ProgressLine& progress) {
+    progress.clear();
+    check_interrupted();
+    if (!result) {
+        check_run(result.error());
+    }
+    return take(std::move(result));
+}
+
+/// Throws UserError if the validation layer had something to say.
+void check_validation(const Context& context);
+
+} // namespace geodisk::tools

@@ -1,0 +1,153 @@
+// Sections 5.9 and 6: speed in boxes of one to six dimensions, beside sequential methods.
+#include "paper/commands.hpp"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include <geodisk/box.hpp>
+
+#include "baselines/box_darts.hpp"
+#include "bench/statistics.hpp"
+#include "common/user_error.hpp"
+#include "kernels/grid.hpp"
+#include "paper/device.hpp"
+#include "paper/options.hpp"
+#include "paper/outputs.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::paper {
+namespace {
+
+/// Samples per second of the paper on a GTX 580, by dimension.
+constexpr const char* kPrintedSpeeds[kMostBoxDimensions + 1] = {"", "", "13", "1.5", "", "", ""};
+
+struct Options {
+    CommonOptions common;
+    std::string device;
+    std::string count = "10000";
+    std::string trials = "30";
+    NumberList dimensions{"", {"1", "2", "3", "4", "5", "6"}};
+    bool is_open = false;
+};
+
+/// Samples and the median of seconds.
+struct Speed {
+    double samples = 0;
+    std::vector<double> seconds;
+
+    double per_second() const { return samples / bench::median(seconds); }
+};
+
+/// Adds a run of `work`, which returns how many samples it found.
+template <class Work>
+void add_run(Speed& speed, Work&& work) {
+    tools::check_interrupted();
+    const auto start = std::chrono::steady_clock::now();
+    speed.samples = static_cast<double>(work());
+    speed.seconds.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+BoxSampleSet run_device(BoxRunner& runner, const BoxParams& box) {
+    auto result =
+        runner.sample_and_wait(box, [](const Progress&) { return !tools::is_interrupted(); });
+    tools::check_interrupted();
+    return tools::take(std::move(result));
+}
+
+void check_equal(const BoxSampleSet& set, const BoxParams& box) {
+    const ref::BoxPool<float> pool(box, set.report.candidates);
+    if (set.candidates != ref::throw_darts(pool)) {
+        throw tools::UserError(tools::ExitCode::internal,
+                               std::to_string(box.extents.size()) +
+                                   " dimensions: device and reference differ");
+    }
+}
+
+void add_dimension(const Options& options, const Context& context, std::uint32_t dimension,
+                   Table& table) {
+    BoxParams box;
+    box.extents.assign(dimension, 1.0);
+    box.is_periodic = !options.is_open;
+    box.seed = options.common.seed;
+    box.min_distance = distance_for_count(box, tools::parse_count("--count", options.count));
+    const auto trials =
+        static_cast<std::uint32_t>(tools::parse_ratio("--trials", options.trials, 1, 1000));
+    BoxRunner runner = tools::take(
+        BoxRunner::create(context.device(), context.queue(), dimension, kept_options(context)));
+    check_equal(run_device(runner, box), box);
+    Speed device, reference, around;
+    for (int i = 0; i < options.common.repeats; ++i, ++box.seed) {
+        const BoxSampleSet set = run_device(runner, box);
+        device.samples = static_cast<double>(set.candidates.size());
+        device.seconds.push_back(set.report.seconds.sample);
+        add_run(reference, [&] {
+            return ref::throw_darts(ref::BoxPool<double>(box, set.report.candidates)).size();
+        });
+        add_run(around, [&] {
+            return ref::throw_around_samples({box.extents, box.is_periodic}, box.min_distance,
+                                             trials, box.seed)
+                       .size() /
+                   dimension;
+        });
+    }
+    table.add({std::to_string(dimension), tools::rounded(box.min_distance, 6),
+               fixed(device.samples, 0), fixed(device.per_second() / 1e6, 3),
+               fixed(reference.per_second() / 1e6, 3), fixed(around.samples, 0),
+               fixed(around.per_second() / 1e6, 3), kPrintedSpeeds[dimension]});
+}
+
+void run(const Options& options) {
+    Outputs outputs(options.common.out, "boxes");
+    const std::vector<double> dimensions = options.dimensions.ratios(1, kMostBoxDimensions);
+    tools::parse_count("--count", options.count); // Fails before a device is needed.
+    const Context context = open_context(options.device);
+    Table table({"n", "distance", "samples", "device M/s", "sequential M/s", "around: samples",
+                 "M/s", "paper M/s"});
+    for (const double dimension : dimensions) {
+        add_dimension(options, context, static_cast<std::uint32_t>(dimension), table);
+    }
+    const std::string kind = options.is_open ? "open" : "periodic";
+    std::cout << "Unit boxes of n dimensions, " << kind << ", millions of samples per second on "
+              << tools::one_line(context.report().name) << ", medians of " << options.common.repeats
+              << " runs\n\n"
+              << table.text()
+              << "\nSequential returns the device's samples, on one core in double precision."
+                 "\nAround throws "
+              << options.trials
+              << " darts around samples (Bridson 2007), on one core as well."
+                 "\nThe paper's device is a GTX 580 of 2010.\n";
+    outputs.add_table(table, {"device " + context.report().name, "count " + options.count,
+                              kind + " unit boxes, " + options.trials + " trials",
+                              "repeats " + std::to_string(options.common.repeats) + " from seed " +
+                                  std::to_string(options.common.seed)});
+    outputs.write();
+}
+
+} // namespace
+
+void add_boxes(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    options->common.repeats = 5;
+    CLI::App* const command = app.add_subcommand(
+        "boxes", "Sections 5.9 and 6: speed in boxes of R^n, on a device and sequentially");
+    command->add_option("-n,--count", options->count, "Samples to aim at")
+        ->type_name("N")
+        ->capture_default_str();
+    add_list(*command, options->dimensions, "--dims", "Dimensions, 1 to 6");
+    command->add_flag("--open", options->is_open, "Boxes that are not periodic");
+    command
+        ->add_option("--trials", options->trials,
+                     "Darts around a sample before it retires, 1 to 1000")
+        ->type_name("K")
+        ->capture_default_str();
+    add_device(*command, options->device);
+    add_common_options(*command, options->common);
+    command->callback([options] { run(*options); });
+}
+
+} // namespace geodisk::paper
