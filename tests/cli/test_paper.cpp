@@ -100,6 +100,12 @@ TEST_CASE("fig14 approaches the maximal density") {
     CHECK_FALSE(contains(outcome.out, "0.7791"));
 }
 
+TEST_CASE("boxes has a row for each dimension") {
+    const Outcome outcome = check_figure(
+        "boxes", {}, 3, {"boxes", "-n", "200", "--dims", "1,3,6", "--repeats", "1", "--open"});
+    CHECK(contains(outcome.out, "1.5"));
+}
+
 TEST_CASE("the paper's figures explain their failures") {
     const TemporaryFolder folder;
     check_fails(folder, 2, "subcommand", {}, paper());
@@ -107,6 +113,7 @@ TEST_CASE("the paper's figures explain their failures") {
     check_fails(folder, 2, "--count", {"fig8", "builtin:cube", "-n", "few"}, paper());
     check_fails(folder, 2, "--distances", {"fig7", "--distances", "0"}, paper());
     check_fails(folder, 2, "--ratios", {"fig14", "--ratios", "0.5"}, paper());
+    check_fails(folder, 2, "--dims", {"boxes", "--dims", "7"}, paper());
     check_fails(folder, 3, "missing.obj", {"fig13", "missing.obj"}, paper());
     check_fails(folder, 4, "cannot write", {"fig14", "--out", "none"}, paper());
     check_fails(folder, 5, "none of them", {"fig5", "builtin:cube", "--device", "none of them"},

@@ -1,7 +1,9 @@
 #include "device_run.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "engine/box_source.hpp"
 #include "engine/plan.hpp"
 #include "vk/barriers.hpp"
 
@@ -20,30 +22,46 @@ Context& shared_context() {
     return context;
 }
 
-DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
-                     const SamplerOptions& options, const Context& context)
+DeviceRun::DeviceRun(Sampler sampler, const Context& context)
     : device_(context.device()), vk_(expect(load_device_table(device_))),
-      sampler_(expect(Sampler::create(device_, options))) {
+      sampler_(std::move(sampler)) {
     submitter_.emplace(
         expect(Submitter::create(device_, vk_, context.queue(), std::chrono::seconds(300))));
     const auto instance =
         expect(load_instance_table(device_.get_instance_proc_addr, device_.instance));
     instance.vkGetPhysicalDeviceMemoryProperties(device_.physical_device, &memory_);
-    RunPlan used = expect(sampler_->plan_run(mesh, params, std::uint64_t{64} << 20));
-    used = overridden(used, plan);
-    const WorkspaceNeeds needs = expect(sampler_->workspace_needs(mesh, params, used));
+}
+
+DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
+                     const SamplerOptions& options, const Context& context)
+    : DeviceRun(expect(Sampler::create(context.device(), options)), context) {
+    open(SurfaceSource(*sampler_, mesh, params), plan);
+}
+
+DeviceRun::DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOptions& options,
+                     const Context& context)
+    : DeviceRun(expect(Sampler::Impl::create_for(Domain::box,
+                                                 static_cast<std::uint32_t>(box.extents.size()),
+                                                 context.device(), options)),
+                context) {
+    open(BoxSource(Sampler::Impl::of(*sampler_), box, expect(pool_size(box))), plan);
+}
+
+void DeviceRun::open(const RunSource& source, const RunPlan& plan) {
+    const RunPlan used = overridden(expect(source.plan(std::uint64_t{64} << 20)), plan);
+    const WorkspaceNeeds needs = expect(source.needs(used));
     Workspace workspace;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs.bytes[i] == 0) {
+            continue;
+        }
         buffers_[i] = expect(DeviceBuffer::create(device_, vk_, memory_, needs.bytes[i],
                                                   kWorkspaceUsage, MemoryKind::host));
         workspace[i] = {buffers_[i].handle(), 0, buffers_[i].size()};
+        const auto bytes = expect(source.bytes(static_cast<BufferRole>(i)));
+        std::copy(bytes.begin(), bytes.end(), buffers_[i].bytes().begin());
     }
-    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::alias}) {
-        const auto bytes = buffers_[static_cast<std::size_t>(role)].bytes();
-        expect(sampler_->mesh_bytes(mesh, params, role,
-                                    bytes.first(sampler_->mesh_bytes_size(mesh, role))));
-    }
-    job_.emplace(expect(sampler_->make_job(mesh, params, used, workspace)));
+    job_.emplace(expect(source.make_job(used, workspace)));
 }
 
 void DeviceRun::begin() {

@@ -7,9 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include <geodisk/box.hpp>
 #include <geodisk/context.hpp>
 #include <geodisk/sampler.hpp>
 
+#include "engine/runner_impl.hpp"
 #include "engine/submitter.hpp"
 #include "records.h"
 #include "vk/buffer.hpp"
@@ -34,6 +36,9 @@ class DeviceRun {
     /// the run.
     DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan = {},
               const SamplerOptions& options = {}, const Context& context = shared_context());
+    /// The same in a box.
+    DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOptions& options = {},
+              const Context& context = shared_context());
 
     void set_chunk(std::uint32_t first, std::uint32_t count) {
         expect(job_->set_chunk(first, count));
@@ -62,6 +67,9 @@ class DeviceRun {
     }
 
   private:
+    DeviceRun(Sampler sampler, const Context& context);
+    void open(const RunSource& source, const RunPlan& plan);
+
     DeviceRefs device_;
     DeviceTable vk_;
     std::optional<Sampler> sampler_;

@@ -116,7 +116,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 22);
+        CHECK(controls == 26);
     }
 
     TEST_CASE("no kernel binds more than eight storage buffers") {

@@ -1,0 +1,184 @@
+// `geodisk box`: files, reports and what it refuses.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+Arguments box(const std::string& output, const Arguments& options) {
+    Arguments arguments{"box", "-o", output};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return arguments;
+}
+
+std::string boxed(const TemporaryFolder& folder, const std::string& output,
+                  const Arguments& options) {
+    const Outcome outcome = run(folder, box(output, options));
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return bytes_of(folder / output);
+}
+
+/// The numbers of each line, comments and column names left out.
+std::vector<std::vector<double>> rows_of(const std::string& bytes) {
+    std::vector<std::vector<double>> rows;
+    for (std::string line : lines_of(bytes)) {
+        if (line.empty() || !(line[0] >= '0' && line[0] <= '9')) {
+            continue;
+        }
+        std::replace(line.begin(), line.end(), ',', ' ');
+        std::istringstream in(line);
+        rows.emplace_back();
+        for (double value = 0; in >> value;) {
+            rows.back().push_back(value);
+        }
+    }
+    return rows;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b,
+                const std::vector<double>& sides, bool is_periodic) {
+    double sum = 0;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        const double d = std::abs(a[i] - b[i]);
+        const double way = is_periodic ? std::min(d, sides[i] - d) : d;
+        sum += way * way;
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace
+
+TEST_CASE("box: samples keep their distance in every dimension") {
+    const TemporaryFolder folder;
+    for (std::size_t n = 1; n <= 6; ++n) {
+        for (const bool is_periodic : {false, true}) {
+            CAPTURE(n);
+            Arguments options{"--dim", std::to_string(n), "-d", "0.3", "--seed", "5"};
+            if (is_periodic) {
+                options.push_back("--periodic");
+            }
+            const auto rows = rows_of(boxed(folder, "a.csv", options));
+            REQUIRE(rows.size() > 1);
+            double smallest = 1e9;
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                REQUIRE(rows[i].size() == n + 1);
+                for (std::size_t k = 0; k < i; ++k) {
+                    smallest = std::min(smallest, distance(rows[i], rows[k],
+                                                           std::vector<double>(n, 1), is_periodic));
+                }
+            }
+            CHECK(smallest >= 0.3);
+            CHECK(smallest < 0.5);
+        }
+    }
+}
+
+TEST_CASE("box: all formats hold the same samples") {
+    const TemporaryFolder folder;
+    const Arguments options{"--extents", "2,0.5", "-d", "0.1"};
+    const std::string csv = boxed(folder, "a.csv", options);
+    CHECK(contains(csv, "\nx,y,candidate\n"));
+    for (const char* const line : {"# box: 2 x 0.5\n", "# sides: open\n", "# min_distance: 0.1\n",
+                                   "# seed: 0\n", "# pool_size: ", "# device: "}) {
+        CHECK(contains(csv, line));
+    }
+    const auto rows = rows_of(csv);
+    const auto lines = rows_of(boxed(folder, "a.xyz", options));
+    Arguments as_text = options;
+    as_text.push_back("--ascii");
+    const std::string ascii = boxed(folder, "b.ply", as_text);
+    CHECK(contains(ascii, "property double x\nproperty double y\nproperty double z\n"
+                          "property uint candidate\nend_header\n"));
+    const auto text_rows = rows_of(ascii);
+    const std::string binary = boxed(folder, "a.ply", options);
+    const std::size_t header = binary.find("end_header\n") + 11;
+    CHECK(binary.size() == header + rows.size() * (3 * 8 + 4));
+    REQUIRE(lines.size() == rows.size());
+    REQUIRE(text_rows.size() == rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        CHECK(lines[i] == std::vector<double>{rows[i][0], rows[i][1], 0});
+        CHECK(text_rows[i] == std::vector<double>{rows[i][0], rows[i][1], 0, rows[i][2]});
+    }
+    CHECK(contains(boxed(folder, "c.csv", {"--dim", "5", "-n", "9"}),
+                   "\nx0,x1,x2,x3,x4,candidate\n"));
+    CHECK(contains(boxed(folder, "c.ply", {"--dim", "4", "-n", "9"}),
+                   "property double z\nproperty double x0\n"));
+}
+
+TEST_CASE("box: the count is about what was asked for, the seed repeats it") {
+    const TemporaryFolder folder;
+    const Arguments options{"--dim", "3", "--count", "1000", "--seed", "3"};
+    const std::string first = boxed(folder, "a.csv", options);
+    CHECK(std::abs(static_cast<double>(rows_of(first).size()) - 1000) < 50);
+    CHECK(boxed(folder, "b.csv", options) == first);
+    Arguments small = options;
+    small.insert(small.end(), {"--memory", "64K"});
+    CHECK(boxed(folder, "b.csv", small) == first);
+    CHECK(boxed(folder, "b.csv", {"--dim", "3", "--count", "1000", "--seed", "4"}) != first);
+}
+
+TEST_CASE("box: reports for people and programs") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder, box("a.csv", {"--dim", "2", "-n", "500", "--periodic",
+                                                      "--json", "a.json", "--validate"}));
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK(contains(outcome.out, "box           1 x 1, periodic\n"));
+    CHECK(contains(outcome.out, " of about 500 asked for, disks fill 4"));
+    const auto report = nlohmann::json::parse(bytes_of(folder / "a.json"));
+    CHECK(report["box"] ==
+          nlohmann::json({{"dimension", 2}, {"extents", {1.0, 1.0}}, {"periodic", true}}));
+    CHECK(report["candidates"] == 10000);
+    CHECK(report["samples"] == rows_of(bytes_of(folder / "a.csv")).size());
+    CHECK(report["disks"] >= report["samples"]);
+    CHECK(report["guard"] == 0x1p-20);
+    const double distance = report["min_distance"];
+    const double samples = report["samples"];
+    CHECK(report["density"] ==
+          doctest::Approx(samples * 3.14159265358979 * distance * distance / 4));
+    const Outcome quiet = run(folder, box("a.csv", {"--dim", "1", "-n", "9", "--quiet"}));
+    CHECK(quiet.out.empty());
+}
+
+TEST_CASE("box: what cannot be done is explained") {
+    const TemporaryFolder folder;
+    check_fails(folder, 2, "no box given; give --dim, --extents or both",
+                box("a.csv", {"-n", "9"}));
+    for (const char* const dimension : {"0", "7", "2.5", "two"}) {
+        check_fails(folder, 2, "--dim", box("a.csv", {"-n", "9", "--dim", dimension}));
+    }
+    check_fails(folder, 2, "--dim 2 and the 3 sides of --extents contradict each other",
+                box("a.csv", {"-n", "9", "--dim", "2", "--extents", "1,1,1"}));
+    check_fails(folder, 2, "1 to 6 sides, not 7",
+                box("a.csv", {"-n", "9", "--extents", "1,1,1,1,1,1,1"}));
+    for (const char* const side : {"0", "-1", "nan", "inf", "wide"}) {
+        check_fails(folder, 2, "not a positive, finite length",
+                    box("a.csv", {"-n", "9", "--extents", std::string("1,") + side}));
+    }
+    check_fails(folder, 2, "no distance given", box("a.csv", {"--dim", "2"}));
+    check_fails(folder, 2, "contradict", box("a.csv", {"--dim", "2", "-n", "9", "-d", "1"}));
+    check_fails(folder, 2, "exceeds the shortest side of the periodic box, 1",
+                box("a.csv", {"--dim", "2", "-d", "1.5", "--periodic"}));
+    check_fails(folder, 2, "times as long", box("a.csv", {"--dim", "2", "-d", "1e-9"}));
+    check_fails(folder, 2, "candidates", box("a.csv", {"--dim", "4", "-d", "1e-4"}));
+    check_fails(folder, 2, "use .ply or .csv", box("a.xyz", {"--dim", "4", "-n", "9"}));
+    check_fails(folder, 2, "unknown sample format", box("a.txt", {"--dim", "2", "-n", "9"}));
+    check_fails(folder, 2, "would replace the samples",
+                box("a.csv", {"--dim", "2", "-n", "9", "--json", "a.csv"}));
+    check_fails(folder, 4, "", box("missing/a.csv", {"--dim", "2", "-n", "9"}));
+    check_fails(folder, 5, "no-such-device",
+                box("a.csv", {"--dim", "2", "-n", "9", "--device", "no-such-device"}));
+    check_fails(folder, 6, "--memory", box("a.csv", {"--dim", "2", "-n", "9", "--memory", "1"}));
+}
+
+} // namespace geodisk::test

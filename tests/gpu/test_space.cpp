@@ -1,0 +1,186 @@
+// Surfaces sampled by straight-line distance: sets against sequential dart throwing, with the
+// twin's grid and by brute force over double coordinates.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <geodisk/space.hpp>
+
+#include "baselines/space_disks.hpp"
+#include "device_run.hpp"
+#include "kernels/candidates.hpp"
+#include "kernels/space.hpp"
+#include "sets.hpp"
+#include "support/meshes.hpp"
+
+namespace geodisk::test {
+namespace {
+
+SampleSet sample_space(const TestMesh& mesh, const SampleParams& params, Metric metric,
+                       const RunnerOptions& options = {},
+                       const Context& context = shared_context()) {
+    SpaceRunner runner =
+        expect(SpaceRunner::create(context.device(), context.queue(), metric, options));
+    return expect(runner.sample_and_wait(mesh.view(), prepared(mesh), params));
+}
+
+std::vector<std::uint32_t> twin_set(const TestMesh& mesh, const SampleParams& params,
+                                    Metric metric) {
+    const ref::SpacePoints points = ref::draw_in_space(mesh.view(), prepared(mesh), params);
+    ref::BoxPool<float> pool(points.box, points.by_rank, points.guard);
+    if (metric == Metric::approximate) {
+        pool.normals = points.normals;
+    }
+    return ref::throw_darts(pool);
+}
+
+/// Every candidate against all samples before it.
+std::vector<std::uint32_t> plain_set(const TestMesh& mesh, const SampleParams& params,
+                                     double guard) {
+    const PreparedMesh surface = prepared(mesh);
+    const auto candidates = ref::draw_candidates<double>(surface.alias_columns(), params.seed,
+                                                         expect(pool_size(surface, params)));
+    const double limit = params.min_distance * (1 + guard);
+    std::vector<std::uint32_t> ranks;
+    std::vector<Vec3> samples;
+    for (std::uint32_t rank = 0; rank < candidates.size(); ++rank) {
+        const Vec3 at = mesh.position(
+            {candidates[rank].face, candidates[rank].weight1, candidates[rank].weight2});
+        bool is_free = true;
+        for (std::size_t i = 0; i < samples.size() && is_free; ++i) {
+            is_free = tools::length(samples[i] - at) >= limit;
+        }
+        if (is_free) {
+            ranks.push_back(rank);
+            samples.push_back(at);
+        }
+    }
+    return ranks;
+}
+
+void check_sets(const TestMesh& mesh, double count) {
+    const SampleParams params = params_for(prepared(mesh), count);
+    const SampleSet set = sample_space(mesh, params, Metric::euclidean);
+    CHECK(ranks_of(set) == twin_set(mesh, params, Metric::euclidean));
+    CHECK(ranks_of(set) == plain_set(mesh, params, set.report.guard));
+    const SampleSet curved = sample_space(mesh, params, Metric::approximate);
+    CHECK(ranks_of(curved) == twin_set(mesh, params, Metric::approximate));
+}
+
+} // namespace
+
+TEST_SUITE("space") {
+    TEST_CASE("sets equal sequential dart throwing by straight-line distance") {
+        const std::pair<const char*, int> shapes[] = {
+            {"cube", 1},     {"icosphere", 4}, {"torus-knot", 12}, {"folded-sheet", 16},
+            {"terrain", 48}, {"moebius", 8},   {"plate", 8}};
+        for (const auto& [name, resolution] : shapes) {
+            CAPTURE(name);
+            for (const double count : {1.0, 30.0, 1500.0}) {
+                CAPTURE(count);
+                check_sets(builtin(name, resolution), count);
+            }
+        }
+    }
+
+    TEST_CASE("a surface far from the origin, and a flat one") {
+        TestMesh far = builtin("icosphere", 3);
+        for (double& x : far.positions) {
+            x += 1e7;
+        }
+        check_sets(far, 300);
+        check_sets(builtin("unfolded-sheet", 8), 500);
+    }
+
+    TEST_CASE("the folded sheet loses samples that geodesic distance keeps") {
+        const TestMesh mesh = builtin("folded-sheet", 16);
+        SampleParams params = params_for(prepared(mesh), 1000);
+        const SampleSet straight = sample_space(mesh, params, Metric::euclidean);
+        const SampleSet geodesic = sample(prepared(mesh), params);
+        CHECK(straight.report.candidates == geodesic.report.candidates);
+        CHECK(straight.samples.size() < geodesic.samples.size());
+        // Faces and weights are those of the same candidates.
+        CHECK(straight.samples[0].candidate == 0);
+        CHECK(straight.samples[0].face == geodesic.samples[0].face);
+        CHECK(straight.samples[0].weights[1] == geodesic.samples[0].weights[1]);
+    }
+
+    // The reference of the baselines: double precision, and asin of the C library.
+    TEST_CASE("approximate samples keep their distance by the closed form, and leave no gap") {
+        constexpr double kRounding = 1e-4;
+        const TestMesh mesh = builtin("torus-knot", 16);
+        const PreparedMesh surface = prepared(mesh);
+        const SampleParams params = params_for(surface, 300);
+        const auto set = ranks_of(sample_space(mesh, params, Metric::approximate));
+        const auto points = ref::oriented_points(
+            mesh.view(), ref::draw_candidates<double>(surface.alias_columns(), params.seed,
+                                                      expect(pool_size(surface, params))));
+        const auto length = [&](std::uint32_t a, std::uint32_t b) {
+            return ref::curve_length(points[a], points[b]) / params.min_distance;
+        };
+        std::uint32_t too_close = 0, free = 0;
+        for (std::uint32_t rank = 0; rank < points.size(); ++rank) {
+            double nearest = 1e9;
+            for (std::size_t i = 0; i < set.size() && set[i] < rank; ++i) {
+                nearest = std::min(nearest, length(set[i], rank));
+            }
+            const bool is_sample = std::binary_search(set.begin(), set.end(), rank);
+            too_close += is_sample && nearest < 1 - kRounding;
+            free += !is_sample && nearest > 1 + kRounding;
+        }
+        CHECK(too_close == 0);
+        CHECK(free == 0);
+    }
+
+    TEST_CASE("no tuning changes the set, and lists grow") {
+        const TestMesh mesh = builtin("torus-knot", 16);
+        const SampleParams params = params_for(prepared(mesh), 500);
+        const auto want = twin_set(mesh, params, Metric::approximate);
+        for (const Reads reads : {Reads::storage, Reads::texels}) {
+            RunnerOptions options;
+            options.sampler.tuning.reads = reads;
+            options.sampler.rounding = Rounding::emulated;
+            options.plan.slots = 7;
+            options.plan.list_capacity = 4;
+            options.plan.step_budget = 5;
+            const SampleSet set = sample_space(mesh, params, Metric::approximate, options);
+            CHECK(ranks_of(set) == want);
+            CHECK(set.report.regrown > 0);
+        }
+    }
+
+    TEST_CASE("what has no straight-line distance is refused") {
+        Context& context = shared_context();
+        SpaceRunner runner =
+            expect(SpaceRunner::create(context.device(), context.queue(), Metric::euclidean));
+        const TestMesh cube = builtin("cube", 1);
+        const TestMesh ball = builtin("icosphere", 1);
+        const PreparedMesh mesh = prepared(cube);
+        const SampleParams params = params_for(mesh, 100);
+        CHECK(!runner.sample_and_wait(ball.view(), mesh, params));
+        CHECK(!runner.sample_and_wait({cube.positions, cube.triangles, 4}, mesh, params));
+        SampleParams none;
+        CHECK(!runner.sample_and_wait(cube.view(), mesh, none));
+        CHECK(runner.sample_and_wait(cube.view(), mesh, params));
+    }
+
+    TEST_CASE("the validation layer has nothing to say about a run in space") {
+        ContextOptions options;
+        options.validation = true;
+        Context context = expect(Context::create(options));
+        const TestMesh mesh = builtin("torus-knot", 8);
+        const SampleParams params = params_for(prepared(mesh), 200);
+        for (const Reads reads : {Reads::storage, Reads::texels}) {
+            RunnerOptions run;
+            run.sampler.tuning.reads = reads;
+            for (const Metric metric : {Metric::euclidean, Metric::approximate}) {
+                CHECK(ranks_of(sample_space(mesh, params, metric, run, context)) ==
+                      twin_set(mesh, params, metric));
+            }
+        }
+        CHECK(context.validation_message_count() == 0);
+    }
+}
+
+} // namespace geodisk::test
