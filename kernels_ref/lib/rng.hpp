@@ -6,9 +6,10 @@
 
 namespace geodisk::ref {
 
-/// Four independent 32-bit words, a pure function of seed and index.
-inline std::array<std::uint32_t, 4> philox(std::uint64_t seed, std::uint32_t index) {
-    std::array<std::uint32_t, 4> c{index, 0, 0, 0};
+/// Four independent 32-bit words, a pure function of seed and indices.
+inline std::array<std::uint32_t, 4> philox(std::uint64_t seed, std::uint32_t index,
+                                           std::uint32_t second = 0) {
+    std::array<std::uint32_t, 4> c{index, second, 0, 0};
     auto key0 = static_cast<std::uint32_t>(seed);
     auto key1 = static_cast<std::uint32_t>(seed >> 32);
     for (int round = 0; round < 10; ++round) {

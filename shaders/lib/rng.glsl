@@ -2,8 +2,8 @@
 #ifndef GEODISK_RNG_GLSL
 #define GEODISK_RNG_GLSL
 
-uvec4 philox(uvec2 key, uint index) {
-    uvec4 c = uvec4(index, 0u, 0u, 0u);
+uvec4 philox(uvec2 key, uvec2 index) {
+    uvec4 c = uvec4(index, 0u, 0u);
     for (int round = 0; round < 10; ++round) {
         uint high0, low0, high1, low1;
         umulExtended(0xD2511F53u, c.x, high0, low0);

@@ -9,7 +9,8 @@ GEODISK_BEGIN_SHARED
 
 GEODISK_CONST uint kBindFaces = 0u;      // per face three rows of HalfEdgeRec and one of FaceLinksRec
 GEODISK_CONST uint kBindFans = 1u;       // a row of FanRec per vertex; then the fans' corners, pairs of
-                                         // half-edge and angles; then the angles by half-edge
+                                         // half-edge and angles; then the angles by half-edge;
+                                         // where radii vary, RadiiRec per face
 GEODISK_CONST uint kBindAlias = 2u;      // AliasRec per face
 GEODISK_CONST uint kBindCells = 3u;      // the place where each cell's candidates start, and one past
                                          // the last

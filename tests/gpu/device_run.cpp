@@ -8,6 +8,11 @@
 namespace geodisk::test {
 namespace {
 
+SamplerOptions options_for(SamplerOptions options, const SampleParams& params) {
+    options.adaptive = params.radii != nullptr;
+    return options;
+}
+
 void barrier_to_host(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                    VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
@@ -23,7 +28,7 @@ Context& shared_context() {
 DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
                      const SamplerOptions& options, const Context& context)
     : device_(context.device()), vk_(expect(load_device_table(device_))),
-      sampler_(expect(Sampler::create(device_, options))) {
+      sampler_(expect(Sampler::create(device_, options_for(options, params)))) {
     submitter_.emplace(
         expect(Submitter::create(device_, vk_, context.queue(), std::chrono::seconds(300))));
     const auto instance =

@@ -257,7 +257,7 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         job->sampler = impl_.get();
         job->workspace = workspace;
         job->most_slots = plan.slots;
-        const Tolerances tolerances = tolerances_for(mesh, params.min_distance, plan.chain);
+        const Tolerances tolerances = tolerances_for(mesh, params, plan.chain);
         gpu::Push& push = job->push;
         job->most_candidates = std::min(plan.chunk, *pool_size(mesh, params));
         push.candidates = job->most_candidates;

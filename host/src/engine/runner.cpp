@@ -186,7 +186,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     slots_ = plan->slots;
     lanes_ = plan->lanes;
     candidates_ = *pool_size(mesh_, params_);
-    report_.guard = tolerances_for(mesh_, params_.min_distance, plan->chain).guard;
+    report_.guard = tolerances_for(mesh_, params_, plan->chain).guard;
     return Done{};
 }
 

@@ -20,6 +20,7 @@ struct Sampler::Impl {
     bool native_rounding = false;
     std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
     bool count_calls = false;
+    bool adaptive = false;
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
@@ -31,6 +32,8 @@ struct Sampler::Impl {
     bool reads_texels() const { return tuning.reads == Reads::texels; }
     /// Dispatches of count_calls per round: as for resolve, the next round goes on.
     std::uint32_t count_passes() const { return count_calls ? 2 : 0; }
+    /// Whether the kernels are those for the radii of a run.
+    Result<Done> check_radii(const SampleParams& params) const;
     Result<Done> create_pipelines();
     Result<Done> create_pipeline(Kernel kernel);
 };
