@@ -67,6 +67,7 @@ struct Layout {
     std::uint32_t dimension;
     bool has_xyz; ///< The first three coordinates by these names.
     bool has_float_positions;
+    bool has_radius;
 
     bool has_numbered() const { return dimension > 3; }
     bool has_normals() const { return dimension == 3; }
@@ -98,6 +99,9 @@ std::vector<Column> columns_of(const Layout& layout) {
     add(SampleColumn::face_index, SampleColumn::face_index, "int");
     add(SampleColumn::bary_u, SampleColumn::bary_w, "float");
     add(SampleColumn::candidate, SampleColumn::candidate, "uint");
+    if (layout.has_radius) {
+        add(SampleColumn::radius, SampleColumn::radius, "double");
+    }
     return columns;
 }
 
@@ -144,6 +148,9 @@ void for_each_value(const SampleRow& row, const Layout& layout, const Append& ap
         append(weight);
     }
     append(row.candidate);
+    if (layout.has_radius) {
+        append(row.radius);
+    }
 }
 
 void append_text_row(std::string& line, const SampleRow& row, const Layout& layout,
@@ -157,7 +164,8 @@ void append_text_row(std::string& line, const SampleRow& row, const Layout& layo
 
 void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                bool ascii, std::uint32_t dimension) {
-    const Layout layout{dimension, dimension >= 3, float_is_enough(rows, dimension)};
+    const Layout layout{dimension, dimension >= 3, float_is_enough(rows, dimension),
+                        has_radii(rows)};
     write_ply_header(file, header, rows.size(), ascii, layout);
     std::string record;
     for (const SampleRow& row : rows) {
@@ -173,7 +181,7 @@ void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const Sam
 
 void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                std::uint32_t dimension) {
-    const Layout layout{dimension, dimension == 3, false};
+    const Layout layout{dimension, dimension == 3, false, has_radii(rows)};
     write_entries(file, header, "# ");
     std::string line;
     for (const Column& column : columns_of(layout)) {

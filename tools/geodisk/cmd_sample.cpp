@@ -41,6 +41,7 @@ constexpr double kDartsPerSample = 1000;
 /// As given on the command line.
 struct SampleOptions {
     MeshOptions mesh;
+    DensityOptions density;
     std::string output, json, device;
     std::string min_distance, radius, count, throws;
     std::string method = "psdp", seed = "0", pool_ratio = "20", memory = "256M";
@@ -58,12 +59,15 @@ struct SampleRequest {
 
     /// The parameters on a mesh. Where a count alone is to stop the darts, they end at a number
     /// that leaves hardly any gap.
-    SampleParams params_on(const MeshStatistics& mesh) const {
+    SampleParams params_on(const MeshInput& mesh) const {
         SampleParams on_mesh = params;
-        on_mesh.min_distance = min_distance ? distance_on_mesh(*min_distance, mesh)
-                                            : distance_for_count(mesh.area, count);
+        on_mesh.radii = mesh.radii ? &*mesh.radii : nullptr;
+        const double area = effective_area(mesh.prepared, on_mesh);
+        on_mesh.min_distance = min_distance
+                                   ? distance_on_mesh(*min_distance, mesh.prepared.statistics())
+                                   : distance_for_count(area, count);
         if (params.stop_count != 0 && params.throws == 0) {
-            const double room = std::max(1.0, expected_count(mesh.area, on_mesh.min_distance));
+            const double room = std::max(1.0, expected_count(area, on_mesh.min_distance));
             on_mesh.throws = static_cast<std::uint32_t>(
                 std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * room)));
         }
@@ -162,6 +166,9 @@ void check_outputs(const SampleOptions& options) {
     for (const std::string& file : options.mesh.files()) {
         read.push_back({"the mesh", file});
     }
+    for (const std::string& file : options.density.files()) {
+        read.push_back({"the density", file});
+    }
     check_distinct({{"the samples", options.output}, {"the report", options.json}}, read);
     check_output_path(options.output);
     check_report_path(options.json);
@@ -178,7 +185,8 @@ auto timed(double& seconds, const Work& work) {
 
 SampleSet run_sampler(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
                       ProgressLine& progress) {
-    double expected = std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
+    double expected =
+        std::max(1.0, expected_count(effective_area(mesh, params), params.min_distance));
     if (params.stop_count != 0) {
         expected = std::min<double>(expected, params.stop_count);
     }
@@ -226,6 +234,7 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     check_interrupted();
     progress.begin_stage("compiling the shaders");
     RunnerOptions tuned = runner_options;
+    tuned.sampler.adaptive = report.params.radii != nullptr;
     tuned.sampler.tuning = load_tuning(report.device).value_or(Tuning());
     tuned.sampler.count_calls = !options.json.empty();
     Runner runner = timed(report.seconds.pipelines, [&] {
@@ -237,7 +246,7 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     check_validation(context);
     report.run = set.report;
     report.samples = set.samples.size();
-    report.rho = packing_density(report.mesh.area, report.params.min_distance,
+    report.rho = packing_density(effective_area(mesh, report.params), report.params.min_distance,
                                  static_cast<double>(set.samples.size()));
     return std::move(set.samples);
 }
@@ -255,7 +264,8 @@ void check_count(const SampleRequest& request, const SampleReport& report) {
     }
 }
 
-std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>& samples) {
+std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
+                               const std::vector<Sample>& samples) {
     std::vector<SampleRow> rows;
     rows.reserve(samples.size());
     for (const Sample& sample : samples) {
@@ -264,6 +274,7 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>&
         std::copy_n(sample.weights, 3, row.bary);
         row.candidate = sample.candidate;
         mesh.place(row);
+        row.radius = mesh.radius(sample.face, sample.weights, min_distance);
         rows.push_back(row);
     }
     return rows;
@@ -294,16 +305,19 @@ void run_sample(const SampleOptions& options) {
     const SampleRequest request = parse_request(options);
     check_outputs(options);
     ProgressLine progress(options.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress);
+    const MeshInput mesh = load_mesh(options.mesh, progress, options.density);
     check_dimension(options.output, mesh.dimension());
 
     SampleReport report;
     report.mesh_path = options.mesh.mesh;
     report.mesh_additions = options.mesh.additions();
+    for (const auto& addition : options.density.additions()) {
+        report.mesh_additions.push_back(addition);
+    }
     report.output_path = options.output;
     report.mesh = mesh.prepared.statistics();
     report.throws_darts = options.throws_darts();
-    report.params = request.params_on(report.mesh);
+    report.params = request.params_on(mesh);
     report.wanted_count = request.count;
     report.seconds.load = mesh.load_seconds;
     report.seconds.prepare = mesh.prepare_seconds;
@@ -312,7 +326,9 @@ void run_sample(const SampleOptions& options) {
     const std::vector<Sample> samples =
         sample_on_device(options, request.runner, mesh.prepared, report, progress);
     check_count(request, report);
-    write_outputs(options, to_rows(mesh, samples), mesh.dimension(), report, progress);
+    const std::vector<SampleRow> rows = to_rows(mesh, report.params.min_distance, samples);
+    report.set_radii(rows);
+    write_outputs(options, rows, mesh.dimension(), report, progress);
 }
 
 } // namespace
@@ -335,7 +351,9 @@ void add_sample_command(CLI::App& app) {
                      "or with % of the bounding-box diagonal")
         ->type_name("D")
         ->group(distance);
-    command->add_option("-r,--radius", options->radius, "Half the least distance")
+    command
+        ->add_option("-r,--radius", options->radius,
+                     "Half the least distance; where radii vary, the largest")
         ->type_name("R")
         ->group(distance);
     command
@@ -346,6 +364,7 @@ void add_sample_command(CLI::App& app) {
         ->group(distance);
 
     add_mesh_options(*command, options->mesh);
+    add_density_options(*command, options->density);
 
     const char* const method = "Method";
     command
