@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "constants.h"
-
 namespace geodisk::ref {
 namespace {
 
-constexpr std::uint32_t kCells = gpu::kCellsPerDistance;
-
 template <class Real>
-std::uint32_t cell_index(Real x, std::uint32_t count) {
-    const Real scaled = x * static_cast<Real>(kCells);
+std::uint32_t cell_index(Real x, std::uint32_t count, Real per_unit) {
+    const Real scaled = x * per_unit;
     return scaled <= 0 ? 0 : std::min(static_cast<std::uint32_t>(scaled), count - 1);
 }
 
@@ -22,7 +18,9 @@ std::uint32_t cell_of(const Surface<Real>& surface, const Grid& grid, FacePoint<
         return 0;
     }
     const auto at = position_in(surface, grid.base, point);
-    return cell_index(at.y, grid.rows) * grid.columns + cell_index(at.x, grid.columns);
+    const Real per_unit = surface.cells_per_unit(point.face);
+    return cell_index(at.y, grid.rows, per_unit) * grid.columns +
+           cell_index(at.x, grid.columns, per_unit);
 }
 
 } // namespace
@@ -34,8 +32,9 @@ Grid face_grid(const Surface<Real>& surface, std::uint32_t face) {
         base = surface.edges[h].length > surface.edges[base].length ? h : base;
     }
     const Edge<Real>& edge = surface.edges[base];
-    const auto count = [](Real extent) {
-        return static_cast<std::uint32_t>(extent * static_cast<Real>(kCells)) + 1;
+    const Real per_unit = surface.cells_per_unit(face);
+    const auto count = [per_unit](Real extent) {
+        return static_cast<std::uint32_t>(extent * per_unit) + 1;
     };
     return {count(edge.length), count(edge.apex_y), base};
 }

@@ -9,8 +9,9 @@
 
 namespace geodisk::ref {
 
-/// Square cells of half the minimum distance over a face, in the frame of its longest edge. A face
-/// whose longest edge is shorter than a cell has just one.
+/// Square cells over a face, Surface::cells_per_unit() to the unit (two to the minimum distance where
+/// radii do not vary), in the frame of its longest edge. A face whose longest edge is shorter than a
+/// cell has just one.
 struct Grid {
     std::uint32_t columns, rows;
     std::uint32_t base; ///< Half-edge whose frame the grid lies in.

@@ -38,7 +38,8 @@ inline Tolerances double_tolerances() {
 template <class Real>
 class Detector {
   public:
-    /// Both arguments must outlive the detector.
+    /// Surface and bins must outlive the detector. Where radii vary, two points are near when their
+    /// distance is below the sum of their radii and `limit` - 1, else when it is below `limit`.
     Detector(const Surface<Real>& surface, const Bins<Real>& bins, const Tolerances& tolerances,
              Real limit)
         : surface_(surface), bins_(bins), limit_(limit), margin_(tolerances.margin),
@@ -49,11 +50,15 @@ class Detector {
         }
     }
 
-    /// Calls `hit(place, distance)` for every place of `bins` with `wanted(place)` whose geodesic
-    /// distance from `source` is below the limit, once for each path found.
+    /// Another limit for the disks from now on.
+    void set_limit(Real limit) { limit_ = limit; }
+
+    /// Calls `hit(place, distance)` for every place of `bins` with `wanted(place)` that is near
+    /// `source`, once for each path found.
     template <class Wanted, class Hit>
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
         begin();
+        own_radius_ = surface_.is_adaptive() ? surface_.radius_at(source) : Real{0};
         spread_from_source(source, wanted, hit);
         // Windows first, the last one first, then the oldest event: a vertex then mostly has its
         // final distance before its fan is lit.
@@ -104,6 +109,19 @@ class Detector {
         count_ = {};
     }
 
+    /// The distance below which a point of this radius is near the source.
+    Real limit_with(Real radius) const { return (own_radius_ + radius) + (limit_ - Real{1}); }
+
+    /// Beyond this distance no path through the face leads on to a point near the source.
+    Real reach_through(std::uint32_t face) const {
+        return surface_.is_adaptive() ? limit_with(surface_.radii[face].bound) : limit_;
+    }
+
+    /// Nor, beyond this one, to a point of the face.
+    Real reach_into(std::uint32_t face) const {
+        return surface_.is_adaptive() ? limit_with(surface_.radii[face].largest()) : limit_;
+    }
+
     Real distance_at(std::uint32_t v) const {
         return vertices_[v].generation == generation_ ? vertices_[v].distance
                                                       : static_cast<Real>(kFar);
@@ -128,7 +146,7 @@ class Detector {
     /// A path of the given length ends at v, having come in through `corner`.
     void reach(std::uint32_t v, Real distance, std::uint32_t corner, std::uint32_t through,
                Real crossing, bool whole_fan, std::uint32_t chain) {
-        if (!(distance < distance_at(v)) || !(distance < limit_)) {
+        if (!(distance < distance_at(v)) || !(distance < reach_through(corner / 3))) {
             return;
         }
         count_.vertices += vertices_[v].generation != generation_;
@@ -168,7 +186,7 @@ class Detector {
         const Real distance = sigma + root(aside * aside + y * y);
         // Xin and Wang's filter by the two ends of the edge.
         const Real length = surface_.edges[e].length;
-        if (!(distance < limit_) || beats(start, b1, sigma, square(x - b1) + y * y) ||
+        if (!(distance < reach_through(e / 3)) || beats(start, b1, sigma, square(x - b1) + y * y) ||
             beats(end, length - b0, sigma, square(x - b0) + y * y)) {
             return {};
         }
@@ -408,7 +426,11 @@ class Detector {
         const std::uint32_t f = h / 3;
         const Grid& grid = grids_[f];
         const std::uint32_t first = bins_.first_cell[f];
-        const Real rest = limit_ - sigma;
+        const Real rest = reach_into(f) - sigma;
+        if (surface_.is_adaptive() && !(rest > 0)) {
+            return; // The disk ends before the face.
+        }
+        const Real rest2 = rest * rest;
         const auto scan_places = [&](std::uint32_t from, std::uint32_t to) {
             for (std::uint32_t place = from; place < to; ++place) {
                 if (!wanted(place)) {
@@ -419,7 +441,8 @@ class Detector {
                 const Real dx = q.x - x;
                 const Real dy = q.y - y;
                 const Real distance2 = dx * dx + dy * dy;
-                if (distance2 < rest * rest && lit(dx, dy)) {
+                const Real limit2 = surface_.is_adaptive() ? near_square(place, sigma) : rest2;
+                if (distance2 < limit2 && lit(dx, dy)) {
                     hit(place, sigma + std::sqrt(distance2));
                 }
             }
@@ -431,17 +454,25 @@ class Detector {
         const auto center = in_grid_frame(h, grid.base, x, y);
         const Real reach = rest + static_cast<Real>(kCellPadding) *
                                       (surface_.edges[grid.base].length + 1);
-        const std::uint32_t column0 = cell_at(center.x - reach, grid.columns);
-        const std::uint32_t column1 = cell_at(center.x + reach, grid.columns);
-        const std::uint32_t row1 = cell_at(center.y + reach, grid.rows);
-        for (std::uint32_t row = cell_at(center.y - reach, grid.rows); row <= row1; ++row) {
+        const Real per_unit = surface_.cells_per_unit(f);
+        const std::uint32_t column0 = cell_at(center.x - reach, grid.columns, per_unit);
+        const std::uint32_t column1 = cell_at(center.x + reach, grid.columns, per_unit);
+        const std::uint32_t row1 = cell_at(center.y + reach, grid.rows, per_unit);
+        for (std::uint32_t row = cell_at(center.y - reach, grid.rows, per_unit); row <= row1;
+             ++row) {
             const std::uint32_t start = first + row * grid.columns;
             scan_places(bins_.starts[start + column0], bins_.starts[start + column1 + 1]);
         }
     }
 
-    static std::uint32_t cell_at(Real x, std::uint32_t count) {
-        const Real scaled = x * static_cast<Real>(gpu::kCellsPerDistance);
+    /// The squared distance from a source at sigma below which a place is near, where radii vary.
+    Real near_square(std::uint32_t place, Real sigma) const {
+        const Real rest = limit_with(surface_.radius_at(bins_.points[place])) - sigma;
+        return rest > 0 ? rest * rest : Real{0};
+    }
+
+    static std::uint32_t cell_at(Real x, std::uint32_t count, Real per_unit) {
+        const Real scaled = x * per_unit;
         if (scaled <= 0) {
             return 0;
         }
@@ -471,6 +502,7 @@ class Detector {
     const Surface<Real>& surface_;
     const Bins<Real>& bins_;
     Real limit_, margin_, slack_;
+    Real own_radius_ = 0; ///< Of the source, where radii vary.
     std::vector<Grid> grids_;
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;

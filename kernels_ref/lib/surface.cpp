@@ -1,13 +1,61 @@
 #include "lib/surface.hpp"
 
+#include <bit>
+#include <stdexcept>
+
+#include "constants.h"
 #include "lib/scalar.hpp"
 
 namespace geodisk::ref {
 
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
-    : unit(working_distance(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()), alias(mesh.alias_columns()),
+    : unit(working_distance(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()),
+      alias(mesh.alias_columns()), splits_once(mesh.statistics().nonmanifold_edges == 0) {
+    place_edges(mesh);
+}
+
+template <class Real>
+Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params)
+    : unit(working_distance(mesh, params)), fans(mesh.fans()), corners(mesh.corners()),
+      alias(params.radii != nullptr ? params.radii->alias_columns() : mesh.alias_columns()),
       splits_once(mesh.statistics().nonmanifold_edges == 0) {
+    place_edges(mesh);
+    if (params.radii == nullptr) {
+        return;
+    }
+    const auto bounds = params.radii->reach_bounds(mesh, params.min_distance);
+    if (!bounds) {
+        throw std::runtime_error(bounds.error().message);
+    }
+    for (std::uint32_t f = 0; f < face_count(); ++f) {
+        FaceRadii<Real>& face = radii.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            face.radius[k] = static_cast<Real>(params.radii->factors()[std::size_t{3} * f + k]) / 2;
+            face.spread[k] = params.radii->spreads()[std::size_t{3} * f + k];
+        }
+        face.bound = static_cast<Real>((*bounds)[f]);
+    }
+}
+
+template <class Real>
+Real Surface<Real>::radius_at(FacePoint<Real> point) const {
+    const Real(&r)[3] = radii[point.face].radius;
+    return (Real{1} - point.weight1 - point.weight2) * r[0] + point.weight1 * r[1] +
+           point.weight2 * r[2];
+}
+
+template <class Real>
+Real Surface<Real>::cells_per_unit(std::uint32_t face) const {
+    if (!is_adaptive()) {
+        return static_cast<Real>(gpu::kCellsPerDistance);
+    }
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(radii[face].largest()));
+    return static_cast<Real>(std::bit_cast<float>(0x7f000000u - (bits & 0x7f800000u)));
+}
+
+template <class Real>
+void Surface<Real>::place_edges(const PreparedMesh& mesh) {
     edges.reserve(mesh.half_edges().size());
     const auto scaled = [this](double length) {
         const double x = length / unit;

@@ -1,6 +1,7 @@
 // The prepared mesh in units of the working distance, in the precision of the twin.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,6 +17,24 @@ struct Edge {
     std::uint32_t origin, around, fan_angles;
 };
 
+/// The radii at the corners of a face, how far disks reach into it (RadiusField::reach_bounds), and
+/// what candidates are proposed by (RadiusField::spreads).
+template <class Real>
+struct FaceRadii {
+    Real radius[3];
+    Real bound;
+    float spread[3];
+
+    Real largest() const { return std::max({radius[0], radius[1], radius[2]}); }
+};
+
+/// A point of a face by the weights of its second and third corner.
+template <class Real>
+struct FacePoint {
+    std::uint32_t face;
+    Real weight1, weight2;
+};
+
 /// Owns the scaled half-edges; borrows fans, corners and alias table from the PreparedMesh.
 template <class Real>
 struct Surface {
@@ -27,17 +46,22 @@ struct Surface {
     /// No edge has three faces. Only then a vertex lies between any two ways into an edge, and the
     /// order of their rays tells which window serves which side ("one angle, one split").
     bool splits_once;
+    /// By face, where radii vary, and in units of `unit`; else empty, and all radii are half of it.
+    std::vector<FaceRadii<Real>> radii;
 
     Surface(const PreparedMesh& mesh, double min_distance);
+    /// The surface of a run: with its radii, and the alias table that goes with them.
+    Surface(const PreparedMesh& mesh, const SampleParams& params);
 
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(edges.size() / 3); }
-};
+    bool is_adaptive() const { return !radii.empty(); }
+    /// The radius at a point, where radii vary.
+    Real radius_at(FacePoint<Real> point) const;
+    /// Cells of a face per unit of length, a power of two.
+    Real cells_per_unit(std::uint32_t face) const;
 
-/// A point of a face by the weights of its second and third corner.
-template <class Real>
-struct FacePoint {
-    std::uint32_t face;
-    Real weight1, weight2;
+  private:
+    void place_edges(const PreparedMesh& mesh);
 };
 
 } // namespace geodisk::ref

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Readies the slots that select has filled with ranks; those of samples of earlier chunks have no
 // place among the candidates. One invocation per slot.
-// reads: alias columns, places   writes: states, slots, marks, blockers   spec: local size, rounding
+// reads: alias columns, radii, places   writes: states, slots, marks, blockers
+// spec: local size, rounding, adaptive
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Draws the candidates again in sorted order. Of a large pool that is faster than to carry states and
 // weights along: only ranks were scattered over memory. One invocation per place.
-// reads: alias columns, weights (ranks)   writes: states, weights   spec: local size, rounding
+// reads: alias columns, radii, weights (ranks)   writes: states, weights
+// spec: local size, rounding, adaptive
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"

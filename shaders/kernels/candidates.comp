@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Draws the pool and counts the candidates of every cell (paper GenerateDensePoints, sections 3.3
 // and 4.2). One invocation per candidate.
-// reads: alias columns, faces   writes: cell counts; the cell of each candidate into places, and its
-// number there into marks   spec: local size, rounding
+// reads: alias columns, faces, radii   writes: cell counts; the cell of each candidate into places, and its
+// number there into marks   spec: local size, rounding, adaptive
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"
@@ -24,9 +24,11 @@ uint cell_of(Candidate c) {
     uint corner = grid_corner(word);
     Edge edge = load_edge(c.face, corner);
     vec2 apex = apex_of(edge, load_edge(c.face, previous_corner(corner)));
-    Grid grid = face_grid(word, edge.len, apex.y);
+    vec4 radii = kAdaptive ? face_radii(c.face) : vec4(0.5);
+    Grid grid = face_grid(word, edge.len, apex.y, cells_per_unit(radii));
     vec2 at = position_in(corner, edge.len, apex, weight_of(c.weight1), weight_of(c.weight2));
-    return grid.first + cell_at(at.y, grid.rows) * grid.columns + cell_at(at.x, grid.columns);
+    return grid.first + cell_at(at.y, grid.rows, grid.per_unit) * grid.columns +
+           cell_at(at.x, grid.columns, grid.per_unit);
 }
 
 void main() {

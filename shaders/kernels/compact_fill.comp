@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Draws the chunk's accepted candidates again, to write them out. One invocation per sample.
-// reads: alias columns, control   writes: samples   spec: local size, rounding
+// reads: alias columns, radii, control   writes: samples   spec: local size, rounding, adaptive
 
 #include "../lib/prelude.glsl"
 #include "../lib/candidate.glsl"

@@ -5,8 +5,8 @@
 // so that a large disk holds up no small ones. It stops after push.step_budget steps and goes on in
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
-// reads: faces, fans, cells, states, weights   writes: pool, slots, control
-// spec: local size, rounding, pool block, counted lanes
+// reads: faces, fans, radii, cells, states, weights   writes: pool, slots, control
+// spec: local size, rounding, pool block, counted lanes, adaptive
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
@@ -14,13 +14,13 @@
 #include "../lib/prelude.glsl"
 #include "../lib/rounding.glsl"
 #include "../lib/weights.glsl"
+#include "../lib/radii.glsl"
 #include "../lib/half_edge.glsl"
 #include "../lib/cells.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 
-GEODISK_ROWS(kBindFans, fans);
 GEODISK_WORDS(kBindCells, cells);
 GEODISK_WORDS(kBindStates, states);
 GEODISK_WORDS(kBindWeights, weights);
@@ -60,6 +60,9 @@ void load_candidate() {
     own_face = candidate.y;
     own_weights = uintBitsToFloat(candidate.zw);
     list_first = list_row(slot);
+    if (kAdaptive) {
+        own_radius = radius_at(face_radii(own_face), own_weights.x, own_weights.y);
+    }
 }
 
 void load_lane(uint lane) {

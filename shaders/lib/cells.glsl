@@ -6,16 +6,20 @@ struct Grid {
     uint first;   // first cell, row by row
     uint columns;
     uint rows;
+    float per_unit; // cells per unit of length
 };
 
 bool single_cell(uint word) { return (word >> kFaceCornerShift) == kSingleCell; }
 // Of a face with more than one cell: the corner its longest edge starts from.
 uint grid_corner(uint word) { return word >> kFaceCornerShift; }
 
-uint cell_count(float extent) { return uint(extent * float(kCellsPerDistance)) + 1u; }
+uint cell_count(float extent, float per_unit) {
+    precise float scaled = extent * per_unit;
+    return uint(scaled) + 1u;
+}
 
-uint cell_at(float x, uint count) {
-    precise float scaled = x * float(kCellsPerDistance);
+uint cell_at(float x, uint count, float per_unit) {
+    precise float scaled = x * per_unit;
     if (scaled <= 0.0) {
         return 0u;
     }
@@ -23,10 +27,10 @@ uint cell_at(float x, uint count) {
 }
 
 // `len` and `height` are those of the face over its longest edge.
-Grid face_grid(uint word, float len, float height) {
+Grid face_grid(uint word, float len, float height, float per_unit) {
     bool single = single_cell(word);
-    return Grid(word & kFirstCellMask, single ? 1u : cell_count(len),
-                single ? 1u : cell_count(height));
+    return Grid(word & kFirstCellMask, single ? 1u : cell_count(len, per_unit),
+                single ? 1u : cell_count(height, per_unit), per_unit);
 }
 
 #endif

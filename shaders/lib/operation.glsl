@@ -25,6 +25,22 @@ uint right_around;
 uint left_around;
 uint cell_word;
 
+// Where radii vary.
+float own_radius;   // of the candidate whose disk this is
+vec4 radii;         // of the face
+
+// The distance below which a candidate with this radius conflicts.
+float limit_with(float radius) {
+    precise float limit = (own_radius + radius) + (P.limit - 1.0);
+    return limit;
+}
+
+// Beyond this distance no path through the face leads on to a candidate that conflicts.
+float reach() { return kAdaptive ? limit_with(radii.w) : P.limit; }
+
+// Nor, beyond this one, to a candidate in the face.
+float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : P.limit; }
+
 void load_face() {
     uint face = half_edge / 3u;
     uint corner = half_edge - 3u * face;
@@ -37,6 +53,9 @@ void load_face() {
     right_around = corner == 0u ? links.y : (corner == 1u ? links.z : links.x);
     left_around = corner == 0u ? links.z : (corner == 1u ? links.x : links.y);
     cell_word = links.w;
+    if (kAdaptive) {
+        radii = face_radii(face);
+    }
 }
 
 // A window enters the face of half_edge with its source at (entry_x, -y) in that frame.

@@ -117,7 +117,7 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
         if (i == 2u) {
             split_once(m, row);
         }
-        if (distance < best && distance < P.limit) {
+        if (distance < best && distance < reach()) {
             best = distance;
             note_vertex(row, vertex, distance, inside ? kNoHalfEdge : half_edge,
                         inside ? 0.0 : m.crossing);
@@ -220,7 +220,7 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     precise float distance = sigma + root(squared(aside, py));
     precise float to_end = len - i0;
     bool border = around >> 1 == out_edge;
-    if (useless || border || on_end || !(i0 < i1) || !(distance < P.limit) ||
+    if (useless || border || on_end || !(i0 < i1) || !(distance < reach()) ||
         beats(ends.x, i1, squared(right_of, py)) || beats(ends.y, to_end, squared(left_of, py))) {
         return kNoWindow;
     }

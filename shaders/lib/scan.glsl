@@ -32,22 +32,34 @@ void begin_scan(float sx, float sy) {
     bool to_right = base == next_corner(corner);
     float len = to_left ? left.len : (to_right ? right.len : edge.len);
     float height = to_left ? apex_of(left, right).y : (to_right ? apex_of(right, edge).y : apex.y);
-    Grid grid = face_grid(cell_word, len, height);
+    Grid grid = face_grid(cell_word, len, height, cells_per_unit(radii));
     vec2 at = in_grid_frame(to_left, to_right, sx, sy);
-    precise float reach = (P.limit - sigma) + kCellPadding * (len + 1.0);
-    precise float low_x = at.x - reach;
-    precise float high_x = at.x + reach;
-    precise float low_y = at.y - reach;
-    precise float high_y = at.y + reach;
-    uint column = cell_at(low_x, grid.columns);
-    uint row0 = cell_at(low_y, grid.rows);
-    uint row1 = cell_at(high_y, grid.rows);
-    scan_columns = cell_at(high_x, grid.columns) - column + 1u;
+    precise float rest = reach_inside() - sigma;
+    precise float range = rest + kCellPadding * (len + 1.0);
+    precise float low_x = at.x - range;
+    precise float high_x = at.x + range;
+    precise float low_y = at.y - range;
+    precise float high_y = at.y + range;
+    uint column = cell_at(low_x, grid.columns, grid.per_unit);
+    uint row0 = cell_at(low_y, grid.rows, grid.per_unit);
+    uint row1 = cell_at(high_y, grid.rows, grid.per_unit);
+    scan_columns = cell_at(high_x, grid.columns, grid.per_unit) - column + 1u;
     scan_stride = grid.columns;
     scan_row = grid.first + row0 * grid.columns + column;
     scan_row_end = scan_row + (row1 - row0 + 1u) * grid.columns;
     scan_place = 0u;
     scan_end = 0u;
+    if (kAdaptive && rest <= 0.0) {
+        scan_row = scan_row_end; // The disk ends before the face.
+    }
+}
+
+// Where radii vary: the squared distance from the source below which a candidate with these weights
+// conflicts.
+float conflict_square(float weight1, float weight2) {
+    precise float rest = limit_with(radius_at(radii, weight1, weight2)) - sigma;
+    precise float square = rest * rest;
+    return rest > 0.0 ? square : 0.0;
 }
 
 // Tests candidates against the operation in flight, no more than a trip may.
@@ -76,14 +88,16 @@ void scan_some() {
                 continue;
             }
             ++tested;
-            vec2 q = position_in(corner, edge.len, apex, weight_of(word >> kWeightShift),
-                                 weight_of(word_at(weights, place)));
+            float weight1 = weight_of(word >> kWeightShift);
+            float weight2 = weight_of(word_at(weights, place));
+            vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
             precise float dx = q.x - sx;
             precise float dy = q.y - sy;
             precise float at = dx * y;
             precise float from = low * dy;
             precise float to = high * dy;
-            if (squared(dx, dy) < rest2 && (inside || (at >= from && at <= to))) {
+            float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
+            if (squared(dx, dy) < limit2 && (inside || (at >= from && at <= to))) {
                 list_conflict(place, state == kActive);
             }
         }

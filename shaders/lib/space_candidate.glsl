@@ -3,9 +3,10 @@
 #ifndef GEODISK_SPACE_CANDIDATE_GLSL
 #define GEODISK_SPACE_CANDIDATE_GLSL
 
-#include "candidate.glsl"
 #include "curve.glsl"
 #include "grid.glsl"
+#include "rng.glsl"
+#include "uniform_candidate.glsl"
 
 GEODISK_ROWS(kBindFaces, corners); // kSpaceRows to a face: a row per corner, then their normals
 
@@ -36,7 +37,8 @@ vec3 normal_of(Candidate c) {
 uint words_per_point() { return kCurved ? 6u : 3u; }
 
 uint[kMostAxes] draw_point(uint rank) {
-    Candidate c = draw_candidate(rank);
+    Candidate c = draw_uniform(
+        philox(uvec2(push.seed_low, push.seed_high), uvec2(push.first_rank + rank, 0u)));
     uint weight0 = 16777216u - c.weight1 - c.weight2;
     uint row = kSpaceRows * c.face;
     uvec4 corner0 = row_at(corners, row);

@@ -12,7 +12,8 @@ GEODISK_CONST uint kBindFaces = 0u;      // per face three rows of HalfEdgeRec a
                                          // its coordinates in multiples of 2^-32 of the bounding
                                          // box, then one with its normal
 GEODISK_CONST uint kBindFans = 1u;       // a row of FanRec per vertex; then the fans' corners, pairs of
-                                         // half-edge and angles; then the angles by half-edge
+                                         // half-edge and angles; then the angles by half-edge;
+                                         // where radii vary, RadiiRec per face
 GEODISK_CONST uint kBindAxes = kBindFans; // of grids in space: AxisRec per axis
 GEODISK_CONST uint kBindAlias = 2u;      // AliasRec per face
 GEODISK_CONST uint kBindCells = 3u;      // the place where each cell's candidates start, and one past

@@ -15,6 +15,9 @@ GEODISK_CONST uint kStateMask = 3u;
 // The first weight sits above this many bits of the state word, in units of 2^-24.
 GEODISK_CONST uint kWeightShift = 8u;
 
+// Where radii vary: proposals of which a candidate takes the first that is kept, or the last.
+GEODISK_CONST uint kMostProposals = 1024u;
+
 // Angles around a vertex are integers in units of 2^-13 radian, so that comparing them is exact
 // everywhere. A corner's word holds its start in the low half and its size in the high half.
 GEODISK_CONST uint kAnglePi = 25736u;         // pi * 2^13
@@ -27,7 +30,8 @@ GEODISK_CONST uint kFanOpen = 2u;      // the fan starts and ends on a border
 GEODISK_CONST uint kFanIrregular = 4u; // no rotational order: several fans or non-manifold edges
 
 // Cells: a face whose longest edge exceeds one cell holds its candidates in a grid of square cells,
-// kCellsPerDistance to the minimum distance, in the frame of that edge. A face word packs the first
+// kCellsPerDistance to the minimum distance or where radii vary as lib/radii.glsl has it, in the
+// frame of that edge. A face word packs the first
 // cell with the corner the longest edge starts from, or kSingleCell for a face of one cell.
 GEODISK_CONST uint kCellsPerDistance = 2u;
 GEODISK_CONST uint kFaceCornerShift = 30u;
@@ -122,9 +126,10 @@ GEODISK_CONST uint kIterationsPerGridTrip =
 // Candidates that cause 1, 2, ... calls of the paper's CheckStatus, the last for that many and more.
 GEODISK_CONST uint kCallBins = 10u;
 
-// Rows of a face, of a slot record and of a window.
+// Rows of a face and of its radii, of a slot record and of a window.
 GEODISK_CONST uint kFaceRows = 4u;
 GEODISK_CONST uint kSpaceRows = 6u; // of a face, where distances go through space
+GEODISK_CONST uint kRadiiRows = 2u;
 GEODISK_CONST uint kSlotRows = 4u;
 GEODISK_CONST uint kLaneRows = 9u;
 GEODISK_CONST uint kWindowRows = 2u;
@@ -137,6 +142,7 @@ GEODISK_CONST uint kSpecCountedLanes = 3u;
 GEODISK_CONST uint kSpecCountCalls = 4u;
 GEODISK_CONST uint kSpecDimension = 5u;
 GEODISK_CONST uint kSpecCurved = 6u;
+GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
 
 // Lanes of a work group of find_idle, each with 32 ranks, and the most groups of one dispatch.
 GEODISK_CONST uint kFindLanes = 64u;

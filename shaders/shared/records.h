@@ -18,6 +18,13 @@ struct FaceLinksRec {
     uint around0; uint around1; uint around2; uint cells;
 };
 
+// The radii at the corners of a face, how far disks reach into it (RadiusField::reach_bounds), and
+// what candidates are proposed by (RadiusField::spreads). Only where radii vary.
+struct RadiiRec {
+    float radius0; float radius1; float radius2; float bound;
+    float spread0; float spread1; float spread2; float spare;
+};
+
 struct FanRec {
     uint first_corner; uint corner_count; uint total_angle; uint flags;
 };
@@ -112,6 +119,7 @@ GEODISK_END_SHARED
 namespace geodisk::gpu {
 static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, origin) == 12);
 static_assert(sizeof(FaceLinksRec) == 16 && offsetof(FaceLinksRec, cells) == 12);
+static_assert(sizeof(RadiiRec) == 32 && offsetof(RadiiRec, spare) == 28);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
 static_assert(sizeof(AxisRec) == 16 && offsetof(AxisRec, width) == 12);

@@ -104,6 +104,11 @@ void collect(int out, int err, pid_t child, const Setting& setting, Outcome& out
 
 } // namespace
 
+Arguments joined(Arguments arguments, const Arguments& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
 Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
             const Setting& setting) {
     const Channel out = open_channel(false);

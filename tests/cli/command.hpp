@@ -16,6 +16,10 @@ using tools::bytes_of;
 using tools::contains;
 using tools::TemporaryFolder;
 
+using Arguments = std::vector<std::string>;
+
+Arguments joined(Arguments arguments, const Arguments& more);
+
 struct Outcome {
     int status = -1; ///< Exit status, or minus the signal that ended the program.
     std::string out;

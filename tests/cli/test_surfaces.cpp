@@ -9,13 +9,6 @@
 namespace geodisk::test {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
-Arguments joined(Arguments arguments, const Arguments& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
-
 /// Samples and verifies with the same options and returns the samples.
 tools::SampleFile check_passes(const TemporaryFolder& folder, const Arguments& surface) {
     const Outcome made =

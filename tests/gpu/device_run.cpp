@@ -10,6 +10,11 @@
 namespace geodisk::test {
 namespace {
 
+SamplerOptions options_for(SamplerOptions options, const SampleParams& params) {
+    options.adaptive = params.radii != nullptr;
+    return options;
+}
+
 void barrier_to_host(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                    VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
@@ -34,7 +39,7 @@ DeviceRun::DeviceRun(Sampler sampler, const Context& context)
 
 DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
                      const SamplerOptions& options, const Context& context)
-    : DeviceRun(expect(Sampler::create(context.device(), options)), context) {
+    : DeviceRun(expect(Sampler::create(context.device(), options_for(options, params))), context) {
     open(SurfaceSource(*sampler_, mesh, params), plan);
 }
 

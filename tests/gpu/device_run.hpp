@@ -32,8 +32,8 @@ T expect(Result<T> result) {
 
 class DeviceRun {
   public:
-    /// Fields of `plan` that are not zero replace those of Sampler::plan_run. `mesh` must outlive
-    /// the run.
+    /// Fields of `plan` that are not zero replace those of Sampler::plan_run. The sampler is for
+    /// the radii of `params`, whatever `options` says. `mesh` must outlive the run.
     DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan = {},
               const SamplerOptions& options = {}, const Context& context = shared_context());
     /// The same in a box.

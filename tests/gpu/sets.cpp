@@ -10,11 +10,10 @@ namespace {
 template <class Real>
 std::vector<std::uint32_t> sequential_set(const PreparedMesh& mesh, const SampleParams& params,
                                           std::uint32_t chain) {
-    const ref::Surface<Real> surface(mesh, params.min_distance);
-    const auto points = ref::draw_candidates<Real>(mesh.alias_columns(), params.seed,
-                                                   expect(pool_size(mesh, params)));
+    const ref::Surface<Real> surface(mesh, params);
+    const auto points = ref::draw_candidates(surface, params.seed, expect(pool_size(mesh, params)));
     const ref::Bins<Real> bins(surface, points);
-    return ref::throw_darts(surface, bins, tolerances_for(mesh, params.min_distance, chain),
+    return ref::throw_darts(surface, bins, tolerances_for(mesh, params, chain),
                             params.stop_count != 0 ? params.stop_count : kMostCandidates)
         .ranks;
 }
@@ -39,17 +38,19 @@ std::vector<std::uint32_t> ranks_of(const SampleSet& set) {
     return ranks;
 }
 
-SampleSet sample(const PreparedMesh& mesh, const SampleParams& params,
-                 const RunnerOptions& options) {
+SampleSet sample(const PreparedMesh& mesh, const SampleParams& params, RunnerOptions options) {
     Context& context = shared_context();
+    options.sampler.adaptive = params.radii != nullptr;
     Runner runner = expect(Runner::create(context.device(), context.queue(), options));
     return expect(runner.sample_and_wait(mesh, params));
 }
 
-SampleParams params_for(const PreparedMesh& mesh, double count, std::uint64_t seed) {
+SampleParams params_for(const PreparedMesh& mesh, double count, std::uint64_t seed,
+                        const RadiusField* radii) {
     SampleParams params;
-    params.min_distance = distance_for_count(mesh.statistics().area, count);
     params.seed = seed;
+    params.radii = radii;
+    params.min_distance = distance_for_count(effective_area(mesh, params), count);
     return params;
 }
 

@@ -17,11 +17,11 @@ std::vector<std::uint32_t> double_set(const PreparedMesh& mesh, const SamplePara
 
 std::vector<std::uint32_t> ranks_of(const SampleSet& set);
 
-/// Runs on the shared device.
-SampleSet sample(const PreparedMesh& mesh, const SampleParams& params,
-                 const RunnerOptions& options = {});
+/// Runs on the shared device, by a sampler for the radii of `params`.
+SampleSet sample(const PreparedMesh& mesh, const SampleParams& params, RunnerOptions options = {});
 
-/// Parameters for about `count` samples.
-SampleParams params_for(const PreparedMesh& mesh, double count, std::uint64_t seed = 1);
+/// Parameters for about `count` samples, of these radii.
+SampleParams params_for(const PreparedMesh& mesh, double count, std::uint64_t seed = 1,
+                        const RadiusField* radii = nullptr);
 
 } // namespace geodisk::test

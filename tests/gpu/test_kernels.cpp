@@ -15,6 +15,7 @@
 #include "kernels/select.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -30,11 +31,10 @@ struct Twin {
 
     Twin(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain,
          std::uint32_t first_rank, std::uint32_t count)
-        : first(first_rank), surface(mesh, params.min_distance),
-          points(ref::draw_candidates<float>(mesh.alias_columns(), params.seed, count, first)),
-          bins(surface, points),
-          detector(surface, bins, tolerances_for(mesh, params.min_distance, chain),
-                   tolerances_for(mesh, params.min_distance, chain).limit),
+        : first(first_rank), surface(mesh, params),
+          points(ref::draw_candidates(surface, params.seed, count, first)), bins(surface, points),
+          detector(surface, bins, tolerances_for(mesh, params, chain),
+                   tolerances_for(mesh, params, chain).limit),
           states(points.size(), gpu::kIdle) {}
 
     /// `conflicts` are those of higher rank, `above` the active ones of lower rank.
@@ -344,8 +344,13 @@ void step_through(const PreparedMesh& mesh, const SampleParams& params,
 }
 
 void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
-                  std::uint32_t slots, const std::vector<Chunk>& chunks = {}) {
-    step_through(mesh, params_for(mesh, count), options, roomy_plan(slots), chunks);
+                  std::uint32_t slots, const std::vector<Chunk>& chunks = {},
+                  const RadiusField* radii = nullptr) {
+    RunPlan plan = roomy_plan(slots);
+    if (radii != nullptr) {
+        plan.list_capacity = 65536; // A large disk meets many small ones.
+    }
+    step_through(mesh, params_for(mesh, count, 1, radii), options, plan, chunks);
 }
 
 } // namespace
@@ -404,6 +409,24 @@ TEST_SUITE("kernels") {
         plan.lanes = 16;
         plan.list_capacity = gpu::kListPerDispatch + 256;
         step_through(mesh, params, kOnCpu, plan);
+    }
+
+    TEST_CASE("step by step with radii that vary") {
+        for (const char* const name : {"torus-knot", "moebius", "klein-bottle"}) {
+            CAPTURE(name);
+            const TestMesh shape = builtin(name, 12);
+            const PreparedMesh mesh = prepared(shape);
+            const RadiusField wavy = radius_field(mesh, wavy_factors(shape, 0.1));
+            const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.02));
+            step_through(mesh, 600, kOnCpu, 64, {}, &wavy);
+            step_through(mesh, 600, kOnGpu, 64, {}, &rough);
+            step_through(mesh, 600, kOnCpu, 64, {{0, 500}, {500, 9000}}, &rough);
+        }
+        const TestMesh cube = builtin("cube", 1);
+        const PreparedMesh mesh = prepared(cube);
+        const RadiusField rough = radius_field(mesh, rough_factors(cube, 0.05));
+        step_through(mesh, 3000, kOnCpu, 256, {}, &rough);
+        step_through(mesh, 40, kPlain, 16, {}, &rough);
     }
 
     TEST_CASE("step by step with one candidate at a time") {

@@ -8,14 +8,16 @@
 #include "device_run.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
 #include "support/replay.hpp"
 
 namespace geodisk::test {
 namespace {
 
 /// The run returns what the float twin returns, and the truth differs by replayed ties at most.
-void check_against_reference(const PreparedMesh& mesh, double count, std::uint64_t seed = 1) {
-    const SampleParams params = params_for(mesh, count, seed);
+void check_against_reference(const PreparedMesh& mesh, double count, std::uint64_t seed = 1,
+                             const RadiusField* radii = nullptr) {
+    const SampleParams params = params_for(mesh, count, seed, radii);
     const SampleSet set = sample(mesh, params);
     const std::uint32_t chain = set.report.plan.chain;
     CHECK(set.report.longest_chain <= chain);
@@ -46,6 +48,66 @@ TEST_SUITE("pipeline") {
                 check_against_reference(mesh, count);
             }
         }
+    }
+
+    TEST_CASE("with radii that vary they equal sequential dart throwing") {
+        const std::pair<const char*, int> shapes[] = {
+            {"cube", 1},     {"icosphere", 4}, {"torus-knot", 12},  {"folded-sheet", 16},
+            {"terrain", 48}, {"moebius", 8},   {"klein-bottle", 20}};
+        for (const auto& [name, resolution] : shapes) {
+            CAPTURE(name);
+            const TestMesh shape = builtin(name, resolution);
+            const PreparedMesh mesh = prepared(shape);
+            const RadiusField wavy = radius_field(mesh, wavy_factors(shape, 0.1));
+            const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.01));
+            for (const double count : {30.0, 1000.0}) {
+                CAPTURE(count);
+                check_against_reference(mesh, count, 1, &wavy);
+                check_against_reference(mesh, count, 2, &rough);
+            }
+        }
+    }
+
+    TEST_CASE("radii may differ a thousandfold") {
+        const TestMesh shape = builtin("terrain", 48);
+        const PreparedMesh mesh = prepared(shape);
+        std::vector<double> factors(shape.vertex_count(), 1.0);
+        factors[shape.vertex_count() / 2] = RadiusField::kLeastFactor;
+        const RadiusField pit = radius_field(mesh, factors);
+        check_against_reference(mesh, 500, 1, &pit);
+    }
+
+    TEST_CASE("the largest radius everywhere gives the set of one radius") {
+        const TestMesh shape = builtin("torus-knot", 12);
+        const PreparedMesh mesh = prepared(shape);
+        const RadiusField ones = radius_field(mesh, std::vector<double>(shape.vertex_count(), 1.0));
+        SampleParams params = params_for(mesh, 1000);
+        const auto want = ranks_of(sample(mesh, params));
+        params.radii = &ones;
+        CHECK(ranks_of(sample(mesh, params)) == want);
+    }
+
+    TEST_CASE("a sampler serves either one radius or varying ones") {
+        const TestMesh shape = builtin("icosphere", 2);
+        const PreparedMesh mesh = prepared(shape);
+        const RadiusField radii = radius_field(mesh, wavy_factors(shape, 0.5));
+        const SampleParams one = params_for(mesh, 50);
+        const SampleParams varying = params_for(mesh, 50, 1, &radii);
+        Context& context = shared_context();
+        for (const bool adaptive : {false, true}) {
+            RunnerOptions options;
+            options.sampler.adaptive = adaptive;
+            Runner runner = expect(Runner::create(context.device(), context.queue(), options));
+            CHECK(bool(runner.sample_and_wait(mesh, one)) != adaptive);
+            CHECK(bool(runner.sample_and_wait(mesh, varying)) == adaptive);
+            const auto refused = runner.sample_and_wait(mesh, adaptive ? one : varying);
+            CHECK(refused.error().status == Status::invalid_argument);
+        }
+        const PreparedMesh other = prepared(builtin("icosphere", 3));
+        const auto refused = pool_size(other, varying);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().message ==
+              "the radii are of a mesh with 320 faces, this one has 1280");
     }
 
     TEST_CASE("edge lengths alone give the set of the coordinates they come from") {
@@ -207,6 +269,32 @@ TEST_SUITE("invariance") {
         CHECK(alone.report.lane_trips == 2 * alone.report.trips);
     }
 
+    TEST_CASE("no tuning changes the set of varying radii") {
+        const TestMesh shape = builtin("torus-knot", 12);
+        const PreparedMesh mesh = prepared(shape);
+        const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.05));
+        const SampleParams params = params_for(mesh, 500, 1, &rough);
+        const SampleSet base = sample(mesh, params);
+        CHECK(ranks_of(base) == float_set(mesh, params, base.report.plan.chain));
+        RunnerOptions tight;
+        tight.plan.slots = 7;
+        tight.plan.lanes = 3;
+        tight.plan.step_budget = 7;
+        tight.plan.window_capacity = 2;
+        tight.plan.table_capacity = 4;
+        tight.plan.list_capacity = 4;
+        RunnerOptions wide;
+        wide.plan.slots = 1000;
+        wide.sampler.tuning.local_size = 128;
+        wide.sampler.tuning.slot_local_size = 32;
+        wide.sampler.tuning.pool_block = 4;
+        wide.sampler.tuning.reads = Reads::storage;
+        wide.sampler.rounding = Rounding::emulated;
+        for (const RunnerOptions& options : {tight, wide}) {
+            CHECK(ranks_of(sample(mesh, params, options)) == ranks_of(base));
+        }
+    }
+
     // Which losers get a disk depends on the slots; the guard, which follows from the chains met,
     // must not.
     TEST_CASE("no tuning changes the guard of a repeated run") {
@@ -228,6 +316,25 @@ TEST_SUITE("invariance") {
 }
 
 TEST_SUITE("meshes") {
+    TEST_CASE("real meshes equal sequential dart throwing with radii that vary") {
+        for (const char* name : {"bunny_69k.ply", "gargoyle_52k.obj", "fandisk_13k.obj",
+                                 "tray_4k5.ply", "cycloidal_43k.ply"}) {
+            const auto file = shared_mesh(std::string("meshes/") + name);
+            if (!file) {
+                return;
+            }
+            CAPTURE(name);
+            const PreparedMesh mesh = prepared(*file);
+            const RadiusField wavy = radius_field(mesh, wavy_factors(*file, 0.1, 4));
+            const RadiusField rough = radius_field(mesh, rough_factors(*file, 0.1));
+            for (const double count : {300.0, 5000.0}) {
+                CAPTURE(count);
+                check_against_reference(mesh, count, 1, &wavy);
+                check_against_reference(mesh, count, 2, &rough);
+            }
+        }
+    }
+
     TEST_CASE("real meshes equal sequential dart throwing") {
         for (const char* name :
              {"bunny_69k.ply", "gargoyle_52k.obj", "fandisk_13k.obj", "rocker_arm_20k.obj",

@@ -4,6 +4,7 @@
 #include "device_run.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
 
 namespace geodisk::test {
 
@@ -12,8 +13,11 @@ TEST_SUITE("validation") {
         ContextOptions options;
         options.validation = true;
         Context context = expect(Context::create(options));
-        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        const TestMesh knot = builtin("torus-knot", 8);
+        const PreparedMesh mesh = prepared(knot);
         const SampleParams params = params_for(mesh, 300);
+        const RadiusField radii = radius_field(mesh, wavy_factors(knot, 0.2));
+        const SampleParams varying = params_for(mesh, 300, 1, &radii);
         for (const Reads reads : {Reads::storage, Reads::texels}) {
             // Slices that overflow bring in the rewind as well.
             RunnerOptions tight;
@@ -29,6 +33,11 @@ TEST_SUITE("validation") {
             tight.plan.sample_capacity = 10;
             runner = expect(Runner::create(context.device(), context.queue(), tight));
             CHECK(ranks_of(expect(runner.sample_and_wait(mesh, params))) == ranks_of(set));
+
+            tight.sampler.adaptive = true;
+            Runner adaptive = expect(Runner::create(context.device(), context.queue(), tight));
+            CHECK(ranks_of(expect(adaptive.sample_and_wait(mesh, varying))) ==
+                  float_set(mesh, varying, set.report.plan.chain));
         }
         for (const std::string& message : expect(context.validation_messages())) {
             MESSAGE(message);

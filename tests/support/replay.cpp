@@ -21,21 +21,22 @@ struct Side {
 
     Side(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t count,
          const Tolerances& tolerances, Real limit)
-        : surface(mesh, params.min_distance),
-          points(ref::draw_candidates<Real>(mesh.alias_columns(), params.seed, count)),
+        : surface(mesh, params), points(ref::draw_candidates(surface, params.seed, count)),
           bins(surface, points), detector(surface, bins, tolerances, limit) {}
 };
 
+/// `limit_with(q)` is the distance below which candidate q conflicts.
+template <class Limit>
 void judge(const std::unordered_set<std::uint32_t>& hits,
-           const std::unordered_map<std::uint32_t, double>& distances, const Tolerances& tolerances,
-           ReplayReport& report) {
-    const double limit = tolerances.limit;
+           const std::unordered_map<std::uint32_t, double>& distances, const Limit& limit_with,
+           const Tolerances& tolerances, ReplayReport& report) {
     for (const std::uint32_t q : hits) {
         if (distances.count(q) == 0) {
             ++report.wrong;
         }
     }
     for (const auto& [q, distance] : distances) {
+        const double limit = limit_with(q);
         if ((distance < limit) == (hits.count(q) != 0)) {
             continue;
         }
@@ -52,7 +53,7 @@ void judge(const std::unordered_set<std::uint32_t>& hits,
 } // namespace
 
 ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
-    const Tolerances tolerances = tolerances_for(mesh, params.min_distance, chain);
+    const Tolerances tolerances = tolerances_for(mesh, params, chain);
     const std::uint32_t count = pool_size(mesh, params).value();
     Side<float> floats(mesh, params, count, tolerances, tolerances.limit);
     Side<double> doubles(mesh, params, count, tolerances, tolerances.limit + 2 * tolerances.guard);
@@ -75,7 +76,14 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::u
                 const auto [at, fresh] = distances.emplace(doubles.bins.order[q], distance);
                 at->second = std::min(at->second, distance);
             });
-        judge(hits, distances, tolerances, report);
+        const auto limit_with = [&](std::uint32_t q) {
+            const double limit = tolerances.limit;
+            const auto radius = [&](std::uint32_t i) {
+                return doubles.surface.radius_at(doubles.points[i]);
+            };
+            return params.radii == nullptr ? limit : radius(rank) + radius(q) + (limit - 1);
+        };
+        judge(hits, distances, limit_with, tolerances, report);
         for (const std::uint32_t q : hits) {
             decided[q] = true;
         }

@@ -271,6 +271,34 @@ void take_coordinates(const MeshSources& sources, PolygonMesh& polygons) {
     polygons.dimension = given.dimension;
 }
 
+/// Every corner must have texture coordinates, finite ones.
+void take_uvs(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
+    std::size_t face = 0;
+    for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
+        while (i >= polygons.face_ends[face]) {
+            ++face;
+        }
+        const std::uint32_t vertex = polygons.corners[i];
+        const auto fail = [&](const std::string& message) {
+            fail_input(path, place_of_face(polygons, face) + ": vertex " +
+                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
+                                 message);
+        };
+        const std::uint32_t uv = polygons.corner_uvs[i];
+        if (uv == PolygonMesh::kNoUv) {
+            fail(" has no texture coordinates");
+        }
+        const double u = polygons.uvs[std::size_t{2} * uv];
+        const double v = polygons.uvs[std::size_t{2} * uv + 1];
+        if (!std::isfinite(u) || !std::isfinite(v)) {
+            fail(" has texture coordinates that are not finite");
+        }
+        mesh.uvs.push_back({vertex, u, v});
+    }
+    std::sort(mesh.uvs.begin(), mesh.uvs.end());
+    mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
+}
+
 MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     const Path path = sources.mesh;
     const bool has_lengths = !sources.edge_lengths.empty();
@@ -289,6 +317,9 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
         check_bare_corners(path, polygons);
     } else {
         check_corners(path, polygons, mesh);
+    }
+    if (sources.has_uvs) {
+        take_uvs(path, polygons, mesh);
     }
     split_faces(polygons, mesh);
     if (mesh.triangles.size() / 3 > std::numeric_limits<std::uint32_t>::max()) {
@@ -329,6 +360,12 @@ void check_no_attributes(const MeshSources& sources) {
     }
 }
 
+void check_no_uvs(const MeshSources& sources) {
+    if (sources.has_uvs) {
+        fail_input(sources.mesh, "has no texture coordinates; OBJ and PLY files may");
+    }
+}
+
 } // namespace
 
 MeshFile read_mesh(const MeshSources& sources) {
@@ -344,16 +381,18 @@ MeshFile read_mesh(const MeshSources& sources) {
                                                     "--edge-lengths are for mesh files");
         }
         check_no_attributes(sources);
+        check_no_uvs(sources);
         return read_builtin(std::string_view(path).substr(kBuiltin.size()));
     }
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {
         check_no_attributes(sources);
-        return to_triangles(sources, read_obj(path));
+        return to_triangles(sources, read_obj(path, sources.has_uvs));
     }
     if (extension == ".ply") {
         const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
-        return to_triangles(sources, read_ply(path, {!has_other_source, sources.attributes}));
+        return to_triangles(
+            sources, read_ply(path, {!has_other_source, sources.attributes, sources.has_uvs}));
     }
     fail_input(path, "unknown mesh format; known are .obj, .ply and builtin:NAME");
 }

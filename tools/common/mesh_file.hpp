@@ -1,11 +1,20 @@
 // Reads triangle meshes from OBJ and PLY files, and from the built-in generators.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace geodisk::tools {
+
+/// Texture coordinates of a vertex.
+struct VertexUv {
+    std::uint32_t vertex;
+    double u, v;
+
+    friend auto operator<=>(const VertexUv&, const VertexUv&) = default;
+};
 
 /// A mesh as read: `positions` holds `dimension` coordinates per vertex, `triangles` three vertex
 /// indices each, in file order with polygons split in place (so triangle i of the file's n-th face
@@ -19,6 +28,9 @@ struct MeshFile {
     /// the surface; else empty.
     std::vector<double> lengths;
     std::vector<std::vector<double>> attributes; ///< By name as asked for, a value per vertex.
+    /// Where asked for: all that the corners of faces have, ascending by vertex and each just once;
+    /// several at a vertex on a seam.
+    std::vector<VertexUv> uvs;
     std::vector<std::string>
         warnings; ///< One line each: what was repaired or ignored, with counts.
 };
@@ -29,6 +41,7 @@ struct MeshSources {
     std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
     std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
+    bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
 };
 
 /// Reads a mesh.

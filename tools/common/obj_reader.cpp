@@ -1,6 +1,6 @@
 // tinyobjloader does the parsing but forgives: it reads a bad number as 0 and rounds a good one
 // several bits off, lets indices wrap, and knows no line continuation. So check_records() first
-// copies the `v` and `f` records, one per line, keeps the coordinates, and refuses what
+// copies the records that matter, one per line, keeps the coordinates, and refuses what
 // tinyobjloader would take silently.
 #include "common/obj_reader.hpp"
 
@@ -8,6 +8,7 @@
 #include "common/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string_view>
@@ -66,6 +67,7 @@ class LineReader {
 struct CheckedRecords {
     std::string text;
     std::vector<double> positions;
+    std::vector<double> uvs;
     std::vector<std::uint32_t> vertex_lines;
     std::vector<std::uint32_t> face_lines;
 };
@@ -94,6 +96,21 @@ std::string take_vertex(const std::vector<std::string_view>& tokens,
     return {};
 }
 
+/// Why the `vt` record is wrong, or "". Appends u and v.
+std::string take_uv(const std::vector<std::string_view>& tokens, std::vector<double>& uvs) {
+    if (tokens.size() < 3) {
+        return "texture coordinates are two numbers";
+    }
+    for (std::size_t i = 1; i <= 2; ++i) { // A third one, of depth, may follow.
+        const std::optional<double> value = parse_real(tokens[i]);
+        if (!value || !std::isfinite(*value)) {
+            return in_quotes(tokens[i]) + " is not a finite number";
+        }
+        uvs.push_back(*value);
+    }
+    return {};
+}
+
 bool is_integer(std::string_view text) {
     text.remove_prefix(text.starts_with('-') ? 1 : 0);
     return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -105,7 +122,8 @@ std::string corner_fault(std::string_view corner) {
     for (int part = 0; part < 3; ++part) {
         const std::size_t slash = std::min(rest.find('/'), rest.size());
         const std::string_view index = rest.substr(0, slash);
-        // Texture and normal indices are not used, they only have to be integers or absent.
+        // Normal indices are not used, and texture indices mostly; they have to be integers or
+        // absent.
         const bool may_be_absent = part > 0;
         if (!is_integer(index) && !(may_be_absent && index.empty())) {
             return in_quotes(corner) + " is not a face corner";
@@ -131,7 +149,8 @@ std::string face_fault(const std::vector<std::string_view>& tokens) {
     return tokens.size() < 4 ? "a face needs at least 3 corners" : "";
 }
 
-CheckedRecords check_records(const std::filesystem::path& path, std::string_view bytes) {
+CheckedRecords check_records(const std::filesystem::path& path, std::string_view bytes,
+                             bool has_uvs) {
     CheckedRecords records;
     LineReader reader(bytes);
     std::string line;
@@ -146,6 +165,8 @@ CheckedRecords check_records(const std::filesystem::path& path, std::string_view
         if (keyword == "v") {
             fault = take_vertex(tokens, records.positions);
             records.vertex_lines.push_back(reader.number());
+        } else if (keyword == "vt" && has_uvs) {
+            fault = take_uv(tokens, records.uvs);
         } else if (keyword == "f") {
             fault = face_fault(tokens);
             records.face_lines.push_back(reader.number());
@@ -165,11 +186,17 @@ CheckedRecords check_records(const std::filesystem::path& path, std::string_view
 struct MeshBuilder {
     const std::filesystem::path& path;
     PolygonMesh mesh;
+    bool has_uvs = false;
     std::int64_t vertices_so_far = 0;
+    std::int64_t uvs_so_far = 0;
 
     static void on_vertex(void* self, tinyobj::real_t, tinyobj::real_t, tinyobj::real_t,
                           tinyobj::real_t) {
         ++static_cast<MeshBuilder*>(self)->vertices_so_far;
+    }
+
+    static void on_uv(void* self, tinyobj::real_t, tinyobj::real_t, tinyobj::real_t) {
+        ++static_cast<MeshBuilder*>(self)->uvs_so_far;
     }
 
     static void on_face(void* self, tinyobj::index_t* corners, int corner_count) {
@@ -186,14 +213,29 @@ struct MeshBuilder {
                               std::to_string(vertices_so_far) + " vertices come before it");
             }
             mesh.corners.push_back(static_cast<std::uint32_t>(resolved));
+            if (has_uvs) {
+                mesh.corner_uvs.push_back(uv_of(corner->texcoord_index));
+            }
         }
         mesh.face_ends.push_back(mesh.corners.size());
+    }
+
+    std::uint32_t uv_of(std::int64_t index) const {
+        if (index == 0) {
+            return PolygonMesh::kNoUv;
+        }
+        const std::int64_t resolved = index > 0 ? index - 1 : uvs_so_far + index;
+        if (resolved < 0 || resolved >= static_cast<std::int64_t>(mesh.uvs.size() / 2)) {
+            fail_line(path, mesh.face_lines[mesh.face_ends.size()],
+                      "texture index " + std::to_string(index) + " is out of range");
+        }
+        return static_cast<std::uint32_t>(resolved);
     }
 };
 
 } // namespace
 
-PolygonMesh read_obj(const std::filesystem::path& path) {
+PolygonMesh read_obj(const std::filesystem::path& path, bool has_uvs) {
     const std::string bytes = read_file(path);
     if (bytes.empty()) {
         fail_input(path, "is empty");
@@ -201,11 +243,12 @@ PolygonMesh read_obj(const std::filesystem::path& path) {
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
         fail_input(path, "is a PLY file, so its name should end in .ply");
     }
-    CheckedRecords records = check_records(path, bytes);
+    CheckedRecords records = check_records(path, bytes, has_uvs);
     if (records.vertex_lines.size() > std::numeric_limits<std::int32_t>::max()) {
         fail_input(path, "has more vertices than a face can refer to");
     }
-    MeshBuilder builder{path, {}, 0};
+    MeshBuilder builder{path, {}, has_uvs};
+    builder.mesh.uvs = std::move(records.uvs);
     builder.mesh.vertex_lines = std::move(records.vertex_lines);
     builder.mesh.face_lines = std::move(records.face_lines);
     builder.mesh.positions = std::move(records.positions);
@@ -213,6 +256,7 @@ PolygonMesh read_obj(const std::filesystem::path& path) {
 
     tinyobj::callback_t callbacks;
     callbacks.vertex_cb = MeshBuilder::on_vertex;
+    callbacks.texcoord_cb = MeshBuilder::on_uv;
     callbacks.index_cb = MeshBuilder::on_face;
     std::istringstream stream(std::move(records.text));
     std::string error;

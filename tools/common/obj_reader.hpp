@@ -1,4 +1,5 @@
-// Wavefront OBJ: `v` and `f` records; everything else in the file is ignored.
+// Wavefront OBJ: `v`, `f` and, where asked for, `vt` records; everything else in the file is
+// ignored.
 #pragma once
 
 #include "common/polygon_mesh.hpp"
@@ -9,6 +10,6 @@ namespace geodisk::tools {
 
 /// Reads `path`. Understands every line end, line continuation, a byte order mark, relative
 /// indices and faces of any size. Throws UserError(bad_input) naming the line.
-PolygonMesh read_obj(const std::filesystem::path& path);
+PolygonMesh read_obj(const std::filesystem::path& path, bool has_uvs = false);
 
 } // namespace geodisk::tools

@@ -7,6 +7,7 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace geodisk::tools {
@@ -68,6 +69,20 @@ std::size_t attribute_column(const std::filesystem::path& path, const PlyElement
     return *column;
 }
 
+/// The two columns of texture coordinates.
+std::vector<std::size_t> uv_columns(const std::filesystem::path& path, const PlyElement& element) {
+    for (const auto& [u, v] :
+         {std::pair{"s", "t"}, std::pair{"u", "v"}, std::pair{"texture_u", "texture_v"}}) {
+        const std::optional<std::size_t> first = element.find_scalar(u);
+        const std::optional<std::size_t> second = element.find_scalar(v);
+        if (first && second) {
+            return {*first, *second};
+        }
+    }
+    fail_input(path, "element vertex has no texture coordinates: none of s t, u v and texture_u "
+                     "texture_v");
+}
+
 void read_vertices(const std::filesystem::path& path, PlyFile& file, const PlyElement& element,
                    const PlyWanted& wanted, PolygonMesh& mesh) {
     const std::vector<std::size_t> columns =
@@ -76,12 +91,17 @@ void read_vertices(const std::filesystem::path& path, PlyFile& file, const PlyEl
     for (const std::string& name : wanted.attributes) {
         attributes.push_back(attribute_column(path, element, name));
     }
+    const std::vector<std::size_t> uvs =
+        wanted.has_uvs ? uv_columns(path, element) : std::vector<std::size_t>();
     mesh.dimension = columns.empty() ? 3 : static_cast<std::uint32_t>(columns.size());
     mesh.attributes.resize(attributes.size());
     mesh.positions.reserve(columns.size() * file.possible_records(element));
     file.read_records(element, [&](std::uint64_t, const PlyRecord& record) {
         for (const std::size_t column : columns) {
             mesh.positions.push_back(record.scalars[column]);
+        }
+        for (const std::size_t column : uvs) {
+            mesh.uvs.push_back(record.scalars[column]);
         }
         for (std::size_t i = 0; i < attributes.size(); ++i) {
             mesh.attributes[i].push_back(record.scalars[attributes[i]]);
@@ -137,6 +157,9 @@ PolygonMesh read_ply(const std::filesystem::path& path, const PlyWanted& wanted)
     }
     if (!has_faces) {
         fail_input(path, "has no faces: there is no element face");
+    }
+    if (wanted.has_uvs) {
+        mesh.corner_uvs = mesh.corners;
     }
     if (std::string warning = file.trailing_data_warning(); !warning.empty()) {
         mesh.warnings.push_back(std::move(warning));

@@ -13,6 +13,7 @@ namespace geodisk::tools {
 struct PlyWanted {
     bool has_coordinates = true;             ///< False: if it has no coordinates, do without.
     std::span<const std::string> attributes; ///< Names of scalar properties.
+    bool has_uvs = false; ///< Texture coordinates: s t, u v or texture_u texture_v.
 };
 
 /// Reads the coordinates of element `vertex`, which are x0 x1 ..., 3 to 8 of them, where there is

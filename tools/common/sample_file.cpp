@@ -67,6 +67,7 @@ struct Layout {
     std::uint32_t dimension;
     std::uint32_t named; ///< How many of the first three coordinates by the names x, y and z.
     bool has_float_positions;
+    bool has_radius;
     bool is_on_surface = true;
 
     bool has_numbered() const { return dimension > 3; }
@@ -101,6 +102,9 @@ std::vector<Column> columns_of(const Layout& layout) {
         add(SampleColumn::bary_u, SampleColumn::bary_w, "float");
     }
     add(SampleColumn::candidate, SampleColumn::candidate, "uint");
+    if (layout.has_radius) {
+        add(SampleColumn::radius, SampleColumn::radius, "double");
+    }
     return columns;
 }
 
@@ -147,6 +151,9 @@ void for_each_value(const SampleRow& row, const Layout& layout, const Append& ap
         }
     }
     append(row.candidate);
+    if (layout.has_radius) {
+        append(row.radius);
+    }
 }
 
 void append_text_row(std::string& line, const SampleRow& row, const Layout& layout,
@@ -217,10 +224,11 @@ void write_samples(AtomicFile& file, const std::filesystem::path& path, const Sa
     switch (format_of(path)) {
     case Format::ply:
         write_ply(file, header, rows, ascii_ply,
-                  {dimension, dimension >= 3 ? 3u : 0u, float_is_enough(rows, dimension)});
+                  {dimension, dimension >= 3 ? 3u : 0u, float_is_enough(rows, dimension),
+                   has_radii(rows)});
         break;
     case Format::csv:
-        write_csv(file, header, rows, {dimension, dimension == 3 ? 3u : 0u, false});
+        write_csv(file, header, rows, {dimension, dimension == 3 ? 3u : 0u, false, has_radii(rows)});
         break;
     case Format::xyz:
         write_xyz(file, rows);
@@ -233,10 +241,10 @@ void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
                        std::uint32_t dimension) {
     switch (format_of(path)) {
     case Format::ply:
-        write_ply(file, header, rows, ascii_ply, {dimension, 3, false, false});
+        write_ply(file, header, rows, ascii_ply, {dimension, 3, false, false, false});
         break;
     case Format::csv:
-        write_csv(file, header, rows, {dimension, dimension > 3 ? 0 : dimension, false, false});
+        write_csv(file, header, rows, {dimension, dimension > 3 ? 0 : dimension, false, false, false});
         break;
     case Format::xyz:
         write_xyz(file, rows);

@@ -18,7 +18,13 @@ struct SampleRow {
     std::uint32_t face = 0;
     float bary[3] = {};
     std::uint32_t candidate = 0;
+    double radius = 0; ///< In mesh units, where radii vary; 0 in all rows where they do not.
 };
+
+/// Whether radii vary.
+inline bool has_radii(std::span<const SampleRow> rows) {
+    return !rows.empty() && rows.front().radius > 0;
+}
 
 /// Key and value of each header comment, in order: version, mesh, parameters, device and so on.
 /// Line breaks in them are written as blanks.
@@ -36,8 +42,9 @@ struct SampleFile {
 
 /// Writes `rows` in the format of the extension of `path`:
 ///   .ply  binary little endian, or ascii on request: element vertex with x y z nx ny nz
-///         face_index bary_u bary_v bary_w candidate; the header as "comment KEY: VALUE". x y z are
-///         float, or double where float would blur them: far from the origin for their extent.
+///         face_index bary_u bary_v bary_w candidate, and radius as double where radii vary; the
+///         header as "comment KEY: VALUE". x y z are float, or double where float would blur them:
+///         far from the origin for their extent.
 ///   .csv  a header row with the same names; the header before it as "# KEY: VALUE"
 ///   .xyz  x y z per line and nothing else
 /// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY has besides x y z so

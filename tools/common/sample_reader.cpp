@@ -98,6 +98,9 @@ bool set_value(SampleRow& row, SampleColumn column, double value) {
         return set_index(row.face, value);
     case SampleColumn::candidate:
         return set_index(row.candidate, value);
+    case SampleColumn::radius:
+        row.radius = value;
+        return value > 0 && std::isfinite(value);
     }
     return false;
 }

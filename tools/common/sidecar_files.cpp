@@ -83,6 +83,18 @@ Coordinates read_coordinates(const std::filesystem::path& path) {
     return result;
 }
 
+std::vector<double> read_values(const std::filesystem::path& path) {
+    std::vector<double> values;
+    for_each_line(path, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
+        if (tokens.size() != 1) {
+            fail_line(path, line,
+                      "has " + std::to_string(tokens.size()) + " numbers instead of one");
+        }
+        values.push_back(number_at(path, line, tokens[0]));
+    });
+    return values;
+}
+
 EdgeLengths::EdgeLengths(const std::filesystem::path& path, std::uint32_t first_vertex)
     : path_(path), first_vertex_(first_vertex) {
     const auto vertex_at = [&](std::size_t line, std::string_view token) {

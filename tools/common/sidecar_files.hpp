@@ -1,5 +1,5 @@
-// Text files beside a mesh file that say what its format cannot: coordinates beyond three, and the
-// lengths of edges. Blank lines and what follows a '#' are ignored.
+// Text files beside a mesh file that say what its format cannot: coordinates beyond three, values
+// of vertices, and the lengths of edges. Blank lines and what follows a '#' are ignored.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,11 @@ struct Coordinates {
 };
 
 /// Reads one line per vertex of 3 to 8 finite numbers, the same on all lines. Throws
-/// UserError(bad_input) naming the file and the line, like the next.
+/// UserError(bad_input) naming the file and the line, like the next two.
 Coordinates read_coordinates(const std::filesystem::path& path);
+
+/// Reads one finite number per line.
+std::vector<double> read_values(const std::filesystem::path& path);
 
 /// Lengths by edge. Vertices are numbered from 0 here, whatever the file does.
 class EdgeLengths {

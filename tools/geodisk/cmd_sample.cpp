@@ -42,6 +42,7 @@ constexpr double kDartsPerSample = 1000;
 /// As given on the command line.
 struct SampleOptions {
     MeshOptions mesh;
+    DensityOptions density;
     std::string output, json, device;
     std::string min_distance, radius, count, throws;
     std::string method = "psdp", metric = "geodesic", seed = "0", pool_ratio = "20",
@@ -60,12 +61,15 @@ struct SampleRequest {
 
     /// The parameters on a mesh. Where a count alone is to stop the darts, they end at a number
     /// that leaves hardly any gap.
-    SampleParams params_on(const MeshStatistics& mesh) const {
+    SampleParams params_on(const MeshInput& mesh) const {
         SampleParams on_mesh = params;
-        on_mesh.min_distance = min_distance ? distance_on_mesh(*min_distance, mesh)
-                                            : distance_for_count(mesh.area, count);
+        on_mesh.radii = mesh.radii ? &*mesh.radii : nullptr;
+        const double area = effective_area(mesh.prepared, on_mesh);
+        on_mesh.min_distance = min_distance
+                                   ? distance_on_mesh(*min_distance, mesh.prepared.statistics())
+                                   : distance_for_count(area, count);
         if (params.stop_count != 0 && params.throws == 0) {
-            const double room = std::max(1.0, expected_count(mesh.area, on_mesh.min_distance));
+            const double room = std::max(1.0, expected_count(area, on_mesh.min_distance));
             on_mesh.throws = static_cast<std::uint32_t>(
                 std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * room)));
         }
@@ -168,6 +172,11 @@ void check_metric(const SampleOptions& options) {
     if (options.metric != "geodesic" && options.throws_darts()) {
         throw UserError(ExitCode::usage, "--method pdts takes no --metric but geodesic");
     }
+    if (options.metric != "geodesic" && options.density.is_given()) {
+        throw UserError(ExitCode::usage, "--metric " + options.metric +
+                                             " takes no radii that vary, so none of the "
+                                             "--density options");
+    }
     if (options.metric != "geodesic" && !options.mesh.additions().empty()) {
         throw UserError(ExitCode::usage, "--metric " + options.metric +
                                              " goes by the coordinates of the mesh file, so it "
@@ -182,15 +191,25 @@ void check_outputs(const SampleOptions& options) {
     for (const std::string& file : options.mesh.files()) {
         read.push_back({"the mesh", file});
     }
+    for (const std::string& file : options.density.files()) {
+        read.push_back({"the density", file});
+    }
     check_distinct({{"the samples", options.output}, {"the report", options.json}}, read);
     check_output_path(options.output);
     check_report_path(options.json);
 }
 
+/// Samples to reckon with, at least one.
+double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
+    const double expected =
+        std::max(1.0, expected_count(effective_area(mesh, params), params.min_distance));
+    return params.stop_count != 0 ? std::min<double>(expected, params.stop_count) : expected;
+}
+
 /// Opens a runner, SpaceRunner of some metric or Runner, and lets `work` use it.
 template <class AnyRunner, class Work, class... Choice>
-SampleSet run_on(const Context& context, const RunnerOptions& options, SampleReport& report,
-                 ProgressLine& progress, const Work& work, Choice... choice) {
+SampleSet run_on(const Context& context, const RunnerOptions& options, double expected,
+                 SampleReport& report, ProgressLine& progress, const Work& work, Choice... choice) {
     progress.begin_stage("compiling the shaders");
     AnyRunner runner = timed(report.seconds.pipelines, [&] {
         return take(AnyRunner::create(context.device(), context.queue(), choice...,
@@ -199,10 +218,6 @@ SampleSet run_on(const Context& context, const RunnerOptions& options, SampleRep
     report.tuning = runner.tuning();
     check_interrupted();
     progress.begin_stage("sampling");
-    double expected = expected_count(report.mesh.area, report.params.min_distance);
-    if (report.params.stop_count != 0) {
-        expected = std::min<double>(expected, report.params.stop_count);
-    }
     return take_run(work(runner, show_progress(progress, expected)), progress);
 }
 
@@ -214,9 +229,11 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     report.device = context.report();
     RunnerOptions counting = runner_options;
     counting.sampler.count_calls = !options.json.empty();
+    counting.sampler.adaptive = report.params.radii != nullptr;
+    const double expected = expected_samples(mesh.prepared, report.params);
     SampleSet set;
     if (options.metric == "geodesic") {
-        set = run_on<Runner>(context, counting, report, progress,
+        set = run_on<Runner>(context, counting, expected, report, progress,
                              [&](Runner& runner, const ProgressCallback& callback) {
                                  return runner.sample_and_wait(mesh.prepared, report.params,
                                                                callback);
@@ -224,7 +241,7 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     } else {
         const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
         set = run_on<SpaceRunner>(
-            context, counting, report, progress,
+            context, counting, expected, report, progress,
             [&](SpaceRunner& runner, const ProgressCallback& callback) {
                 return runner.sample_and_wait(view, mesh.prepared, report.params, callback);
             },
@@ -233,8 +250,9 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     check_validation(context);
     report.run = set.report;
     report.samples = set.samples.size();
-    report.rho = packing_density(report.mesh.area, report.params.min_distance,
-                                 static_cast<double>(set.samples.size()));
+    report.rho =
+        packing_density(effective_area(mesh.prepared, report.params), report.params.min_distance,
+                        static_cast<double>(set.samples.size()));
     return std::move(set.samples);
 }
 
@@ -251,7 +269,8 @@ void check_count(const SampleRequest& request, const SampleReport& report) {
     }
 }
 
-std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>& samples) {
+std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
+                               const std::vector<Sample>& samples) {
     std::vector<SampleRow> rows;
     rows.reserve(samples.size());
     for (const Sample& sample : samples) {
@@ -260,6 +279,7 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, const std::vector<Sample>&
         std::copy_n(sample.weights, 3, row.bary);
         row.candidate = sample.candidate;
         mesh.place(row);
+        row.radius = mesh.radius(sample.face, sample.weights, min_distance);
         rows.push_back(row);
     }
     return rows;
@@ -291,7 +311,7 @@ void run_sample(const SampleOptions& options) {
     check_metric(options);
     check_outputs(options);
     ProgressLine progress(options.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress);
+    const MeshInput mesh = load_mesh(options.mesh, progress, options.density);
     check_dimension(options.output, mesh.dimension());
     if (options.metric != "geodesic" && mesh.dimension() != 3) {
         throw UserError(ExitCode::usage,
@@ -303,11 +323,14 @@ void run_sample(const SampleOptions& options) {
     SampleReport report;
     report.mesh_path = options.mesh.mesh;
     report.mesh_additions = options.mesh.additions();
+    for (const auto& addition : options.density.additions()) {
+        report.mesh_additions.push_back(addition);
+    }
     report.output_path = options.output;
     report.metric = options.metric;
     report.mesh = mesh.prepared.statistics();
     report.throws_darts = options.throws_darts();
-    report.params = request.params_on(report.mesh);
+    report.params = request.params_on(mesh);
     report.wanted_count = request.count;
     report.seconds.load = mesh.load_seconds;
     report.seconds.prepare = mesh.prepare_seconds;
@@ -316,7 +339,9 @@ void run_sample(const SampleOptions& options) {
     const std::vector<Sample> samples =
         sample_on_device(options, request.runner, mesh, report, progress);
     check_count(request, report);
-    write_outputs(options, to_rows(mesh, samples), mesh.dimension(), report, progress);
+    const std::vector<SampleRow> rows = to_rows(mesh, report.params.min_distance, samples);
+    report.set_radii(rows);
+    write_outputs(options, rows, mesh.dimension(), report, progress);
 }
 
 } // namespace
@@ -339,7 +364,9 @@ void add_sample_command(CLI::App& app) {
                      "or with % of the bounding-box diagonal")
         ->type_name("D")
         ->group(distance);
-    command->add_option("-r,--radius", options->radius, "Half the least distance")
+    command
+        ->add_option("-r,--radius", options->radius,
+                     "Half the least distance; where radii vary, the largest")
         ->type_name("R")
         ->group(distance);
     command
@@ -350,6 +377,7 @@ void add_sample_command(CLI::App& app) {
         ->group(distance);
 
     add_mesh_options(*command, options->mesh);
+    add_density_options(*command, options->density);
 
     command
         ->add_option("--metric", options->metric,

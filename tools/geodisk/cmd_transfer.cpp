@@ -152,6 +152,7 @@ void run_transfer(const TransferOptions& options) {
 
     for (SampleRow& row : samples.rows) {
         to.place(row);
+        row.radius = 0; // That was one on the other mesh.
     }
     const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
     AtomicFile file(options.output);

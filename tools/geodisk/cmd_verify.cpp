@@ -34,6 +34,7 @@ constexpr std::size_t kNamedViolations = 10;
 
 struct VerifyOptions {
     MeshOptions mesh;
+    DensityOptions density;
     std::string samples, min_distance, json;
     bool quiet = false;
 };
@@ -82,13 +83,67 @@ double distance_of(const VerifyOptions& options, const SampleFile& samples,
                                                        "--min-distance");
 }
 
-std::string smallest_text(const SpacingResult& spacing, double min_distance) {
-    if (!spacing.closest) {
-        return "> " + rounded(spacing.cut, 6);
+/// How far samples must be apart.
+struct Spacing {
+    double min_distance = 0; ///< Of all pairs, or of two with the largest radius; 0 if not known.
+    bool radii_vary = false;
+    std::vector<double> radii; ///< By row.
+    std::size_t wrong = 0;     ///< Rows whose own radius is another.
+};
+
+/// With density options the radii are computed again; without, those of the file count, unless a
+/// distance is given.
+Spacing spacing_of(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
+    Spacing spacing;
+    spacing.radii_vary = mesh.radii || (has_radii(samples.rows) && options.min_distance.empty());
+    if (mesh.radii || !spacing.radii_vary) {
+        spacing.min_distance = distance_of(options, samples, mesh.prepared.statistics());
     }
-    const double smallest = spacing.closest->distance;
-    return rounded(smallest, 9) + ", " + rounded(smallest / min_distance, 9) +
+    constexpr double kSame = 1e-6; // Of radii that other programs rounded.
+    for (const SampleRow& row : samples.rows) {
+        const double radius = mesh.radii ? mesh.radius(row.face, row.bary, spacing.min_distance)
+                              : spacing.radii_vary ? row.radius
+                                                   : spacing.min_distance / 2;
+        if (mesh.radii && row.radius > 0 && !(std::abs(row.radius - radius) <= kSame * radius)) {
+            ++spacing.wrong;
+        }
+        spacing.radii.push_back(radius);
+    }
+    return spacing;
+}
+
+std::string smallest_text(const SpacingResult& result, const Spacing& spacing) {
+    if (spacing.radii_vary) {
+        return (result.closest ? rounded(result.closest->ratio, 9)
+                               : "> " + rounded(result.cut, 6)) +
+               " of the sum of two radii";
+    }
+    if (!result.closest) {
+        return "> " + rounded(result.cut * spacing.min_distance, 6);
+    }
+    return rounded(result.closest->distance, 9) + ", " + rounded(result.closest->ratio, 9) +
            " of the minimum distance";
+}
+
+/// Of samples that a distance is known of.
+double rho_of(const SampleFile& samples, const MeshInput& mesh, const Spacing& spacing) {
+    SampleParams params;
+    params.radii = mesh.radii ? &*mesh.radii : nullptr;
+    return packing_density(effective_area(mesh.prepared, params), spacing.min_distance,
+                           static_cast<double>(samples.rows.size()));
+}
+
+void print_spacing(std::ostream& out, const SampleFile& samples, const MeshInput& mesh,
+                   const Spacing& spacing) {
+    if (spacing.min_distance > 0) {
+        out << "min distance  " << rounded(spacing.min_distance, 9) << " in mesh units\n"
+            << "rho           " << rounded(rho_of(samples, mesh, spacing), 3) << '\n';
+    }
+    if (spacing.radii_vary && !spacing.radii.empty()) {
+        const auto [least, most] = std::minmax_element(spacing.radii.begin(), spacing.radii.end());
+        out << "radii         " << rounded(*least, 9) << " to " << rounded(*most, 9)
+            << (mesh.radii ? "" : ", as the file has them") << '\n';
+    }
 }
 
 std::string count_text(std::size_t count, bool is_complete) {
@@ -96,27 +151,29 @@ std::string count_text(std::size_t count, bool is_complete) {
 }
 
 void print_result(std::ostream& out, const VerifyOptions& options, const SampleFile& samples,
-                  const MeshStatistics& mesh, double min_distance, const SpacingResult& spacing,
+                  const MeshInput& mesh, const Spacing& spacing, const SpacingResult& result,
                   const std::vector<StrayRow>& strays) {
     out << "mesh          " << one_line(options.mesh.mesh) << '\n'
         << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
-        << '\n'
-        << "min distance  " << rounded(min_distance, 9) << " in mesh units\n"
-        << "rho           "
-        << rounded(
-               packing_density(mesh.area, min_distance, static_cast<double>(samples.rows.size())),
-               3)
-        << '\n'
-        << "smallest      " << smallest_text(spacing, min_distance) << '\n'
-        << "violations    " << count_text(spacing.violations.size(), spacing.is_complete) << '\n';
-    for (std::size_t i = 0; i < std::min(spacing.violations.size(), kNamedViolations); ++i) {
-        const ClosePair& pair = spacing.violations[i];
+        << '\n';
+    print_spacing(out, samples, mesh, spacing);
+    out << "smallest      " << smallest_text(result, spacing) << '\n'
+        << "violations    " << count_text(result.violations.size(), result.is_complete) << '\n';
+    for (std::size_t i = 0; i < std::min(result.violations.size(), kNamedViolations); ++i) {
+        const ClosePair& pair = result.violations[i];
         out << "              " << row_text(samples, pair.row_a) << " and "
-            << row_text(samples, pair.row_b) << ": " << rounded(pair.distance, 9) << '\n';
+            << row_text(samples, pair.row_b) << ": " << rounded(pair.distance, 9);
+        if (spacing.radii_vary) {
+            out << ", " << rounded(pair.ratio, 9) << " of the sum of their radii";
+        }
+        out << '\n';
     }
-    if (!spacing.violations.empty()) {
-        out << "too close     " << count_text(spacing.violating_samples(), spacing.is_complete)
+    if (!result.violations.empty()) {
+        out << "too close     " << count_text(result.violating_samples(), result.is_complete)
             << " of " << counted(samples.rows.size(), "sample", "samples") << '\n';
+    }
+    if (spacing.wrong > 0) {
+        out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
     if (!strays.empty()) {
         out << "off the mesh  " << grouped(strays.size()) << '\n';
@@ -128,23 +185,26 @@ void print_result(std::ostream& out, const VerifyOptions& options, const SampleF
 }
 
 std::string report_text(const VerifyOptions& options, const SampleFile& samples,
-                        const MeshStatistics& mesh, double min_distance,
-                        const SpacingResult& spacing, const std::vector<StrayRow>& strays) {
-    const double rho =
-        packing_density(mesh.area, min_distance, static_cast<double>(samples.rows.size()));
-    return text_of(Json{{"version", GEODISK_VERSION_STRING},
-                        {"mesh", options.mesh.mesh},
-                        {"samples_file", options.samples},
-                        {"samples", samples.rows.size()},
-                        {"min_distance", min_distance},
-                        {"rho", rho},
-                        {"cut", spacing.cut},
-                        {"smallest", pair_json(samples, spacing.closest)},
-                        {"violations",
-                         {{"pairs", spacing.violations.size()},
-                          {"samples", spacing.violating_samples()},
-                          {"complete", spacing.is_complete}}},
-                        {"off_the_mesh", strays.size()}});
+                        const MeshInput& mesh, const Spacing& spacing, const SpacingResult& result,
+                        const std::vector<StrayRow>& strays) {
+    const bool has_distance = spacing.min_distance > 0;
+    return text_of(
+        Json{{"version", GEODISK_VERSION_STRING},
+             {"mesh", options.mesh.mesh},
+             {"samples_file", options.samples},
+             {"samples", samples.rows.size()},
+             {"min_distance", has_distance ? Json(spacing.min_distance) : Json(nullptr)},
+             {"rho", has_distance ? Json(rho_of(samples, mesh, spacing)) : Json(nullptr)},
+             {"radii_vary", spacing.radii_vary},
+             {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
+             {"smallest", pair_json(samples, result.closest)},
+             {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
+             {"violations",
+              {{"pairs", result.violations.size()},
+               {"samples", result.violating_samples()},
+               {"complete", result.is_complete}}},
+             {"wrong_radii", spacing.wrong},
+             {"off_the_mesh", strays.size()}});
 }
 
 /// Before the work: whether the report can be written.
@@ -153,23 +213,30 @@ void check_report(const VerifyOptions& options) {
     for (const std::string& file : options.mesh.files()) {
         read.push_back({"the mesh", file});
     }
+    for (const std::string& file : options.density.files()) {
+        read.push_back({"the density", file});
+    }
     check_distinct({{"the report", options.json}}, read);
     check_report_path(options.json);
 }
 
-void fail_on_violations(const VerifyOptions& options, double min_distance,
-                        const SpacingResult& spacing, const std::vector<StrayRow>& strays) {
+void fail_on_violations(const VerifyOptions& options, const Spacing& spacing,
+                        const SpacingResult& result, const std::vector<StrayRow>& strays) {
     std::string message;
-    if (const std::size_t count = spacing.violations.size(); count > 0) {
-        message = count_text(count, spacing.is_complete) +
-                  (count == 1 ? " pair of samples is" : " pairs of samples are") + " closer than " +
-                  rounded(min_distance, 9);
+    if (const std::size_t count = result.violations.size(); count > 0) {
+        message =
+            count_text(count, result.is_complete) +
+            (count == 1 ? " pair of samples is" : " pairs of samples are") + " closer than " +
+            (spacing.radii_vary ? "the sum of their radii" : rounded(spacing.min_distance, 9));
     }
-    if (const std::size_t count = strays.size(); count > 0) {
-        message += (message.empty() ? "" : ", and ") + grouped(count) +
-                   (count == 1 ? " position does" : " positions do") +
-                   " not agree with face and weights";
-    }
+    const auto add = [&message](std::size_t count, const std::string& one, const std::string& many,
+                                const char* what) {
+        if (count > 0) {
+            message += (message.empty() ? "" : ", and ") + counted(count, one, many) + what;
+        }
+    };
+    add(strays.size(), "position does", "positions do", " not agree with face and weights");
+    add(spacing.wrong, "radius is", "radii are", " not what the density options give");
     if (!message.empty()) {
         throw UserError(ExitCode::violation, options.samples + ": " + message);
     }
@@ -181,25 +248,23 @@ void run_verify(const VerifyOptions& options) {
     }
     check_report(options);
     ProgressLine progress(options.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress);
+    const MeshInput mesh = load_mesh(options.mesh, progress, options.density);
     progress.begin_stage("reading the samples");
     const SampleFile samples = read_samples(options.samples);
     progress.clear();
-    const MeshStatistics& statistics = mesh.prepared.statistics();
-    const double min_distance = distance_of(options, samples, statistics);
     check_rows(options.samples, samples, options.mesh.mesh, mesh);
     warn_of_other_surface(options, samples);
+    const Spacing spacing = spacing_of(options, samples, mesh);
 
     const std::vector<StrayRow> strays = find_strays(samples, mesh);
-    const SpacingResult spacing = check_spacing(mesh, samples.rows, min_distance, progress);
-    ReportFile report(options.json,
-                      report_text(options, samples, statistics, min_distance, spacing, strays));
+    const SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);
+    ReportFile report(options.json, report_text(options, samples, mesh, spacing, result, strays));
     report.commit();
     if (!options.quiet && options.json != "-") {
-        print_result(std::cout, options, samples, statistics, min_distance, spacing, strays);
+        print_result(std::cout, options, samples, mesh, spacing, result, strays);
         flush_or_fail("the result");
     }
-    fail_on_violations(options, min_distance, spacing, strays);
+    fail_on_violations(options, spacing, result, strays);
 }
 
 } // namespace
@@ -216,9 +281,11 @@ void add_verify_command(CLI::App& app) {
         ->add_option("-d,--min-distance", options->min_distance,
                      "Least distance along the surface, in mesh units,\n"
                      "or with % of the bounding-box diagonal;\n"
-                     "without it, that of the file's header")
+                     "without it, the radii of the file where it has them,\n"
+                     "else the distance of its header")
         ->type_name("D");
     add_mesh_options(*command, options->mesh);
+    add_density_options(*command, options->density);
     command->add_option("--json", options->json, "Write a report as JSON, - for standard output")
         ->type_name("FILE");
     command->add_flag("-q,--quiet", options->quiet,

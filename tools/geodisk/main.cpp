@@ -21,11 +21,12 @@ constexpr const char* kFooter = R"(Examples:
   geodisk verify bunny.obj points.csv
   geodisk sample bunny.obj -o points.ply --count 10000 --lift normals:0.05
   geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv
+  geodisk sample bunny.obj -o points.ply --count 10000 --density-curvature
   geodisk box -o points.csv --dim 4 --count 1e5 --periodic
 
 Exit status:
   0    success
-  1    verify found samples that are too close or do not lie on the mesh
+  1    verify found samples too close, off the mesh or of another radius
   2    wrong usage: an unknown option, no or several distances, a value out of range
   3    an input file is missing, unreadable or malformed
   4    an output cannot be written

@@ -65,6 +65,17 @@ PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<co
     return take(PreparedMesh::prepare({lifted.positions, file.triangles, lifted.dimension}), path);
 }
 
+/// What the lifts and the density need of the mesh file.
+MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
+                       const DensityOptions& density) {
+    MeshSources sources{options.mesh, options.coordinates, options.edge_lengths,
+                        lift_attributes(lifts), !density.map.empty()};
+    if (!density.attribute.empty()) {
+        sources.attributes.push_back(density.attribute);
+    }
+    return sources;
+}
+
 std::vector<Lift> parse_lifts(const MeshOptions& options) {
     if (!options.lifts.empty() && !options.edge_lengths.empty()) {
         throw UserError(ExitCode::usage, "--lift and --edge-lengths contradict each other: lengths "
@@ -118,20 +129,26 @@ void MeshInput::place(SampleRow& row) const {
     row.normal[2] = static_cast<float>(n.z);
 }
 
-MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress) {
+MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
+                    const DensityOptions& density) {
     const std::string& path = options.mesh;
+    const bool radii_vary = density.is_given();
     const std::vector<Lift> lifts = parse_lifts(options);
     progress.begin_stage("reading the mesh");
     auto start = Clock::now();
-    MeshFile file =
-        read_mesh({path, options.coordinates, options.edge_lengths, lift_attributes(lifts)});
+    MeshFile file = read_mesh(sources_of(options, lifts, density));
     const double load_seconds = seconds_since(start);
     check_interrupted();
 
     progress.begin_stage("preparing the mesh");
     start = Clock::now();
     PreparedMesh prepared = prepare(path, file, lifts);
-    MeshInput mesh{std::move(file), std::move(prepared), load_seconds, seconds_since(start)};
+    std::optional<RadiusField> radii;
+    if (radii_vary) {
+        radii = load_radii(density, path, file, prepared);
+    }
+    MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), load_seconds,
+                   seconds_since(start)};
     check_interrupted();
     progress.clear();
     print_warnings(path, mesh);

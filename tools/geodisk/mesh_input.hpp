@@ -3,14 +3,17 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include <geodisk/mesh.hpp>
+#include <geodisk/radius_field.hpp>
 
 #include "common/mesh_file.hpp"
 #include "common/sample_file.hpp"
 #include "common/vec3.hpp"
+#include "geodisk/density_options.hpp"
 #include "geodisk/mesh_options.hpp"
 #include "program/arguments.hpp"
 
@@ -19,6 +22,7 @@ namespace geodisk::tools {
 struct MeshInput {
     MeshFile file;
     PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
+    std::optional<RadiusField> radii; ///< Where the options say that radii vary.
     double load_seconds = 0;
     double prepare_seconds = 0;
 
@@ -30,6 +34,10 @@ struct MeshInput {
     }
     /// The point of `face` with the given weights of its corners; zero beyond the dimension.
     std::array<double, 8> point(std::uint32_t face, const float (&weights)[3]) const;
+    /// Of a sample there, in mesh units, where radii vary; else 0.
+    double radius(std::uint32_t face, const float (&weights)[3], double min_distance) const {
+        return radii ? radii->factor_at(face, weights) * min_distance / 2 : 0;
+    }
     /// Of unit length; zero for a face without area and for a mesh that is not in space.
     Vec3 normal(std::uint32_t face) const;
     /// Sets position and normal of `row` by its face and weights.
@@ -38,9 +46,10 @@ struct MeshInput {
 
 class ProgressLine;
 
-/// Reads and prepares a mesh and writes warnings to standard error. Throws UserError as read_mesh()
-/// and lifted_positions(), or bad_input when the mesh is rejected.
-MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress);
+/// Reads and prepares a mesh and writes warnings to standard error. Throws UserError as
+/// read_mesh(), lifted_positions() and load_radii(), or bad_input when the mesh is rejected.
+MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
+                    const DensityOptions& density = {});
 
 /// `length` in mesh units. Throws UserError(usage) for % of a mesh that has no bounding box.
 double distance_on_mesh(const Length& length, const MeshStatistics& mesh);

@@ -1,5 +1,6 @@
 #include "geodisk/sample_report.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <geodisk/version.hpp>
@@ -65,6 +66,13 @@ std::string metric_text(const std::string& metric) {
     return metric == "geodesic" ? metric : metric + ", not exact along the surface";
 }
 
+/// Null where radii do not vary.
+Json radii_json(const SampleReport& report) {
+    return report.most_radius > 0
+               ? Json{{"least", report.least_radius}, {"most", report.most_radius}}
+               : Json(nullptr);
+}
+
 /// What ended the run.
 const char* stopped_by(const SampleReport& report) {
     const bool has_all = report.samples == report.params.stop_count;
@@ -89,6 +97,16 @@ Json calls_json(const CallHistogram& calls) {
 }
 
 } // namespace
+
+void SampleReport::set_radii(std::span<const SampleRow> rows) {
+    if (has_radii(rows)) {
+        const auto [least, most] = std::minmax_element(
+            rows.begin(), rows.end(),
+            [](const SampleRow& a, const SampleRow& b) { return a.radius < b.radius; });
+        least_radius = least->radius;
+        most_radius = most->radius;
+    }
+}
 
 SampleHeader sample_header(const SampleReport& report) {
     const char* const drawn = report.throws_darts ? "throws" : "pool_size";
@@ -119,6 +137,7 @@ std::string json_text(const SampleReport& report) {
                         {"min_distance", report.params.min_distance},
                         {"radius", report.params.min_distance / 2},
                         {"metric", metric_text(report.metric)},
+                        {"sample_radii", radii_json(report)},
                         {"seed", report.params.seed},
                         {"method", report.throws_darts ? "pdts" : "psdp"},
                         {"pool_ratio", pool_ratio},
@@ -154,8 +173,12 @@ void print_summary(std::ostream& out, const SampleReport& report) {
     out << "              " << mesh_text(report.mesh) << '\n'
         << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
         << ") in mesh units"
-        << (report.metric == "geodesic" ? "" : ", " + metric_text(report.metric)) << '\n'
-        << "samples       " << samples_text(report) << ", rho " << rounded(report.rho, 3) << '\n'
+        << (report.metric == "geodesic" ? "" : ", " + metric_text(report.metric)) << '\n';
+    if (report.most_radius > 0) {
+        out << "radii         " << rounded(report.least_radius, 6) << " to "
+            << rounded(report.most_radius, 6) << " at the samples\n";
+    }
+    out << "samples       " << samples_text(report) << ", rho " << rounded(report.rho, 3) << '\n'
         << (report.throws_darts ? "darts         " : "candidates    ")
         << grouped(report.run.candidates) << ", seed " << report.params.seed << '\n'
         << "time          " << seconds_text(report.run.seconds.sample) << " sampling, "

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <ostream>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,13 +27,17 @@ struct SampleReport {
     bool throws_darts = false; ///< --method pdts.
     double wanted_count = 0;   ///< Of --count, where it chose the distance; else 0.
     std::uint64_t samples = 0;
-    double rho = 0;
+    double rho = 0; ///< Where radii vary, of the samples on a surface of the effective area.
+    double least_radius = 0, most_radius = 0; ///< Of the samples, where radii vary; else 0.
     RunReport run;
     DeviceReport device;
     Tuning tuning; ///< As used.
     struct {
         double load = 0, prepare = 0, device = 0, pipelines = 0, write = 0;
     } seconds; ///< Those of upload, sample and readback are in `run`.
+
+    /// Fills in least_radius and most_radius.
+    void set_radii(std::span<const SampleRow> rows);
 };
 
 /// Nothing in it depends on when or how fast the run was, so equal runs give equal files.

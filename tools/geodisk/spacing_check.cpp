@@ -75,25 +75,24 @@ void sort_violations(std::vector<ClosePair>& pairs) {
             return a.row_a == b.row_a && a.row_b == b.row_b;
         });
     pairs.erase(end, pairs.end());
-    std::stable_sort(pairs.begin(), pairs.end(), [](const ClosePair& a, const ClosePair& b) {
-        return a.distance < b.distance;
-    });
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const ClosePair& a, const ClosePair& b) { return a.ratio < b.ratio; });
 }
 
 bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than) {
-    return !than || std::tie(pair.distance, pair.row_a, pair.row_b) <
-                        std::tie(than->distance, than->row_a, than->row_b);
+    return !than || std::tie(pair.ratio, pair.row_a, pair.row_b) <
+                        std::tie(than->ratio, than->row_a, than->row_b);
 }
 
-/// Calls `visit(pair)` for all pairs not farther apart than `cut`, from each of their rows, until
-/// it returns false.
-template <class Visit>
-void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, double unit, double cut,
-                   ProgressLine& progress, const Visit& visit) {
+/// Calls `visit(row_a, row_b, distance)` for all pairs not farther apart than `cut_of(row)` of one
+/// of them, from each such row, until it returns false. The lower row comes first.
+template <class CutOf, class Visit>
+void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, double unit,
+                   const CutOf& cut_of, ProgressLine& progress, const Visit& visit) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     const ref::Surface<double> surface(mesh.prepared, unit);
     const ref::Bins<double> bins(surface, points_of(rows));
-    ref::Detector<double> detector(surface, bins, ref::double_tolerances(), cut / unit);
+    ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);
 
     std::vector<double> distances(rows.size(), kUnknown); // By place, of the current source.
     std::vector<std::uint32_t> near;                      // Places with a distance.
@@ -102,6 +101,7 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
         check_interrupted();
         progress.update(static_cast<double>(source) / static_cast<double>(rows.size()),
                         grouped(source) + " samples");
+        detector.set_limit(cut_of(bins.order[source]) / unit);
         detector.run(
             bins.points[source], [&](std::uint32_t place) { return place != source; },
             [&](std::uint32_t place, double distance) {
@@ -113,7 +113,7 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
         for (const std::uint32_t place : near) {
             const double distance = std::exchange(distances[place], kUnknown);
             const auto [low, high] = std::minmax(bins.order[source], bins.order[place]);
-            goes_on = visit(ClosePair{low, high, distance}) && goes_on;
+            goes_on = visit(low, high, distance) && goes_on;
         }
         near.clear();
     }
@@ -141,16 +141,21 @@ std::size_t SpacingResult::violating_samples() const {
 }
 
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                            double min_distance, ProgressLine& progress) {
+                            std::span<const double> radii, ProgressLine& progress) {
     SpacingResult result;
-    result.cut = kCutFactor * min_distance;
+    result.cut = kCutFactor;
+    const double largest = radii.empty() ? 1 : *std::max_element(radii.begin(), radii.end());
     progress.begin_stage("verifying");
-    for_each_pair(mesh, rows, choose_unit(mesh.prepared, min_distance), result.cut, progress,
-                  [&](const ClosePair& pair) {
-                      if (is_closer(pair, result.closest)) {
+    // From the sample with the larger radius, every pair is found this way.
+    const auto cut_of = [&](std::uint32_t row) { return kCutFactor * 2 * radii[row]; };
+    for_each_pair(mesh, rows, choose_unit(mesh.prepared, 2 * largest), cut_of, progress,
+                  [&](std::uint32_t row_a, std::uint32_t row_b, double distance) {
+                      const double ratio = distance / (radii[row_a] + radii[row_b]);
+                      const ClosePair pair{row_a, row_b, distance, ratio};
+                      if (ratio <= result.cut && is_closer(pair, result.closest)) {
                           result.closest = pair;
                       }
-                      if (pair.distance < min_distance * (1 - kSmallestViolation)) {
+                      if (ratio < 1 - kSmallestViolation) {
                           result.violations.push_back(pair);
                       }
                       result.is_complete = result.violations.size() < kMostViolations;
@@ -173,13 +178,16 @@ std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const Sam
         distance_for_count(mesh.prepared.statistics().area, static_cast<double>(rows.size()));
     while (!closest) {
         const double cut = kCutFactor * distance;
-        for_each_pair(mesh, rows, choose_unit(mesh.prepared, distance), cut, progress,
-                      [&](const ClosePair& pair) {
-                          if (is_closer(pair, closest)) {
-                              closest = pair;
-                          }
-                          return true;
-                      });
+        for_each_pair(
+            mesh, rows, choose_unit(mesh.prepared, distance), [cut](std::uint32_t) { return cut; },
+            progress,
+            [&](std::uint32_t row_a, std::uint32_t row_b, double length) {
+                const ClosePair pair{row_a, row_b, length, length};
+                if (is_closer(pair, closest)) {
+                    closest = pair;
+                }
+                return true;
+            });
         if (cut > longest) {
             break;
         }

@@ -5,6 +5,7 @@
 
 #include "geodisk/export.hpp"
 #include "geodisk/mesh.hpp"
+#include "geodisk/radius_field.hpp"
 #include "geodisk/status.hpp"
 
 namespace geodisk {
@@ -27,6 +28,11 @@ struct SampleParams {
     /// Stop once so many samples are accepted, if not 0: those are the first of the samples without
     /// it. There are fewer when the candidates are used up before.
     std::uint32_t stop_count = 0;
+    /// Radii that vary over the surface: samples p and q are (g(p) + g(q)) * min_distance / 2
+    /// apart, so min_distance is that of two with the largest radius. Null: all radii are
+    /// min_distance / 2. It must be of the same mesh and outlive the run, and the sampler must be
+    /// one for it (`SamplerOptions::adaptive`).
+    const RadiusField* radii = nullptr;
 };
 
 /// The guard band that makes float decisions safe, in units of the minimum distance.
@@ -48,6 +54,13 @@ struct Tolerances {
 /// exceeds the mesh's diagonal, else no time.
 GEODISK_API double working_distance(const PreparedMesh& mesh, double min_distance) noexcept;
 
+/// The same for a run: with radii that vary it is always min_distance, since the smaller ones may
+/// matter however large that is.
+GEODISK_API double working_distance(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+/// The area that a run fills: the mesh's, or with radii that vary RadiusField::effective_area().
+GEODISK_API double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
 /// Expected number of samples for a distance: rho^2 A / (2 sqrt(3) r^2) with r = D / 2.
 GEODISK_API double expected_count(double area, double min_distance) noexcept;
 
@@ -59,9 +72,10 @@ GEODISK_API double packing_density(double area, double min_distance, double coun
 
 /// Candidates of a job: `throws`, or else pool_ratio times the expected count, at least 64.
 ///
-/// Fails with `invalid_argument` when a parameter is out of range; when the pool cannot be indexed
-/// with 32 bits, telling how many candidates it would take; and when an edge is more than 4,000
-/// distances long, where the guard would outgrow its purpose.
+/// Fails with `invalid_argument` when a parameter is out of range or the radii are of a mesh with
+/// another number of faces; when the pool cannot be indexed with 32 bits, telling how many
+/// candidates it would take; and when an edge is more than 4,000 distances long, where the guard
+/// would outgrow its purpose.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
 
@@ -70,6 +84,10 @@ GEODISK_API std::uint32_t provided_chain(const PreparedMesh& mesh, double min_di
 
 /// Tolerances for window chains of at most `chain` crossings.
 GEODISK_API Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
+                                      std::uint32_t chain) noexcept;
+
+/// The same for a run; where radii vary, with a little more for their rounding.
+GEODISK_API Tolerances tolerances_for(const PreparedMesh& mesh, const SampleParams& params,
                                       std::uint32_t chain) noexcept;
 
 } // namespace geodisk

@@ -89,6 +89,8 @@ struct SamplerOptions {
     /// Counts what RunReport::calls tells, which takes dispatches of its own. Does not change the
     /// samples.
     bool count_calls = false;
+    /// For jobs with SampleParams::radii, and for no others: kernels are compiled for either.
+    bool adaptive = false;
 };
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
@@ -185,7 +187,8 @@ class GEODISK_API Sampler {
     const Tuning& tuning() const noexcept;
 
     /// A plan for this device whose pool is at most `pool_bytes` (and one binding) large.
-    /// Errors: `invalid_argument` as pool_size(); `workspace_too_small` if not even one lane fits.
+    /// Errors: `invalid_argument` as pool_size(), and when the sampler is not for these radii
+    /// (SamplerOptions::adaptive); `workspace_too_small` if not even one lane fits.
     Result<RunPlan> plan_run(const PreparedMesh& mesh, const SampleParams& params,
                              std::uint64_t pool_bytes) const noexcept;
 
@@ -195,13 +198,14 @@ class GEODISK_API Sampler {
     Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
                               std::uint64_t pool_bytes) const noexcept;
 
-    /// Errors: `invalid_argument` as pool_size(), `device_lacks` when a buffer would exceed what
+    /// Errors: `invalid_argument` as plan_run(), `device_lacks` when a buffer would exceed what
     /// the device can bind, naming buffer, candidates and bytes.
     Result<WorkspaceNeeds> workspace_needs(const PreparedMesh& mesh, const SampleParams& params,
                                            const RunPlan& plan) const noexcept;
 
     /// Writes the bytes of a mesh buffer (faces, fans or alias) for the caller to upload. `out`
-    /// must hold exactly as many bytes as `mesh_bytes_size` tells.
+    /// must hold exactly as many bytes as `mesh_bytes_size` tells. Errors: `invalid_argument` as
+    /// plan_run(), and for another buffer or size; `out_of_host_memory`.
     Result<Done> mesh_bytes(const PreparedMesh& mesh, const SampleParams& params, BufferRole role,
                             std::span<std::byte> out) const noexcept;
     std::size_t mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept;

@@ -1,5 +1,7 @@
 #include "engine/device_mesh.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <string>
 
@@ -34,14 +36,31 @@ float previous_length(const PreparedMesh& mesh, std::uint32_t h, double unit) {
 }
 
 /// The same arithmetic as in shaders/lib: apex_of, then cell_count.
-std::uint64_t cell_count(float extent) {
-    if (!(extent < 0x1p30f)) {
-        return kTooMany;
-    }
-    return static_cast<std::uint64_t>(extent * static_cast<float>(gpu::kCellsPerDistance)) + 1;
+std::uint64_t cell_count(float extent, float cells_per_unit) {
+    const float scaled = extent * cells_per_unit;
+    return scaled < 0x1p30f ? static_cast<std::uint64_t>(scaled) + 1 : kTooMany;
 }
 
-Grid face_grid(const PreparedMesh& mesh, std::uint32_t face, double unit) {
+/// The radii of a face, but for the bound; all half of the unit where they do not vary.
+gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face) {
+    if (params.radii == nullptr) {
+        return {0.5f, 0.5f, 0.5f, 0, 0, 0, 0, 0};
+    }
+    const float* const g = &params.radii->factors()[std::size_t{3} * face];
+    const float* const s = &params.radii->spreads()[std::size_t{3} * face];
+    return {0.5f * g[0], 0.5f * g[1], 0.5f * g[2], 0, s[0], s[1], s[2], 0};
+}
+
+/// As shaders/lib/radii.glsl has it.
+float cells_per_unit(const gpu::RadiiRec& radii) {
+    const float largest = std::max({radii.radius0, radii.radius1, radii.radius2});
+    return std::bit_cast<float>(0x7f000000u -
+                                (std::bit_cast<std::uint32_t>(largest) & 0x7f800000u));
+}
+
+Grid face_grid(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
+               double unit) {
+    const float per_unit = cells_per_unit(radii_of(params, face));
     const auto edges = mesh.half_edges().subspan(std::size_t{3} * face, 3);
     std::uint32_t corner = 0;
     for (std::uint32_t k = 1; k < 3; ++k) {
@@ -49,16 +68,18 @@ Grid face_grid(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     }
     const float height =
         previous_length(mesh, 3 * face + corner, unit) * direction(edges[corner].sine);
-    return {cell_count(scaled(edges[corner].length, unit)), cell_count(height), corner};
+    return {cell_count(scaled(edges[corner].length, unit), per_unit), cell_count(height, per_unit),
+            corner};
 }
 
-/// Rows of the fans buffer: fans, pairs of corner and angles, angles by half-edge.
+/// Rows of the fans buffer: fans, pairs of corner and angles, angles by half-edge, radii by face.
 struct FanRows {
-    std::size_t fans, corners, angles;
-    explicit FanRows(const PreparedMesh& mesh)
+    std::size_t fans, corners, angles, radii;
+    FanRows(const PreparedMesh& mesh, bool adaptive)
         : fans(mesh.fans().size()), corners((mesh.half_edges().size() + 1) / 2),
-          angles((mesh.half_edges().size() + 3) / 4) {}
-    std::size_t bytes() const { return (fans + corners + angles) * 16; }
+          angles((mesh.half_edges().size() + 3) / 4),
+          radii(adaptive ? gpu::kRadiiRows * std::size_t{mesh.face_count()} : 0) {}
+    std::size_t bytes() const { return (fans + corners + angles + radii) * 16; }
 };
 
 bool shared_by_many(const PreparedMesh& mesh, std::uint32_t h) {
@@ -73,11 +94,11 @@ void store(std::span<std::byte> out, std::size_t index, const Record& record) {
 
 } // namespace
 
-Result<std::uint32_t> count_cells(const PreparedMesh& mesh, double min_distance) {
-    const double unit = working_distance(mesh, min_distance);
+Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& params) {
+    const double unit = working_distance(mesh, params);
     std::uint64_t cells = 0;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const Grid grid = face_grid(mesh, f, unit);
+        const Grid grid = face_grid(mesh, params, f, unit);
         cells += grid.columns * grid.rows; // At most 2^62, and 2^30 before.
         if (cells > gpu::kFirstCellMask) {
             return Error{Status::invalid_argument,
@@ -93,16 +114,16 @@ std::size_t face_bytes(const PreparedMesh& mesh) {
     return mesh.face_count() * (3 * sizeof(gpu::HalfEdgeRec) + sizeof(gpu::FaceLinksRec));
 }
 
-std::size_t fan_bytes(const PreparedMesh& mesh) {
-    return FanRows(mesh).bytes();
+std::size_t fan_bytes(const PreparedMesh& mesh, bool adaptive) {
+    return FanRows(mesh, adaptive).bytes();
 }
 
 std::size_t alias_bytes(const PreparedMesh& mesh) {
     return mesh.alias_columns().size() * sizeof(gpu::AliasRec);
 }
 
-void write_faces(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out) {
-    const double unit = working_distance(mesh, min_distance);
+void write_faces(const PreparedMesh& mesh, const SampleParams& params, std::span<std::byte> out) {
+    const double unit = working_distance(mesh, params);
     std::uint32_t first_cell = 0;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -114,7 +135,7 @@ void write_faces(const PreparedMesh& mesh, double min_distance, std::span<std::b
                                    e.origin | (bends ? gpu::kOriginBends : 0u) |
                                        (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u)});
         }
-        const Grid grid = face_grid(mesh, f, unit);
+        const Grid grid = face_grid(mesh, params, f, unit);
         const bool single = grid.columns * grid.rows == 1;
         const auto edges = mesh.half_edges().subspan(std::size_t{3} * f, 3);
         store(out, gpu::kFaceRows * f + 3,
@@ -125,8 +146,9 @@ void write_faces(const PreparedMesh& mesh, double min_distance, std::span<std::b
     }
 }
 
-void write_fans(const PreparedMesh& mesh, std::span<std::byte> out) {
-    const FanRows rows(mesh);
+Result<Done> write_fans(const PreparedMesh& mesh, const SampleParams& params,
+                        std::span<std::byte> out) {
+    const FanRows rows(mesh, params.radii != nullptr);
     std::memset(out.data(), 0, out.size());
     for (std::size_t v = 0; v < mesh.fans().size(); ++v) {
         const VertexFan& fan = mesh.fans()[v];
@@ -144,11 +166,25 @@ void write_fans(const PreparedMesh& mesh, std::span<std::byte> out) {
     for (std::size_t h = 0; h < mesh.half_edges().size(); ++h) {
         store(angles, h, mesh.half_edges()[h].fan_angles);
     }
+    if (params.radii == nullptr) {
+        return Done{};
+    }
+    const auto bounds = params.radii->reach_bounds(mesh, params.min_distance);
+    if (!bounds) {
+        return bounds.error();
+    }
+    const auto radii = angles.subspan(rows.angles * 16);
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        gpu::RadiiRec record = radii_of(params, f);
+        record.bound = (*bounds)[f];
+        store(radii, f, record);
+    }
+    return Done{};
 }
 
-void write_alias(const PreparedMesh& mesh, std::span<std::byte> out) {
-    for (std::size_t f = 0; f < mesh.alias_columns().size(); ++f) {
-        const AliasColumn& column = mesh.alias_columns()[f];
+void write_alias(std::span<const AliasColumn> columns, std::span<std::byte> out) {
+    for (std::size_t f = 0; f < columns.size(); ++f) {
+        const AliasColumn& column = columns[f];
         store(out, f, gpu::AliasRec{column.threshold, column.alias});
     }
 }

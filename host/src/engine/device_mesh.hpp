@@ -6,20 +6,23 @@
 #include <span>
 
 #include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
 
 namespace geodisk {
 
 /// Cells of all faces together; more than 2^30 is an error naming the face.
-Result<std::uint32_t> count_cells(const PreparedMesh& mesh, double min_distance);
+Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& params);
 
 std::size_t face_bytes(const PreparedMesh& mesh);
-std::size_t fan_bytes(const PreparedMesh& mesh);
+/// With a row of radii per face in a run of varying ones.
+std::size_t fan_bytes(const PreparedMesh& mesh, bool adaptive);
 std::size_t alias_bytes(const PreparedMesh& mesh);
 
 // Each fills exactly its number of bytes.
-void write_faces(const PreparedMesh& mesh, double min_distance, std::span<std::byte> out);
-void write_fans(const PreparedMesh& mesh, std::span<std::byte> out);
-void write_alias(const PreparedMesh& mesh, std::span<std::byte> out);
+void write_faces(const PreparedMesh& mesh, const SampleParams& params, std::span<std::byte> out);
+Result<Done> write_fans(const PreparedMesh& mesh, const SampleParams& params,
+                        std::span<std::byte> out);
+void write_alias(std::span<const AliasColumn> columns, std::span<std::byte> out);
 
 } // namespace geodisk

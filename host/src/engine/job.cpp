@@ -253,7 +253,7 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         if (auto checked = check_workspace(workspace, *needs, impl_->report.limits); !checked) {
             return checked.error();
         }
-        const Tolerances tolerances = tolerances_for(mesh, params.min_distance, plan.chain);
+        const Tolerances tolerances = tolerances_for(mesh, params, plan.chain);
         gpu::Push push{};
         push.candidates = std::min(plan.chunk, *pool_size(mesh, params));
         push.stop_count = params.stop_count != 0 ? params.stop_count : kMostCandidates;

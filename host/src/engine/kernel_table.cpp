@@ -58,25 +58,23 @@ using namespace gpu;
 
 using enum Access;
 
-constexpr Binding kCandidates[] = {{kBindFaces, read},
-                                   {kBindAlias, read},
-                                   {kBindCells, storage},
-                                   {kBindPlaces, storage},
-                                   {kBindMarks, storage}};
+constexpr Binding kCandidates[] = {{kBindFaces, read},     {kBindFans, read},
+                                   {kBindAlias, read},     {kBindCells, storage},
+                                   {kBindPlaces, storage}, {kBindMarks, storage}};
 constexpr Binding kScanData[] = {{kBindMarks, storage}, {kBindSums, storage}};
 constexpr Binding kScanAdd[] = {{kBindMarks, storage}, {kBindSums, read}};
 constexpr Binding kScanSums[] = {{kBindSums, storage}};
 constexpr Binding kBinPlace[] = {
     {kBindCells, read}, {kBindWeights, storage}, {kBindPlaces, storage}, {kBindMarks, read}};
 constexpr Binding kBinFill[] = {
-    {kBindAlias, read}, {kBindStates, storage}, {kBindWeights, storage}};
+    {kBindFans, read}, {kBindAlias, read}, {kBindStates, storage}, {kBindWeights, storage}};
 constexpr Binding kFindIdle[] = {
     {kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindSums, storage}};
 constexpr Binding kSelect[] = {
     {kBindSlots, storage}, {kBindControl, storage}, {kBindSums, read}, {kBindSamples, storage}};
-constexpr Binding kActivate[] = {{kBindAlias, read},      {kBindStates, storage},
-                                 {kBindPlaces, read},     {kBindSlots, storage},
-                                 {kBindControl, storage}, {kBindMarks, storage}};
+constexpr Binding kActivate[] = {
+    {kBindFans, read},     {kBindAlias, read},      {kBindStates, storage}, {kBindPlaces, read},
+    {kBindSlots, storage}, {kBindControl, storage}, {kBindMarks, storage}};
 constexpr Binding kDetect[] = {
     {kBindFaces, read},   {kBindFans, read},       {kBindCells, read},
     {kBindStates, read},  {kBindWeights, read},    {kBindSlots, storage},
@@ -99,7 +97,7 @@ constexpr Binding kCompactMark[] = {
 constexpr Binding kCompactGather[] = {
     {kBindControl, storage}, {kBindMarks, read}, {kBindSamples, storage}};
 constexpr Binding kCompactFill[] = {
-    {kBindAlias, read}, {kBindControl, storage}, {kBindSamples, storage}};
+    {kBindFans, read}, {kBindAlias, read}, {kBindControl, storage}, {kBindSamples, storage}};
 constexpr Binding kSelfTest[] = {{kBindSums, storage}};
 constexpr Binding kBoxCandidates[] = {
     {kBindAxes, read}, {kBindCells, storage}, {kBindPlaces, storage}, {kBindMarks, storage}};

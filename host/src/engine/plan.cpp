@@ -46,7 +46,7 @@ std::uint64_t blocks_of(std::uint64_t words) {
 
 /// Samples that a full surface holds, at least two: no disk covers more than all faces.
 double samples_when_full(const PreparedMesh& mesh, const SampleParams& params) {
-    return std::max(2.0, expected_count(mesh.statistics().area, params.min_distance));
+    return std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance));
 }
 
 /// Samples to reckon with: not more than are asked for, or thrown.
@@ -209,6 +209,9 @@ VkDeviceSize WorkspaceNeeds::total() const noexcept {
 Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& params,
                                   std::uint64_t pool_bytes) const noexcept {
     return guarded([&]() -> Result<RunPlan> {
+        if (auto checked = impl_->check_radii(params); !checked) {
+            return checked.error();
+        }
         const auto candidates = pool_size(mesh, params);
         if (!candidates) {
             return candidates.error();
@@ -273,17 +276,20 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
                                                 const SampleParams& params,
                                                 const RunPlan& plan) const noexcept {
     return guarded([&]() -> Result<WorkspaceNeeds> {
+        if (auto checked = impl_->check_radii(params); !checked) {
+            return checked.error();
+        }
         const auto candidates = pool_size(mesh, params);
         if (!candidates) {
             return candidates.error();
         }
-        const auto cells = count_cells(mesh, params.min_distance);
+        const auto cells = count_cells(mesh, params);
         if (!cells) {
             return cells.error();
         }
         WorkspaceNeeds needs = needs_of_run(std::min(plan.chunk, *candidates), *cells, plan);
         needs.bytes[gpu::kBindFaces] = face_bytes(mesh);
-        needs.bytes[gpu::kBindFans] = fan_bytes(mesh);
+        needs.bytes[gpu::kBindFans] = fan_bytes(mesh, impl_->adaptive);
         needs.bytes[gpu::kBindAlias] = alias_bytes(mesh);
         const std::string what = "for " + std::to_string(*candidates) + " candidates and " +
                                  std::to_string(mesh.face_count()) + " faces";

@@ -89,7 +89,7 @@ class SurfaceSource : public RunSource {
     std::uint32_t candidates() const override { return *pool_size(mesh_, params_); }
     std::uint32_t stop_count() const override { return params_.stop_count; }
     double room() const override {
-        return expected_count(mesh_.statistics().area, params_.min_distance);
+        return expected_count(effective_area(mesh_, params_), params_.min_distance);
     }
     Result<RunPlan> plan(std::uint64_t pool_bytes) const override {
         return sampler_.plan_run(mesh_, params_, pool_bytes);
@@ -110,7 +110,7 @@ class SurfaceSource : public RunSource {
         return bytes;
     }
     double guard(const RunPlan& plan) const override {
-        return tolerances_for(mesh_, params_.min_distance, plan.chain).guard;
+        return tolerances_for(mesh_, params_, plan.chain).guard;
     }
 
   private:

@@ -68,6 +68,7 @@ Result<Sampler> Sampler::Impl::create_for(Domain domain, std::uint32_t dimension
     impl->dimension = dimension;
     impl->takes_curves = takes_curves;
     impl->count_calls = options.count_calls;
+    impl->adaptive = options.adaptive;
     impl->tuning = *tuning;
     impl->counted_lanes = options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
     impl->report = std::move(*report);
@@ -86,6 +87,18 @@ Sampler::Impl::~Impl() {
         vk.vkDestroyPipelineLayout(device.device, layouts[k], device.host_allocator);
         vk.vkDestroyDescriptorSetLayout(device.device, set_layouts[k], device.host_allocator);
     }
+}
+
+Result<Done> Sampler::Impl::check_radii(const SampleParams& params) const {
+    if (adaptive != (params.radii != nullptr)) {
+        return Error{Status::invalid_argument,
+                     adaptive
+                         ? "the sampler is for radii that vary (SamplerOptions::adaptive), but "
+                           "SampleParams::radii is null"
+                         : "SampleParams::radii needs a sampler made with "
+                           "SamplerOptions::adaptive"};
+    }
+    return Done{};
 }
 
 Result<Done> Sampler::Impl::create_pipelines() {
@@ -148,15 +161,16 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
         return vk_error("vkCreateShaderModule", result);
     }
     constexpr std::uint32_t kWord = sizeof(std::uint32_t);
-    const std::array<std::uint32_t, 7> constants{info.per_slot ? tuning.slot_local_size
+    const std::array<std::uint32_t, 8> constants{info.per_slot ? tuning.slot_local_size
                                                                : tuning.local_size,
                                                  native_rounding ? VK_TRUE : VK_FALSE,
                                                  tuning.pool_block,
                                                  counted_lanes,
                                                  count_calls ? VK_TRUE : VK_FALSE,
                                                  dimension,
-                                                 takes_curves ? VK_TRUE : VK_FALSE};
-    const std::array<VkSpecializationMapEntry, 7> entries{{
+                                                 takes_curves ? VK_TRUE : VK_FALSE,
+                                                 adaptive ? VK_TRUE : VK_FALSE};
+    const std::array<VkSpecializationMapEntry, 8> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
         {gpu::kSpecPoolBlock, 2 * kWord, kWord},
@@ -164,6 +178,7 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
         {gpu::kSpecCountCalls, 4 * kWord, kWord},
         {gpu::kSpecDimension, 5 * kWord, kWord},
         {gpu::kSpecCurved, 6 * kWord, kWord},
+        {gpu::kSpecAdaptive, 7 * kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};
@@ -193,7 +208,7 @@ std::size_t Sampler::mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) 
     case BufferRole::faces:
         return face_bytes(mesh);
     case BufferRole::fans:
-        return fan_bytes(mesh);
+        return fan_bytes(mesh, impl_->adaptive);
     case BufferRole::alias:
         return alias_bytes(mesh);
     default:
@@ -207,18 +222,24 @@ Result<Done> Sampler::mesh_bytes(const PreparedMesh& mesh, const SampleParams& p
         if (out.size() != mesh_bytes_size(mesh, role) || out.empty()) {
             return Error{Status::invalid_argument, "not a mesh buffer, or not of its size"};
         }
+        if (auto checked = impl_->check_radii(params); !checked) {
+            return checked;
+        }
+        if (auto checked = pool_size(mesh, params); !checked) {
+            return checked.error();
+        }
         switch (role) {
         case BufferRole::faces:
-            write_faces(mesh, params.min_distance, out);
-            break;
+            write_faces(mesh, params, out);
+            return Done{};
         case BufferRole::fans:
-            write_fans(mesh, out);
-            break;
+            return write_fans(mesh, params, out);
         default:
-            write_alias(mesh, out);
-            break;
+            write_alias(params.radii != nullptr ? params.radii->alias_columns()
+                                                : mesh.alias_columns(),
+                        out);
+            return Done{};
         }
-        return Done{};
     });
 }
 

@@ -23,6 +23,7 @@ struct Sampler::Impl {
     Domain domain = Domain::surface;
     std::uint32_t dimension = 0; ///< Of boxes and space.
     bool takes_curves = false;   ///< Instead of straight lines in space.
+    bool adaptive = false;
     std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
     std::array<VkPipelineLayout, kKernels> layouts{};
     std::array<VkPipeline, kKernels> pipelines{};
@@ -42,6 +43,8 @@ struct Sampler::Impl {
     bool reads_texels() const { return tuning.reads == Reads::texels; }
     /// Dispatches of count_calls per round: as for resolve, the next round goes on.
     std::uint32_t count_passes() const { return count_calls ? 2 : 0; }
+    /// Whether the kernels are those for the radii of a run.
+    Result<Done> check_radii(const SampleParams& params) const;
     Result<Done> create_pipelines();
     Result<Done> create_pipeline(Kernel kernel);
 };

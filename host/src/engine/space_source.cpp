@@ -139,7 +139,7 @@ Result<std::vector<std::byte>> SpaceSource::bytes(BufferRole role) const {
     }
     if (role == BufferRole::alias) {
         std::vector<std::byte> bytes(alias_bytes(mesh_));
-        write_alias(mesh_, bytes);
+        write_alias(mesh_.alias_columns(), bytes);
         return bytes;
     }
     return BoxSource::bytes(role);

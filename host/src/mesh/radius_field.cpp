@@ -1,0 +1,111 @@
+#include "geodisk/radius_field.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "mesh/alias_table.hpp"
+#include "mesh/inverse_square.hpp"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+bool is_used(const PreparedMesh& mesh, std::size_t vertex) {
+    return mesh.fans()[vertex].corner_count > 0;
+}
+
+std::string text_of(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// g^(2/3), by Newton's method from above: by + - * / alone, so it is the same on every machine.
+float spread_of(float g) {
+    const double square = static_cast<double>(g) * static_cast<double>(g);
+    double x = 1;
+    for (double next = x;; x = next) {
+        next = (2 * x + square / (x * x)) / 3;
+        if (!(next < x)) {
+            return static_cast<float>(x);
+        }
+    }
+}
+
+Result<Done> check_factors(const PreparedMesh& mesh, std::span<const double> factors) {
+    if (factors.size() != mesh.vertex_count()) {
+        return Error{Status::invalid_argument,
+                     "there are " + std::to_string(factors.size()) + " radius factors g for " +
+                         std::to_string(mesh.vertex_count()) + " vertices"};
+    }
+    bool all_zero = true;
+    for (std::size_t v = 0; v < factors.size() && all_zero; ++v) {
+        all_zero = !is_used(mesh, v) || factors[v] == 0;
+    }
+    if (all_zero) {
+        return Error{Status::invalid_argument, "all radius factors g are zero"};
+    }
+    for (std::size_t v = 0; v < factors.size(); ++v) {
+        if (is_used(mesh, v) && !(factors[v] >= RadiusField::kLeastFactor && factors[v] <= 1)) {
+            return Error{Status::invalid_argument,
+                         "the radius factor g of vertex " + std::to_string(v) + " (from 0) is " +
+                             text_of(factors[v]) + "; it must be from " +
+                             text_of(RadiusField::kLeastFactor) + " to 1",
+                         v};
+        }
+    }
+    return Done{};
+}
+
+} // namespace
+
+Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
+                                         std::span<const double> factors) noexcept {
+    return guarded([&]() -> Result<RadiusField> {
+        if (auto checked = check_factors(mesh, factors); !checked) {
+            return checked.error();
+        }
+        // Faces that take no part may name vertices that nothing else does.
+        std::vector<float> values(factors.size(), 1.0f);
+        std::vector<float> spreads(factors.size(), 1.0f);
+        for (std::size_t v = 0; v < factors.size(); ++v) {
+            if (is_used(mesh, v)) {
+                values[v] = static_cast<float>(factors[v]);
+                spreads[v] = spread_of(values[v]);
+            }
+        }
+        RadiusField field;
+        field.factors_.reserve(mesh.half_edges().size());
+        field.spreads_.reserve(mesh.half_edges().size());
+        for (const HalfEdge& edge : mesh.half_edges()) {
+            field.factors_.push_back(values[edge.origin]);
+            field.spreads_.push_back(spreads[edge.origin]);
+        }
+        // Within a face, candidates are proposed in proportion to 1 / s^3, with s linear from
+        // spread to spread, and kept with probability s^3 / g^2. For 1 / g^2 in the end, this is
+        // the weight of the face.
+        std::vector<double> weights(mesh.face_count());
+        double total = 0;
+        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+            const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * f];
+            const double area = 0.5 * edge.length * edge.apex_y;
+            const float* const g = &field.factors_[std::size_t{3} * f];
+            const float* const s = &field.spreads_[std::size_t{3} * f];
+            weights[f] = area / (double{s[0]} * double{s[1]} * double{s[2]});
+            total += weights[f];
+            field.effective_area_ += area * mean_inverse_square(g[0], g[1], g[2]);
+        }
+        field.alias_ = build_alias_table(weights, total);
+        return field;
+    });
+}
+
+double RadiusField::factor_at(std::uint32_t face, const float (&weights)[3]) const noexcept {
+    const float* const g = &factors_[std::size_t{3} * face];
+    return static_cast<double>(weights[0]) * static_cast<double>(g[0]) +
+           static_cast<double>(weights[1]) * static_cast<double>(g[1]) +
+           static_cast<double>(weights[2]) * static_cast<double>(g[2]);
+}
+
+} // namespace geodisk

@@ -1,0 +1,133 @@
+// How far disks reach where radii vary (paper section 5.8 cuts every disk at r(p) + r_max).
+//
+// Let U(x) be the largest r(q) - d(x, q) over all points q of the surface. A path from p that has
+// come the way l to x can go on to a point it conflicts with only if l < r(p) + U(x): that is what
+// a disk may be cut at without losing anything. U is at least r, and is the least function that
+// nowhere changes by more than the way does; so any function V >= r that is linear in each face
+// with a gradient of at most 1 there is nowhere less than U. Such a V is made by raising r at
+// vertices: where g changes slowly, nothing is raised at all. Only lengths within faces enter, so
+// this serves every surface that geodisk takes.
+#include "geodisk/radius_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+// To what the gradient is lowered where it is more than 1: a little further than need be, so that
+// vertices that raise each other in turn come to an end.
+constexpr double kTarget = 0.95;
+// A face lower than this, in units of the distance, gets one value. Small steps would take for
+// ever.
+constexpr double kNarrow = 0x1p-12;
+// For the rounding of distances and radii on the device, see host/docs/precision.md.
+constexpr double kPadding = 0x1p-15;
+
+/// Values at the vertices of a mesh, raised until no face has a gradient of more than 1.
+class Slopes {
+  public:
+    Slopes(const PreparedMesh& mesh, double unit, std::vector<double> values)
+        : mesh_(mesh), unit_(unit), values_(std::move(values)) {}
+
+    std::vector<double> relaxed() && {
+        for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
+            relax(f);
+        }
+        // The highest vertex first: what it raises mostly needs raising no more.
+        while (!raised_.empty()) {
+            const auto [value, vertex] = raised_.top();
+            raised_.pop();
+            if (value < values_[vertex]) {
+                continue;
+            }
+            const VertexFan& fan = mesh_.fans()[vertex];
+            for (const std::uint32_t corner :
+                 mesh_.corners().subspan(fan.first_corner, fan.corner_count)) {
+                relax(corner / 3);
+            }
+        }
+        return std::move(values_);
+    }
+
+  private:
+    double length(std::uint32_t h) const { return mesh_.half_edges()[h].length / unit_; }
+    double& start(std::uint32_t h) { return values_[mesh_.half_edges()[h].origin]; }
+    double& end(std::uint32_t h) { return start(next_in_face(h)); }
+    double& apex(std::uint32_t h) { return start(previous_in_face(h)); }
+
+    void raise(std::uint32_t h, double value) {
+        start(h) = value;
+        raised_.emplace(value, mesh_.half_edges()[h].origin);
+    }
+
+    /// The least value at the apex over h with which the gradient is no more than `gradient`, if
+    /// that along h is not.
+    double least_at_apex(std::uint32_t h, double gradient) {
+        const HalfEdge& edge = mesh_.half_edges()[h];
+        const double along = edge.length > 0 ? (end(h) - start(h)) / length(h) : 0;
+        const double across = std::sqrt(std::max(0.0, gradient * gradient - along * along));
+        return start(h) + along * (edge.apex_x / unit_) - across * (edge.apex_y / unit_);
+    }
+
+    /// Raises vertices of a face that are too far below the others; one step of it.
+    void relax(std::uint32_t face) {
+        const std::uint32_t first = 3 * face;
+        const double longest = std::max({length(first), length(first + 1), length(first + 2)});
+        if (!(longest > 0)) {
+            return; // It takes no part.
+        }
+        const double highest = std::max({start(first), end(first), apex(first)});
+        const double area = length(first) * mesh_.half_edges()[first].apex_y / unit_;
+        const bool narrow = area < kNarrow * longest;
+        for (std::uint32_t h = first; h < first + 3; ++h) {
+            const std::uint32_t low = start(h) < end(h) ? h : next_in_face(h);
+            const double top = std::max(start(h), end(h));
+            if (top - start(low) > length(h)) {
+                raise(low, narrow ? highest : top - kTarget * length(h));
+            }
+        }
+        for (std::uint32_t h = first; h < first + 3; ++h) {
+            if (apex(h) < highest && apex(h) < least_at_apex(h, 1)) {
+                raise(previous_in_face(h),
+                      narrow ? highest : std::min(highest, least_at_apex(h, kTarget)));
+            }
+        }
+    }
+
+    const PreparedMesh& mesh_;
+    double unit_;
+    std::vector<double> values_; ///< In units of the distance.
+    std::priority_queue<std::pair<double, std::uint32_t>> raised_;
+};
+
+} // namespace
+
+Result<std::vector<float>> RadiusField::reach_bounds(const PreparedMesh& mesh,
+                                                     double min_distance) const noexcept {
+    return guarded([&]() -> Result<std::vector<float>> {
+        std::vector<double> radii(mesh.vertex_count(), 0.0);
+        for (std::size_t h = 0; h < factors_.size(); ++h) {
+            // Faces that take no part have no length.
+            if (mesh.half_edges()[h].length > 0) {
+                radii[mesh.half_edges()[h].origin] = 0.5 * static_cast<double>(factors_[h]);
+            }
+        }
+        const std::vector<double> values = Slopes(mesh, min_distance, std::move(radii)).relaxed();
+        std::vector<float> bounds(mesh.face_count());
+        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+            const auto at = [&](std::uint32_t k) {
+                return values[mesh.half_edges()[std::size_t{3} * f + k].origin];
+            };
+            bounds[f] = static_cast<float>(std::max({at(0), at(1), at(2)}) + kPadding);
+        }
+        return bounds;
+    });
+}
+
+} // namespace geodisk

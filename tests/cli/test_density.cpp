@@ -1,0 +1,243 @@
+// Radii that vary: sampled from every source, written, verified, and refused where they cannot be.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "common/sample_file.hpp"
+#include "unit/png_bytes.hpp"
+
+namespace geodisk::test {
+namespace {
+
+constexpr int kParts = 24; // Of each side of the square.
+
+/// A unit square as PLY: vertex properties q = 0.2 to 1 along x, and s t = x y.
+void write_square(const TemporaryFolder& folder) {
+    std::string vertices, faces, values, obj;
+    for (int y = 0; y <= kParts; ++y) {
+        for (int x = 0; x <= kParts; ++x) {
+            const std::string at =
+                std::to_string(x / double{kParts}) + " " + std::to_string(y / double{kParts});
+            const std::string g = std::to_string(0.2 + 0.8 * x / kParts);
+            vertices += at + " 0 " + g + " " + at + "\n";
+            values += g + "\n";
+            obj += "v " + at + " 0\nvt " + at + "\n";
+        }
+    }
+    for (int y = 0; y < kParts; ++y) {
+        for (int x = 0; x < kParts; ++x) {
+            const int a = y * (kParts + 1) + x, b = a + kParts + 1;
+            const int quad[] = {a, a + 1, b + 1, b};
+            faces += "4";
+            obj += "f";
+            for (const int v : quad) {
+                const std::string number = std::to_string(v + 1);
+                faces.append(" ").append(std::to_string(v));
+                obj.append(" ").append(number).append("/").append(number);
+            }
+            faces += "\n";
+            obj += "\n";
+        }
+    }
+    const int count = (kParts + 1) * (kParts + 1);
+    folder.write("mesh.ply",
+                 "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+                     "\nproperty float x\nproperty float y\nproperty float z\nproperty float q\n"
+                     "property float s\nproperty float t\nelement face " +
+                     std::to_string(kParts * kParts) +
+                     "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces);
+    folder.write("mesh.obj", obj);
+    folder.write("g.txt", values);
+    // Grey that rises from left to right.
+    folder.write("g.png", tools::png_bytes(4, 1, "\x40\x80\xc0\xff"));
+}
+
+/// Samples and verifies with the same options, and without; returns the samples.
+tools::SampleFile check_passes(const TemporaryFolder& folder, const std::string& mesh,
+                               const Arguments& density, const std::string& output = "a.ply",
+                               const Arguments& surface = {}) {
+    const Outcome made =
+        run(folder, joined(joined({"sample", mesh, "-o", output, "-n", "800"}, surface), density));
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.out, "radii         0."));
+    for (const bool is_told : {true, false}) {
+        const Outcome verified = run(folder, joined(joined({"verify", mesh, output}, surface),
+                                                    is_told ? density : Arguments()));
+        INFO(verified.out, verified.err);
+        CHECK(verified.status == 0);
+        CHECK(contains(verified.out, "violations    0\n"));
+        CHECK(contains(verified.out, "of the sum of two radii\n"));
+        CHECK(contains(verified.out, "as the file has them") != is_told);
+    }
+    tools::SampleFile samples = tools::read_samples(folder / output);
+    CHECK(std::abs(static_cast<double>(samples.rows.size()) - 800) < 120);
+    return samples;
+}
+
+double header_number(const tools::SampleFile& samples, const std::string& key) {
+    for (const auto& [name, value] : samples.header.entries) {
+        if (name == key) {
+            return std::stod(value);
+        }
+    }
+    return NAN;
+}
+
+} // namespace
+
+TEST_CASE("radii from every source are sampled, written and verified") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    for (const std::string output : {"a.ply", "a.csv"}) {
+        const auto samples = check_passes(folder, "mesh.ply", {"--density-attribute", "q"}, output);
+        const double largest = header_number(samples, "radius");
+        std::size_t wrong = 0;
+        for (const tools::SampleRow& row : samples.rows) {
+            wrong += std::abs(row.radius / largest - (0.2 + 0.8 * row.position[0])) > 1e-5;
+        }
+        CHECK(wrong == 0);
+        // Small disks lie to the left.
+        const auto left = std::count_if(samples.rows.begin(), samples.rows.end(),
+                                        [](const auto& row) { return row.position[0] < 0.5; });
+        CHECK(left > static_cast<std::ptrdiff_t>(2 * samples.rows.size() / 3));
+    }
+    const auto of_attribute = tools::read_samples(folder / "a.csv");
+    const auto of_file = check_passes(folder, "mesh.obj", {"--density-file", "g.txt"});
+    CHECK(of_file.rows.size() == of_attribute.rows.size());
+    const auto of_map = check_passes(folder, "mesh.ply", {"--density-map", "g.png"});
+    CHECK(check_passes(folder, "mesh.obj", {"--density-map", "g.png"}).rows.size() ==
+          of_map.rows.size());
+    const auto curved = check_passes(folder, "builtin:torus-knot:8", {"--density-curvature"});
+    const auto clipped = check_passes(folder, "builtin:torus-knot:8",
+                                      {"--density-curvature", "--density-floor", "0.9"});
+    CHECK(header_number(curved, "radius") > header_number(clipped, "radius"));
+}
+
+TEST_CASE("radii that vary go with lifts, edge lengths and more dimensions") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    REQUIRE(run(folder, {"sample", "mesh.ply", "-o", "a.ply", "-n", "100", "--lift",
+                         "attribute:q:0.5", "--density-attribute", "s", "--density-floor", "0.3"})
+                .status == 0);
+    CHECK(run(folder, {"verify", "mesh.ply", "a.ply", "--lift", "attribute:q:0.5",
+                       "--density-attribute", "s", "--density-floor", "0.3"})
+              .status == 0);
+    check_passes(folder, "builtin:klein-bottle:12", {"--density-curvature"});
+    folder.write("bare.obj", "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+    folder.write("lengths.txt", "1 2 3\n2 3 4\n1 3 5\n3 4 3.5\n1 4 4.5\n2 4 5\n");
+    folder.write("g4.txt", "1\n0.5\n0.25\n0.5\n");
+    const Arguments surface{"--edge-lengths", "lengths.txt"};
+    check_passes(folder, "bare.obj", {"--density-file", "g4.txt"}, "a.ply", surface);
+    check_fails(
+        folder, 2, "--density-curvature needs a mesh with coordinates",
+        joined({"sample", "bare.obj", "-o", "b.ply", "-n", "9", "--density-curvature"}, surface));
+}
+
+TEST_CASE("what is wrong with the radii of a file is found") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    const Arguments density{"--density-attribute", "q"};
+    tools::SampleFile samples = check_passes(folder, "mesh.ply", density);
+    samples.rows[5].radius *= 1.5;
+    tools::write_samples(folder / "b.csv", samples.header, samples.rows, false);
+    const Outcome told = run(folder, joined({"verify", "mesh.ply", "b.csv"}, density));
+    CHECK(told.status == 1);
+    CHECK(contains(told.err, "b.csv: 1 radius is not what the density options give"));
+    CHECK(contains(told.out, "violations    0\nwrong radii   1\n"));
+    samples.rows[5].radius *= 10;
+    tools::write_samples(folder / "b.csv", samples.header, samples.rows, false);
+    const Outcome read = run(folder, {"verify", "mesh.ply", "b.csv"});
+    CHECK(read.status == 1);
+    CHECK(contains(read.err, "pairs of samples are closer than the sum of their radii"));
+    CHECK(contains(read.out, "sample 5 (candidate "));
+    CHECK(contains(read.out, " of the sum of their radii\n"));
+    // A distance overrides the file's radii: then it must hold for all pairs.
+    CHECK(run(folder, {"verify", "mesh.ply", "a.ply", "-d", "1e-4"}).status == 0);
+    CHECK(run(folder, {"verify", "mesh.ply", "a.ply", "-d", "0.1"}).status == 1);
+    // Without radii in the file they are computed.
+    for (tools::SampleRow& row : samples.rows) {
+        row.radius = 0;
+    }
+    tools::write_samples(folder / "b.csv", samples.header, samples.rows, false);
+    CHECK(run(folder, joined({"verify", "mesh.ply", "b.csv"}, density)).status == 0);
+    CHECK(run(folder, {"verify", "mesh.ply", "b.csv"}).status == 1);
+}
+
+TEST_CASE("the report tells of radii that vary") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    const Outcome made = run(folder, {"sample", "mesh.ply", "-o", "a.xyz", "-r", "0.05",
+                                      "--density-attribute", "q", "--json", "-"});
+    REQUIRE(made.status == 0);
+    const auto report = nlohmann::json::parse(made.out);
+    CHECK(report["mesh"]["density_attribute"] == "q");
+    CHECK(report["radius"] == 0.05);
+    CHECK(report["sample_radii"]["least"] >= 0.01);
+    CHECK(report["sample_radii"]["most"] <= 0.05);
+    CHECK(report["rho"] > 0.6);
+    const Outcome plain =
+        run(folder, {"sample", "mesh.ply", "-o", "b.csv", "-r", "0.05", "--json", "-"});
+    CHECK(nlohmann::json::parse(plain.out)["sample_radii"].is_null());
+    CHECK_FALSE(contains(bytes_of(folder / "b.csv"), "candidate,radius"));
+}
+
+TEST_CASE("radii that cannot be are refused, naming file and vertex") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    const auto fails = [&](int status, const std::string& part, const Arguments& density,
+                           const std::string& mesh = "mesh.ply") {
+        check_fails(folder, status, part,
+                    joined({"sample", mesh, "-o", "a.ply", "-n", "9"}, density));
+    };
+    fails(3, "mesh.ply: element vertex has no property 'w'", {"--density-attribute", "w"});
+    fails(3, "mesh.obj: has no vertex properties, so no 'q'", {"--density-attribute", "q"},
+          "mesh.obj");
+    fails(3,
+          "mesh.ply: 's': the radius factor g of vertex 0 (from 0) is 0; it must be from 0.001 "
+          "to 1, or be raised by --density-floor",
+          {"--density-attribute", "s"});
+    fails(3, "mesh.ply: 'z': all radius factors g are zero", {"--density-attribute", "z"});
+    fails(3, "'z': all radius factors g are zero",
+          {"--density-attribute", "z", "--density-floor", "0.5"});
+    fails(3, "none.txt: no such file", {"--density-file", "none.txt"});
+    folder.write("short.txt", "1\n0.5\n");
+    fails(3, "short.txt: has 2 values for the 625 vertices of the mesh",
+          {"--density-file", "short.txt"});
+    std::string values = bytes_of(folder / "g.txt");
+    const auto with_first = [&](const std::string& first) {
+        folder.write("bad.txt", first + values.substr(values.find('\n')));
+    };
+    with_first("-0.1");
+    fails(3,
+          "bad.txt: the radius factor g of vertex 0 (from 0) is -0.1; it must be from 0.001 to 1",
+          {"--density-file", "bad.txt", "--density-floor", "0.1"});
+    with_first("1.5");
+    fails(3, "vertex 0 (from 0) is 1.5", {"--density-file", "bad.txt"});
+    with_first("nan");
+    fails(3, "bad.txt: line 1: 'nan' is not finite", {"--density-file", "bad.txt"});
+    fails(3, "none.png: no such file", {"--density-map", "none.png"});
+    fails(3, "g.txt: cannot be read as a PNG or JPEG image", {"--density-map", "g.txt"});
+    fails(3, "builtin:cube: has no texture coordinates", {"--density-map", "g.png"},
+          "builtin:cube");
+    folder.write("black.png", tools::png_bytes(1, 1, std::string_view("\0", 1)));
+    fails(3, "black.png: all radius factors g are zero", {"--density-map", "black.png"});
+    fails(2, "--density-file and --density-map contradict each other",
+          {"--density-map", "g.png", "--density-file", "g.txt"});
+    fails(2, "--density-floor raises the values of another --density option",
+          {"--density-floor", "0.5"});
+    fails(2, "--density-floor: '0' is not a number of 0.001 to 1",
+          {"--density-curvature", "--density-floor", "0"});
+    check_fails(folder, 2, "g.txt: the report would replace the mesh",
+                {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--density-file", "g.txt",
+                 "--json", "g.txt"});
+    check_fails(folder, 3, "no property 'w'",
+                {"verify", "mesh.ply", "g.txt", "--density-attribute", "w"});
+}
+
+} // namespace geodisk::test

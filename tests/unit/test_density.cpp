@@ -1,0 +1,247 @@
+// What radii that vary are made of: images, texture coordinates, values of vertices and curvature;
+// and the radius of samples in files.
+#include "common/builtin_shapes.hpp"
+#include "common/grey_image.hpp"
+#include "common/mean_curvature.hpp"
+#include "common/mesh_file.hpp"
+#include "common/sample_file.hpp"
+#include "common/sidecar_files.hpp"
+#include "png_bytes.hpp"
+#include "test_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace geodisk::tools;
+
+namespace {
+
+/// Two rows of three pixels.
+const std::string kImage = png_bytes(3, 2, std::string_view("\x00\x33\x66\x99\xcc\xff", 6));
+
+MeshFile mesh_with_uvs(std::string_view name, std::string_view bytes) {
+    const TemporaryFolder folder;
+    MeshSources sources;
+    sources.mesh = folder.write(name, bytes).string();
+    sources.has_uvs = true;
+    return read_mesh(sources);
+}
+
+void uvs_fail(std::string_view name, std::string_view bytes, std::string_view part) {
+    CAPTURE(bytes);
+    check_fails(ExitCode::bad_input, part, [&] { mesh_with_uvs(name, bytes); });
+}
+
+std::string ply_with(std::string_view properties, std::string_view values) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\n" +
+           std::string(properties) +
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+           std::string(values) + "3 0 1 2\n";
+}
+
+MeshFile flat_mesh(std::vector<double> positions, std::vector<std::uint32_t> triangles) {
+    MeshFile mesh;
+    mesh.positions = std::move(positions);
+    mesh.triangles = std::move(triangles);
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("grey images are bilinear and repeat") {
+    const TemporaryFolder folder;
+    const GreyImage image(folder.write("a.png", kImage));
+    // At the centres of pixels; v = 0 is the lower edge.
+    const double values[2][3] = {{0.6, 0.8, 1}, {0, 0.2, 0.4}}; // From below.
+    for (int row = 0; row < 2; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            const double u = (column + 0.5) / 3, v = (row + 0.5) / 2;
+            CHECK(image.at(u, v) == doctest::Approx(values[row][column]).epsilon(1e-12));
+            CHECK(image.at(u - 2, v + 5) == doctest::Approx(values[row][column]).epsilon(1e-12));
+        }
+    }
+    CHECK(image.at(1.0 / 3, 0.25) == doctest::Approx(0.7));
+    CHECK(image.at(0.5, 0.5) == doctest::Approx(0.5));
+    // Half-way from the last column to the first, and from the lower row to the upper one.
+    CHECK(image.at(0, 0.25) == doctest::Approx(0.8));
+    CHECK(image.at(1, 0.25) == doctest::Approx(0.8));
+    CHECK(image.at(0.5, 0) == doctest::Approx(0.5));
+    CHECK(image.at(-1e-18, 1 - 1e-17) == doctest::Approx(0.5));
+}
+
+TEST_CASE("colours become luminance, other depths grey") {
+    const TemporaryFolder folder;
+    const GreyImage green(folder.write("a.png", png_bytes(1, 1, "\x10\xff\x20", 8, 2)));
+    CHECK(green.at(0.5, 0.5) == doctest::Approx(0.62).epsilon(0.02));
+    const GreyImage deep(
+        folder.write("b.png", png_bytes(1, 1, std::string_view("\x80\x01", 2), 16)));
+    CHECK(deep.at(0.5, 0.5) == doctest::Approx(32769.0 / 65535).epsilon(1e-12));
+}
+
+TEST_CASE("what is no image is refused") {
+    const TemporaryFolder folder;
+    const auto fails = [&](const std::filesystem::path& path, std::string_view part) {
+        check_fails(ExitCode::bad_input, part, [&] { const GreyImage image(path); });
+    };
+    fails(folder / "none.png", "no such file");
+    fails(folder.write("empty.png", ""), "cannot be read as a PNG or JPEG image");
+    fails(folder.write("text.png", "v 0 0 0\n"), "cannot be read as a PNG or JPEG image");
+    for (const std::size_t size : {8u, 20u, 45u, 60u}) {
+        fails(folder.write("cut.png", std::string_view(kImage).substr(0, size)),
+              "cannot be read as");
+    }
+    fails(folder.write("cut.jpg", "\xff\xd8\xff\xd9\xff\xda\x01"),
+          "is a JPEG image that is cut short");
+    fails(folder.write("a.pgm", "P5 1 1 255 a"), "cannot be read as a PNG or JPEG image");
+}
+
+TEST_CASE("texture coordinates of OBJ files belong to corners") {
+    // A seam: vertex 1 has two, and vertex 3 the same one twice.
+    const MeshFile mesh = mesh_with_uvs("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                                 "vt 0 0\nvt 0.5 0.25 7\nvt 1 -1\n"
+                                                 "f 1/1 2/2/1 3/3\nvt 2e-1 .5\nf 1/-1 3/3 4/1\n");
+    const std::vector<VertexUv> want{
+        {0, 0, 0}, {0, 0.2, 0.5}, {1, 0.5, 0.25}, {2, 1, -1}, {3, 0, 0}};
+    CHECK(mesh.uvs == want);
+    const std::string start = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n";
+    uvs_fail("a.obj", start + "f 1/1 2 3/1\n", "line 5: vertex 2 has no texture coordinates");
+    uvs_fail("a.obj", start + "f 1/1 2//1 3/1\n", "line 5: vertex 2 has no texture coordinates");
+    uvs_fail("a.obj", start + "f 1/1 2/2 3/1\n", "line 5: texture index 2 is out of range");
+    uvs_fail("a.obj", start + "f 1/1 2/-2 3/1\n", "line 5: texture index -2 is out of range");
+    uvs_fail("a.obj", start + "vt 1\nf 1/1 2/1 3/1\n",
+             "line 5: texture coordinates are two numbers");
+    uvs_fail("a.obj", start + "vt 1 nan\nf 1/1 2/1 3/1\n", "line 5: 'nan' is not a finite number");
+    // Who does not ask is not bothered.
+    const TemporaryFolder folder;
+    CHECK(read_mesh(folder.write("b.obj", start + "vt x\nf 1/1 2/9 3\n").string()).uvs.empty());
+}
+
+TEST_CASE("texture coordinates of PLY files belong to vertices") {
+    for (const std::string names : {"s t", "u v", "texture_u texture_v"}) {
+        CAPTURE(names);
+        const std::size_t blank = names.find(' ');
+        const std::string properties = "property float " + names.substr(0, blank) +
+                                       "\nproperty float " + names.substr(blank + 1) + "\n";
+        const MeshFile mesh = mesh_with_uvs(
+            "a.ply", ply_with(properties, "0 0 0 0.5 1\n1 0 0 0 0\n0 1 0 0.25 0.75\n"));
+        const std::vector<VertexUv> want{{0, 0.5, 1}, {1, 0, 0}, {2, 0.25, 0.75}};
+        CHECK(mesh.uvs == want);
+    }
+    uvs_fail("a.ply", ply_with("property float s\n", "0 0 0 1\n1 0 0 1\n0 1 0 1\n"),
+             "no texture coordinates: none of s t, u v and texture_u texture_v");
+    uvs_fail(
+        "a.ply",
+        ply_with("property float s\nproperty float t\n", "0 0 0 1 1\n1 0 0 inf 0\n0 1 0 1 1\n"),
+        "element face, record 0: vertex 1 has texture coordinates that are not finite");
+    MeshSources sources;
+    sources.mesh = "builtin:cube";
+    sources.has_uvs = true;
+    check_fails(ExitCode::bad_input, "builtin:cube: has no texture coordinates",
+                [&] { read_mesh(sources); });
+}
+
+TEST_CASE("files of values have one to a line") {
+    const TemporaryFolder folder;
+    CHECK(read_values(folder.write("a.txt", "# g\n0.5\n\n 1 # one\r\n2e-1")) ==
+          std::vector<double>{0.5, 1, 0.2});
+    const auto fails = [&](std::string_view bytes, std::string_view part) {
+        check_fails(ExitCode::bad_input, part, [&] { read_values(folder.write("b.txt", bytes)); });
+    };
+    fails("1\n0.5 1\n", "line 2: has 2 numbers instead of one");
+    fails("1\nx\n", "line 2: 'x' is not a number");
+    fails("nan\n", "line 1: 'nan' is not finite");
+}
+
+TEST_CASE("the mean curvature of a sphere is one over its radius") {
+    for (const double radius : {1.0, 1e-6, 1e6}) {
+        MeshFile sphere = make_builtin("icosphere", 4);
+        for (double& x : sphere.positions) {
+            x *= radius;
+        }
+        for (const double curvature : mean_curvatures(sphere)) {
+            REQUIRE(curvature * radius == doctest::Approx(1).epsilon(0.05));
+        }
+        // It is as curved as on average everywhere.
+        for (const double factor : curvature_factors(sphere)) {
+            REQUIRE(factor == doctest::Approx(0.5).epsilon(0.05));
+        }
+    }
+}
+
+TEST_CASE("flat surfaces have no curvature, not at their borders either") {
+    const MeshFile sheet = make_builtin("unfolded-sheet", 8);
+    for (const double curvature : mean_curvatures(sheet)) {
+        REQUIRE(std::abs(curvature) < 1e-9);
+    }
+    for (const double factor : curvature_factors(sheet)) {
+        REQUIRE(factor == 1);
+    }
+    // No vertex is inside.
+    const MeshFile triangle = flat_mesh({0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9}, {0, 1, 2});
+    CHECK(curvature_factors(triangle) == std::vector<double>(4, 1.0));
+}
+
+TEST_CASE("edges are curved and faces are not") {
+    const MeshFile cube = make_builtin("cube", 8);
+    const auto [low, high] = std::minmax_element(cube.positions.begin(), cube.positions.end());
+    const std::vector<double> curvatures = mean_curvatures(cube);
+    const std::vector<double> factors = curvature_factors(cube);
+    for (std::size_t v = 0; v < curvatures.size(); ++v) {
+        const auto on_edge = std::count_if(&cube.positions[3 * v], &cube.positions[3 * v] + 3,
+                                           [&](double x) { return x == *low || x == *high; });
+        CAPTURE(v);
+        REQUIRE((curvatures[v] > 1) == (on_edge >= 2));
+        REQUIRE((factors[v] == doctest::Approx(1)) == (on_edge < 2));
+        REQUIRE(factors[v] > 0);
+    }
+}
+
+TEST_CASE("curvature is finite on any mesh") {
+    // A flat face, a needle, three faces on an edge and a vertex of no face.
+    const MeshFile mesh =
+        flat_mesh({0, 0, 0, 1, 0, 0, 0.5, 0, 0, 0.5, 1e-12, 0, 0.5, 1, 1, 0.5, -1, 1, 9, 9, 9},
+                  {0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 5, 0, 4, 5});
+    for (const double curvature : mean_curvatures(mesh)) {
+        CHECK(std::isfinite(curvature));
+    }
+    for (const double factor : curvature_factors(mesh)) {
+        CHECK(factor > 0);
+        CHECK(factor <= 1);
+    }
+    const MeshFile torus = make_builtin("clifford-torus", 40);
+    for (const double curvature : mean_curvatures(torus)) {
+        REQUIRE(curvature == doctest::Approx(std::sqrt(0.5)).epsilon(0.01));
+    }
+}
+
+TEST_CASE("the radius of samples is written and read") {
+    const TemporaryFolder folder;
+    std::vector<SampleRow> rows(2);
+    rows[0].bary[0] = rows[1].bary[0] = 1;
+    rows[0].radius = 0.1;
+    rows[1].radius = 1.0 / 3;
+    CHECK(has_radii(rows));
+    for (const auto& [name, is_ascii] :
+         {std::pair{"a.ply", false}, {"b.ply", true}, {"c.csv", false}}) {
+        CAPTURE(name);
+        write_samples(folder / name, {}, rows, is_ascii);
+        const SampleFile read = read_samples(folder / name);
+        REQUIRE(read.rows.size() == 2);
+        CHECK(read.rows[0].radius == 0.1);
+        CHECK(read.rows[1].radius == 1.0 / 3);
+    }
+    CHECK(
+        contains(bytes_of(folder / "a.ply"), "property uint candidate\nproperty double radius\n"));
+    CHECK(contains(bytes_of(folder / "c.csv"), ",candidate,radius\n"));
+    rows[0].radius = rows[1].radius = 0;
+    write_samples(folder / "d.csv", {}, rows, false);
+    CHECK_FALSE(contains(bytes_of(folder / "d.csv"), "radius"));
+    for (const std::string_view bad : {"0", "-1", "inf"}) {
+        folder.write("e.csv",
+                     "face_index,bary_u,bary_v,bary_w,radius\n0,1,0,0," + std::string(bad) + "\n");
+        check_fails(ExitCode::bad_input, "line 2: radius is out of range",
+                    [&] { read_samples(folder / "e.csv"); });
+    }
+}
