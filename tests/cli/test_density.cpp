@@ -233,7 +233,7 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
           {"--density-floor", "0.5"});
     fails(2, "--density-floor: '0' is not a number of 0.001 to 1",
           {"--density-curvature", "--density-floor", "0"});
-    check_fails(folder, 2, "g.txt: the report would replace the mesh",
+    check_fails(folder, 2, "g.txt: the report would replace the density",
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--density-file", "g.txt",
                  "--json", "g.txt"});
     check_fails(folder, 3, "no property 'w'",
