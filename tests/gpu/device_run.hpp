@@ -79,4 +79,9 @@ class DeviceRun {
     std::optional<Job> job_;
 };
 
+/// The ranks of the conflicts of higher rank that slot `index` lists, ascending; `by_place` has the
+/// rank at each place.
+std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
+                                  const std::vector<std::uint32_t>& by_place);
+
 } // namespace geodisk::test

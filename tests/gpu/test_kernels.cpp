@@ -129,27 +129,6 @@ void compare_bins(const DeviceRun& run, const Twin& twin) {
     CHECK(wrong == 0);
 }
 
-/// The conflicts of higher rank that a slot lists.
-std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
-                                  const std::vector<std::uint32_t>& by_place) {
-    const RunPlan& plan = run.plan();
-    const std::size_t lists = plan.first_list_row() * 16;
-    const auto list = run.read<std::uint32_t>(BufferRole::pool, plan.list_capacity,
-                                              lists + index * plan.list_capacity * 4);
-    std::vector<std::uint32_t> ranks;
-    for (std::uint32_t i = 0; i < slot.idle_conflicts; ++i) {
-        ranks.push_back(by_place[list[i]]);
-    }
-    for (std::uint32_t i = 0; i < slot.active_conflicts; ++i) {
-        const std::uint32_t rank = by_place[list[plan.list_capacity - 1 - i]];
-        if (rank > slot.rank) {
-            ranks.push_back(rank);
-        }
-    }
-    std::sort(ranks.begin(), ranks.end());
-    return ranks;
-}
-
 /// The calls of CheckStatus of one batch, slot by slot, and with them `all` so far. `above` has
 /// ranks.
 void compare_calls(const DeviceRun& run, const Twin& twin, const std::vector<std::uint32_t>& batch,

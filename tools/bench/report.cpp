@@ -31,19 +31,6 @@ std::string value_text(const Value& value) {
     return text;
 }
 
-/// Quoted where a reader would misunderstand it otherwise (RFC 4180).
-std::string csv_cell(const std::string& text) {
-    if (text.find_first_of(",\"#") == std::string::npos) {
-        return text;
-    }
-    std::string cell = "\"";
-    for (const char character : text) {
-        cell += character;
-        cell += character == '"' ? "\"" : "";
-    }
-    return cell + '"';
-}
-
 Json growth_json(const Series& series, const Growth& growth) {
     Json entry{{"sweep", to_string(series.sweep)},
                {"mesh", series.mesh},
@@ -94,7 +81,7 @@ std::string csv_text(const Circumstances& circumstances, const std::vector<Serie
         for (const Measurement& row : one.rows) {
             text += to_string(one.sweep);
             visit_fields(row, [&](const char*, const auto& value) {
-                text += ',' + csv_cell(value_text(value));
+                text += ',' + tools::csv_cell(value_text(value));
             });
             text += '\n';
         }

@@ -65,4 +65,16 @@ std::string in_quotes(std::string_view text) {
     return result;
 }
 
+std::string csv_cell(std::string_view text) {
+    if (text.find_first_of(",\"#\n") == std::string_view::npos) {
+        return std::string(text);
+    }
+    std::string cell = "\"";
+    for (const char character : text) {
+        cell += character;
+        cell += character == '"' ? "\"" : "";
+    }
+    return cell + '"';
+}
+
 } // namespace geodisk::tools

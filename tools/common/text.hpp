@@ -43,4 +43,7 @@ void append_number(std::string& text, Number value) {
 /// `text` in quotes for a one-line message: long text is cut, unprintable bytes become '?'.
 std::string in_quotes(std::string_view text);
 
+/// `text` as a cell of a CSV line, quoted where a reader would misunderstand it (RFC 4180).
+std::string csv_cell(std::string_view text);
+
 } // namespace geodisk::tools

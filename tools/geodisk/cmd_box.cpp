@@ -17,6 +17,7 @@
 #include "geodisk/box_report.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/outputs.hpp"
+#include "geodisk/run_options.hpp"
 #include "program/arguments.hpp"
 #include "program/human_text.hpp"
 
@@ -27,9 +28,9 @@ namespace {
 struct BoxOptions {
     std::string dimension, min_distance, count;
     std::vector<std::string> extents;
-    std::string output, json, device;
-    std::string seed = "0", pool_ratio = "20", memory = "256M";
-    bool is_periodic = false, ascii = false, quiet = false, validate = false;
+    std::string output, pool_ratio = "20";
+    bool is_periodic = false;
+    RunOptions run;
 };
 
 /// The options, checked.
@@ -92,7 +93,7 @@ BoxRequest parse_request(const BoxOptions& options) {
     BoxParams& box = request.box;
     box.extents = parse_sides(options);
     box.is_periodic = options.is_periodic;
-    box.seed = parse_seed("--seed", options.seed);
+    box.seed = options.run.parsed_seed();
     box.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
     if (options.count.empty()) {
         box.min_distance = parse_length("--min-distance", options.min_distance)
@@ -101,22 +102,22 @@ BoxRequest parse_request(const BoxOptions& options) {
         request.count = parse_count("--count", options.count);
         box.min_distance = distance_for_count(box, request.count);
     }
-    request.runner.pool_bytes = parse_bytes("--memory", options.memory);
+    request.runner.pool_bytes = options.run.pool_bytes();
     take(pool_size(box)); // Fails before a device is needed.
     return request;
 }
 
 void check_outputs(const BoxOptions& options, const BoxParams& box) {
-    check_distinct({{"the samples", options.output}, {"the report", options.json}}, {});
+    check_distinct({{"the samples", options.output}, {"the report", options.run.json}}, {});
     check_output_path(options.output);
     check_box_dimension(options.output, static_cast<std::uint32_t>(box.extents.size()));
-    check_report_path(options.json);
+    check_report_path(options.run.json);
 }
 
 BoxSampleSet sample_on_device(const BoxOptions& options, const RunnerOptions& runner_options,
                               BoxReport& report, ProgressLine& progress) {
     const Context context =
-        open_device(options.device, options.validate, report.seconds.device, progress);
+        open_device(options.run.device, options.run.validate, report.seconds.device, progress);
     report.device = context.report();
     progress.begin_stage("compiling the shaders");
     BoxRunner runner = timed(report.seconds.pipelines, [&] {
@@ -153,16 +154,16 @@ void write_outputs(const BoxOptions& options, const BoxSampleSet& set, BoxReport
     AtomicFile samples(options.output);
     timed(report.seconds.write, [&] {
         write_box_samples(samples, options.output, sample_header(report), to_rows(set),
-                          options.ascii, set.dimension);
+                          options.run.ascii, set.dimension);
         samples.sync();
         return 0;
     });
     progress.clear();
-    ReportFile json(options.json, options.json.empty() ? "" : json_text(report));
+    ReportFile json(options.run.json, options.run.json.empty() ? "" : json_text(report));
     check_interrupted();
     samples.commit();
     json.commit();
-    if (!options.quiet && options.json != "-") {
+    if (!options.run.quiet && options.run.json != "-") {
         print_summary(std::cout, report);
         flush_or_fail("the summary");
     }
@@ -171,7 +172,7 @@ void write_outputs(const BoxOptions& options, const BoxSampleSet& set, BoxReport
 void run_box(const BoxOptions& options) {
     const BoxRequest request = parse_request(options);
     check_outputs(options, request.box);
-    ProgressLine progress(options.quiet);
+    ProgressLine progress(options.run.quiet);
     BoxReport report;
     report.output_path = options.output;
     report.box = request.box;
@@ -220,30 +221,12 @@ void add_box_command(CLI::App& app) {
         ->type_name("N")
         ->group(distance);
 
-    command->add_option("--seed", options->seed, "64-bit seed; equal seeds give equal samples")
-        ->type_name("S")
-        ->capture_default_str();
     command
         ->add_option("--pool-ratio", options->pool_ratio,
                      "Candidates per expected sample, 1 to 10000; more leave fewer gaps")
         ->type_name("Q")
         ->capture_default_str();
-    command->add_option("--device", options->device, "Device by name, index or UUID (geodisk info)")
-        ->type_name("NAME|INDEX");
-    command
-        ->add_option("--memory", options->memory,
-                     "Most bytes on the device for lists of conflicts, with\n"
-                     "K, M or G; does not change the samples")
-        ->type_name("BYTES")
-        ->capture_default_str();
-    command->add_option("--json", options->json, "Write a report as JSON, - for standard output")
-        ->type_name("FILE");
-    command->add_flag("--ascii", options->ascii, "Write PLY as text");
-    command->add_flag("-q,--quiet", options->quiet, "No progress and no summary");
-    command
-        ->add_flag("--validate", options->validate,
-                   "Run with the Vulkan validation layer, fail on any message")
-        ->group("Development");
+    add_run_options(*command, options->run);
     command->callback([options] { run_box(*options); });
 }
 

@@ -25,6 +25,7 @@
 #include "geodisk/mesh_options.hpp"
 #include "geodisk/outputs.hpp"
 #include "geodisk/progress.hpp"
+#include "geodisk/run_options.hpp"
 #include "geodisk/sample_report.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
@@ -43,11 +44,11 @@ constexpr double kDartsPerSample = 1000;
 struct SampleOptions {
     MeshOptions mesh;
     DensityOptions density;
-    std::string output, json, device;
+    std::string output;
     std::string min_distance, radius, count, throws;
-    std::string method = "psdp", metric = "geodesic", seed = "0", pool_ratio = "20",
-                memory = "256M";
-    bool has_pool_ratio = false, ascii = false, quiet = false, validate = false;
+    std::string method = "psdp", metric = "geodesic", pool_ratio = "20";
+    bool has_pool_ratio = false;
+    RunOptions run;
 
     bool throws_darts() const { return method == "pdts"; }
 };
@@ -156,9 +157,9 @@ SampleRequest parse_request(const SampleOptions& options) {
     } else {
         request.count = parse_count("--count", options.count);
     }
-    request.params.seed = parse_seed("--seed", options.seed);
+    request.params.seed = options.run.parsed_seed();
     request.params.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
-    request.runner.pool_bytes = parse_bytes("--memory", options.memory);
+    request.runner.pool_bytes = options.run.pool_bytes();
     return request;
 }
 
@@ -194,9 +195,9 @@ void check_outputs(const SampleOptions& options) {
     for (const std::string& file : options.density.files()) {
         read.push_back({"the density", file});
     }
-    check_distinct({{"the samples", options.output}, {"the report", options.json}}, read);
+    check_distinct({{"the samples", options.output}, {"the report", options.run.json}}, read);
     check_output_path(options.output);
-    check_report_path(options.json);
+    check_report_path(options.run.json);
 }
 
 /// Samples to reckon with, at least one.
@@ -225,10 +226,10 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
                                      const RunnerOptions& runner_options, const MeshInput& mesh,
                                      SampleReport& report, ProgressLine& progress) {
     const Context context =
-        open_device(options.device, options.validate, report.seconds.device, progress);
+        open_device(options.run.device, options.run.validate, report.seconds.device, progress);
     report.device = context.report();
     RunnerOptions counting = runner_options;
-    counting.sampler.count_calls = !options.json.empty();
+    counting.sampler.count_calls = !options.run.json.empty();
     counting.sampler.adaptive = report.params.radii != nullptr;
     const double expected = expected_samples(mesh.prepared, report.params);
     SampleSet set;
@@ -291,16 +292,17 @@ void write_outputs(const SampleOptions& options, const std::vector<SampleRow>& r
     progress.begin_stage("writing the samples");
     const auto start = Clock::now();
     AtomicFile samples(options.output);
-    write_samples(samples, options.output, sample_header(report), rows, options.ascii, dimension);
+    write_samples(samples, options.output, sample_header(report), rows, options.run.ascii,
+                  dimension);
     samples.sync();
     report.seconds.write = std::chrono::duration<double>(Clock::now() - start).count();
     progress.clear();
 
-    ReportFile json(options.json, options.json.empty() ? "" : json_text(report));
+    ReportFile json(options.run.json, options.run.json.empty() ? "" : json_text(report));
     check_interrupted();
     samples.commit();
     json.commit();
-    if (!options.quiet && options.json != "-") {
+    if (!options.run.quiet && options.run.json != "-") {
         print_summary(std::cout, report);
         flush_or_fail("the summary");
     }
@@ -310,7 +312,7 @@ void run_sample(const SampleOptions& options) {
     const SampleRequest request = parse_request(options);
     check_metric(options);
     check_outputs(options);
-    ProgressLine progress(options.quiet);
+    ProgressLine progress(options.run.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress, options.density);
     check_dimension(options.output, mesh.dimension());
     if (options.metric != "geodesic" && mesh.dimension() != 3) {
@@ -410,25 +412,7 @@ void add_sample_command(CLI::App& app) {
             ->capture_default_str()
             ->group(method);
 
-    command->add_option("--seed", options->seed, "64-bit seed; equal seeds give equal samples")
-        ->type_name("S")
-        ->capture_default_str();
-    command->add_option("--device", options->device, "Device by name, index or UUID (geodisk info)")
-        ->type_name("NAME|INDEX");
-    command
-        ->add_option("--memory", options->memory,
-                     "Most bytes on the device for disks in progress, with\n"
-                     "K, M or G; does not change the samples")
-        ->type_name("BYTES")
-        ->capture_default_str();
-    command->add_option("--json", options->json, "Write a report as JSON, - for standard output")
-        ->type_name("FILE");
-    command->add_flag("--ascii", options->ascii, "Write PLY as text");
-    command->add_flag("-q,--quiet", options->quiet, "No progress and no summary");
-    command
-        ->add_flag("--validate", options->validate,
-                   "Run with the Vulkan validation layer, fail on any message")
-        ->group("Development");
+    add_run_options(*command, options->run);
     command->callback([options, pool_ratio] {
         options->has_pool_ratio = pool_ratio->count() > 0;
         run_sample(*options);

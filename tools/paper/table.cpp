@@ -4,26 +4,16 @@
 #include <charconv>
 #include <iterator>
 
+#include "common/text.hpp"
+
 namespace geodisk::paper {
 namespace {
-
-std::string csv_cell(const std::string& text) {
-    if (text.find_first_of(",\"#\n") == std::string::npos) {
-        return text;
-    }
-    std::string cell = "\"";
-    for (const char character : text) {
-        cell += character;
-        cell += character == '"' ? "\"" : "";
-    }
-    return cell + '"';
-}
 
 std::string csv_line(const std::vector<std::string>& cells) {
     std::string line;
     for (const std::string& cell : cells) {
         line += line.empty() ? "" : ",";
-        line += csv_cell(cell);
+        line += tools::csv_cell(cell);
     }
     return line + '\n';
 }
