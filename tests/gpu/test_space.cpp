@@ -13,6 +13,7 @@
 #include "kernels/space.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -163,6 +164,32 @@ TEST_SUITE("space") {
         SampleParams none;
         CHECK(!runner.sample_and_wait(cube.view(), mesh, none));
         CHECK(runner.sample_and_wait(cube.view(), mesh, params));
+    }
+
+    TEST_CASE("radii that vary are refused, and kernels for them not taken") {
+        const TestMesh cube = builtin("cube", 4);
+        const PreparedMesh mesh = prepared(cube);
+        const RadiusField radii = radius_field(mesh, wavy_factors(cube, 0.5));
+        RunnerOptions options;
+        options.sampler.adaptive = true;
+        Context& context = shared_context();
+        SpaceRunner runner = expect(
+            SpaceRunner::create(context.device(), context.queue(), Metric::euclidean, options));
+        const auto refused =
+            runner.sample_and_wait(cube.view(), mesh, params_for(mesh, 100, 1, &radii));
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().message == "SampleParams::radii is for geodesic distances alone");
+        const SampleParams params = params_for(mesh, 300);
+        const SampleSet set = expect(runner.sample_and_wait(cube.view(), mesh, params));
+        const SampleSet plain = sample_space(cube, params, Metric::euclidean);
+        REQUIRE(ranks_of(set) == ranks_of(plain));
+        std::uint32_t wrong = 0;
+        for (std::size_t i = 0; i < set.samples.size(); ++i) {
+            wrong += set.samples[i].face != plain.samples[i].face ||
+                     set.samples[i].weights[1] != plain.samples[i].weights[1] ||
+                     set.samples[i].weights[2] != plain.samples[i].weights[2];
+        }
+        CHECK(wrong == 0);
     }
 
     TEST_CASE("the validation layer has nothing to say about a run in space") {

@@ -89,7 +89,8 @@ struct SamplerOptions {
     /// Counts what RunReport::calls tells, which takes dispatches of its own. Does not change the
     /// samples.
     bool count_calls = false;
-    /// For jobs with SampleParams::radii, and for no others: kernels are compiled for either.
+    /// For jobs with SampleParams::radii, and for no others: kernels are compiled for either. Boxes
+    /// and distances through space have one radius and do not look at it.
     bool adaptive = false;
 };
 

@@ -68,7 +68,7 @@ Result<Sampler> Sampler::Impl::create_for(Domain domain, std::uint32_t dimension
     impl->dimension = dimension;
     impl->takes_curves = takes_curves;
     impl->count_calls = options.count_calls;
-    impl->adaptive = options.adaptive;
+    impl->adaptive = options.adaptive && domain == Domain::surface;
     impl->tuning = *tuning;
     impl->counted_lanes = options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
     impl->report = std::move(*report);

@@ -58,6 +58,10 @@ Result<SampleSet> SpaceRunner::sample_and_wait(const MeshView& view, const Prepa
         if (!candidates) {
             return candidates.error();
         }
+        if (params.radii != nullptr) {
+            return Error{Status::invalid_argument,
+                         "SampleParams::radii is for geodesic distances alone"};
+        }
         if (params.stop_count != 0) {
             return Error{Status::invalid_argument,
                          "SampleParams::stop_count is for geodesic distances alone"};
