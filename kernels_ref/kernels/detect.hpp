@@ -18,11 +18,11 @@ namespace geodisk::ref {
 
 /// What one disk took; the shaders count the same.
 struct DiskCount {
-    std::uint32_t windows = 0;  ///< Windows and vertex events pushed.
+    std::uint32_t windows = 0;      ///< Windows and vertex events pushed.
     std::uint32_t most_waiting = 0; ///< Most windows on the stack, or events in the queue.
-    std::uint32_t chain = 0;    ///< Longest chain of crossings.
-    std::uint32_t vertices = 0; ///< Vertices reached.
-    std::uint32_t tested = 0;   ///< Points whose distance was computed.
+    std::uint32_t chain = 0;        ///< Longest chain of crossings.
+    std::uint32_t vertices = 0;     ///< Vertices reached.
+    std::uint32_t tested = 0;       ///< Points whose distance was computed.
 };
 
 /// For distances in double precision: only its rounding has to be allowed for.
@@ -34,8 +34,9 @@ inline Tolerances double_tolerances() {
     return tolerances;
 }
 
-/// Computes geodesic disks one after the other; keeps its working memory between them.
-template <class Real>
+/// Computes geodesic disks one after the other; keeps its working memory between them. With
+/// kMayVary false it is only for surfaces whose radii do not vary, and faster.
+template <class Real, bool kMayVary = true>
 class Detector {
   public:
     /// Surface and bins must outlive the detector. Where radii vary, two points are near when their
@@ -58,7 +59,7 @@ class Detector {
     template <class Wanted, class Hit>
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
         begin();
-        own_radius_ = surface_.is_adaptive() ? surface_.radius_at(source) : Real{0};
+        own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
         spread_from_source(source, wanted, hit);
         // Windows first, the last one first, then the oldest event: a vertex then mostly has its
         // final distance before its fan is lit.
@@ -93,8 +94,8 @@ class Detector {
     };
     struct VertexNote {
         Real distance;
-        Real crossing;            ///< Where the best ray crossed `through`.
-        std::uint32_t through;    ///< Half-edge the best ray entered the face through.
+        Real crossing;         ///< Where the best ray crossed `through`.
+        std::uint32_t through; ///< Half-edge the best ray entered the face through.
         std::uint32_t generation;
     };
     static constexpr std::uint32_t kNoEdge = ~0u;
@@ -109,17 +110,20 @@ class Detector {
         count_ = {};
     }
 
+    /// Whether radii vary.
+    bool adaptive() const { return kMayVary && surface_.is_adaptive(); }
+
     /// The distance below which a point of this radius is near the source.
     Real limit_with(Real radius) const { return (own_radius_ + radius) + (limit_ - Real{1}); }
 
     /// Beyond this distance no path through the face leads on to a point near the source.
     Real reach_through(std::uint32_t face) const {
-        return surface_.is_adaptive() ? limit_with(surface_.radii[face].bound) : limit_;
+        return adaptive() ? limit_with(surface_.radii[face].bound) : limit_;
     }
 
     /// Nor, beyond this one, to a point of the face.
     Real reach_into(std::uint32_t face) const {
-        return surface_.is_adaptive() ? limit_with(surface_.radii[face].largest()) : limit_;
+        return adaptive() ? limit_with(surface_.radii[face].largest()) : limit_;
     }
 
     Real distance_at(std::uint32_t v) const {
@@ -171,7 +175,7 @@ class Detector {
     /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e; `start`
     /// and `end` are what is known of the edge's ends.
     Child leave(std::uint32_t e, Real start, Real end, Real x, Real y, Real b0, Real b1, Real sigma,
-               std::uint32_t chain) {
+                std::uint32_t chain) {
         if (around_half_edge(surface_.edges[e].around) == e || !(b0 < b1)) {
             return {};
         }
@@ -192,9 +196,9 @@ class Detector {
         }
         // Where many faces share the edge the shader has no room for what is known of its ends.
         const bool many = shared_by_many(e);
-        return {distance, {e, x, y, b0, b1, sigma, chain,
-                      many ? static_cast<Real>(kFar) : rounded_up(start),
-                      many ? static_cast<Real>(kFar) : rounded_up(end)}};
+        return {distance,
+                {e, x, y, b0, b1, sigma, chain, many ? static_cast<Real>(kFar) : rounded_up(start),
+                 many ? static_cast<Real>(kFar) : rounded_up(end)}};
     }
 
     bool shared_by_many(std::uint32_t e) const {
@@ -202,14 +206,15 @@ class Detector {
         return around_half_edge(surface_.edges[next].around) != e;
     }
 
-    /// A known distance as a window carries it: in steps of 2^-15, never less. A bound too large only
-    /// lets a window live that could be dropped.
+    /// A known distance as a window carries it: in steps of 2^-15, never less. A bound too large
+    /// only lets a window live that could be dropped.
     Real rounded_up(Real distance) const {
         if (!(distance < limit_)) {
             return static_cast<Real>(kFar);
         }
         const Real steps = distance * static_cast<Real>(0x1p15);
-        return static_cast<Real>(static_cast<std::uint32_t>(steps) + 1) * static_cast<Real>(0x1p-15);
+        return static_cast<Real>(static_cast<std::uint32_t>(steps) + 1) *
+               static_cast<Real>(0x1p-15);
     }
 
     /// Whether `known` plus a straight way of length `way` beats the window's own distance to a
@@ -331,15 +336,15 @@ class Detector {
         bool to_right = crossing < b1;
         const std::uint32_t apex = surface_.edges[left].origin;
         if (crossing >= b0 - slack_ && crossing <= b1 + slack_) {
-            const Real distance =
-                sigma + root(square(edge.apex_x - x) + square(edge.apex_y + y));
+            const Real distance = sigma + root(square(edge.apex_x - x) + square(edge.apex_y + y));
             split_once(apex, h, crossing, distance, to_left, to_right);
             reach(apex, distance, left, h, crossing, false, window.chain + 1);
         }
         const Real known = distance_at(apex);
         Child over_left, over_right;
         if (to_left) {
-            over_left = lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, known, window);
+            over_left =
+                lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, known, window);
         }
         if (to_right) {
             over_right = lit_child(right, false, h, edge.length - x, y, edge.length - b1,
@@ -372,10 +377,10 @@ class Detector {
     }
 
     /// The child over the left or right edge e, lit between the rays through `near` and `far`. For
-    /// the left child all is measured from the start of h, for the right one from its end. `apex` is
-    /// what is known of the corner both children share.
-    Child lit_child(std::uint32_t e, bool left, std::uint32_t h, Real x, Real y, Real near, Real far,
-                   Real apex, const Window& window) {
+    /// the left child all is measured from the start of h, for the right one from its end. `apex`
+    /// is what is known of the corner both children share.
+    Child lit_child(std::uint32_t e, bool left, std::uint32_t h, Real x, Real y, Real near,
+                    Real far, Real apex, const Window& window) {
         const Edge<Real>& child = surface_.edges[e];
         const Edge<Real>& edge = surface_.edges[h];
         const Edge<Real>& angle = left ? edge : child;
@@ -400,7 +405,7 @@ class Detector {
             return {};
         }
         return leave(e, left ? apex : window.end, left ? window.start : apex, px, child_y, b0, b1,
-              window.sigma, window.chain + 1);
+                     window.sigma, window.chain + 1);
     }
 
     /// Points of h's face at straight distance from (x, y) in the frame of h.
@@ -427,7 +432,7 @@ class Detector {
         const Grid& grid = grids_[f];
         const std::uint32_t first = bins_.first_cell[f];
         const Real rest = reach_into(f) - sigma;
-        if (surface_.is_adaptive() && !(rest > 0)) {
+        if (adaptive() && !(rest > 0)) {
             return; // The disk ends before the face.
         }
         const Real rest2 = rest * rest;
@@ -441,7 +446,7 @@ class Detector {
                 const Real dx = q.x - x;
                 const Real dy = q.y - y;
                 const Real distance2 = dx * dx + dy * dy;
-                const Real limit2 = surface_.is_adaptive() ? near_square(place, sigma) : rest2;
+                const Real limit2 = adaptive() ? near_square(place, sigma) : rest2;
                 if (distance2 < limit2 && lit(dx, dy)) {
                     hit(place, sigma + std::sqrt(distance2));
                 }
@@ -452,9 +457,10 @@ class Detector {
             return;
         }
         const auto center = in_grid_frame(h, grid.base, x, y);
-        const Real reach = rest + static_cast<Real>(kCellPadding) *
-                                      (surface_.edges[grid.base].length + 1);
-        const Real per_unit = surface_.cells_per_unit(f);
+        const Real reach =
+            rest + static_cast<Real>(kCellPadding) * (surface_.edges[grid.base].length + 1);
+        const Real per_unit =
+            adaptive() ? surface_.cells_per_unit(f) : static_cast<Real>(gpu::kCellsPerDistance);
         const std::uint32_t column0 = cell_at(center.x - reach, grid.columns, per_unit);
         const std::uint32_t column1 = cell_at(center.x + reach, grid.columns, per_unit);
         const std::uint32_t row1 = cell_at(center.y + reach, grid.rows, per_unit);
