@@ -18,6 +18,7 @@
 #include "geodisk/device_run.hpp"
 #include "geodisk/outputs.hpp"
 #include "geodisk/run_options.hpp"
+#include "geodisk/run_outputs.hpp"
 #include "program/arguments.hpp"
 #include "program/human_text.hpp"
 
@@ -147,28 +148,6 @@ std::vector<SampleRow> to_rows(const BoxSampleSet& set) {
     return rows;
 }
 
-/// Brings everything to the disk before anything appears under its name.
-void write_outputs(const BoxOptions& options, const BoxSampleSet& set, BoxReport& report,
-                   ProgressLine& progress) {
-    progress.begin_stage("writing the samples");
-    AtomicFile samples(options.output);
-    timed(report.seconds.write, [&] {
-        write_box_samples(samples, options.output, sample_header(report), to_rows(set),
-                          options.run.ascii, set.dimension);
-        samples.sync();
-        return 0;
-    });
-    progress.clear();
-    ReportFile json(options.run.json, options.run.json.empty() ? "" : json_text(report));
-    check_interrupted();
-    samples.commit();
-    json.commit();
-    if (!options.run.quiet && options.run.json != "-") {
-        print_summary(std::cout, report);
-        flush_or_fail("the summary");
-    }
-}
-
 void run_box(const BoxOptions& options) {
     const BoxRequest request = parse_request(options);
     check_outputs(options, request.box);
@@ -178,7 +157,10 @@ void run_box(const BoxOptions& options) {
     report.box = request.box;
     report.wanted_count = request.count;
     const BoxSampleSet set = sample_on_device(options, request.runner, report, progress);
-    write_outputs(options, set, report, progress);
+    write_outputs(options.output, options.run, report, progress, [&](AtomicFile& file) {
+        write_box_samples(file, options.output, sample_header(report), to_rows(set),
+                          options.run.ascii, set.dimension);
+    });
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "geodisk/cmd_sample.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -26,6 +25,7 @@
 #include "geodisk/outputs.hpp"
 #include "geodisk/progress.hpp"
 #include "geodisk/run_options.hpp"
+#include "geodisk/run_outputs.hpp"
 #include "geodisk/sample_report.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
@@ -34,8 +34,6 @@
 
 namespace geodisk::tools {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Darts for each sample a surface has room for, after which a count counts as out of reach.
 constexpr double kDartsPerSample = 1000;
@@ -286,28 +284,6 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
     return rows;
 }
 
-/// Brings everything to the disk before anything appears under its name.
-void write_outputs(const SampleOptions& options, const std::vector<SampleRow>& rows,
-                   std::uint32_t dimension, SampleReport& report, ProgressLine& progress) {
-    progress.begin_stage("writing the samples");
-    const auto start = Clock::now();
-    AtomicFile samples(options.output);
-    write_samples(samples, options.output, sample_header(report), rows, options.run.ascii,
-                  dimension);
-    samples.sync();
-    report.seconds.write = std::chrono::duration<double>(Clock::now() - start).count();
-    progress.clear();
-
-    ReportFile json(options.run.json, options.run.json.empty() ? "" : json_text(report));
-    check_interrupted();
-    samples.commit();
-    json.commit();
-    if (!options.run.quiet && options.run.json != "-") {
-        print_summary(std::cout, report);
-        flush_or_fail("the summary");
-    }
-}
-
 void run_sample(const SampleOptions& options) {
     const SampleRequest request = parse_request(options);
     check_metric(options);
@@ -343,7 +319,10 @@ void run_sample(const SampleOptions& options) {
     check_count(request, report);
     const std::vector<SampleRow> rows = to_rows(mesh, report.params.min_distance, samples);
     report.set_radii(rows);
-    write_outputs(options, rows, mesh.dimension(), report, progress);
+    write_outputs(options.output, options.run, report, progress, [&](AtomicFile& file) {
+        write_samples(file, options.output, sample_header(report), rows, options.run.ascii,
+                      mesh.dimension());
+    });
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <geodisk/context.hpp>
@@ -19,9 +20,17 @@ template <typename Work>
 auto timed(double& seconds, const Work& work) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    auto result = work();
-    seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    return result;
+    const auto add_seconds = [&] {
+        seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    if constexpr (std::is_void_v<decltype(work())>) {
+        work();
+        add_seconds();
+    } else {
+        auto result = work();
+        add_seconds();
+        return result;
+    }
 }
 
 /// As --device and --validate ask; adds to `seconds`.
