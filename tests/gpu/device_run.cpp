@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <doctest/doctest.h>
+
 #include "engine/box_source.hpp"
 #include "engine/plan.hpp"
 #include "vk/barriers.hpp"
@@ -123,6 +125,29 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot
         }
     }
     std::sort(ranks.begin(), ranks.end());
+    return ranks;
+}
+
+bool decide_batch(DeviceRun& run) {
+    run.rounds(1);
+    gpu::ControlRec control = run.control();
+    REQUIRE(control.overflow == 0);
+    if (control.done != 0) {
+        return false;
+    }
+    while (control.undecided > 0) {
+        run.rounds(1);
+        control = run.control();
+    }
+    return true;
+}
+
+std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run) {
+    const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
+    std::vector<std::uint32_t> ranks(places.size());
+    for (std::uint32_t rank = 0; rank < places.size(); ++rank) {
+        ranks[places[rank]] = rank;
+    }
     return ranks;
 }
 

@@ -79,8 +79,15 @@ class DeviceRun {
     std::optional<Job> job_;
 };
 
-/// The ranks of the conflicts of higher rank that slot `index` lists, ascending; `by_place` has the
-/// rank at each place.
+/// Selects the next batch and goes on until it is decided; false if no candidate is left. Requires
+/// that nothing overflows.
+bool decide_batch(DeviceRun& run);
+
+/// The rank at each place.
+std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run);
+
+/// The ranks of the conflicts of higher rank that slot `index` lists, ascending; `by_place` is
+/// ranks_by_place().
 std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
                                   const std::vector<std::uint32_t>& by_place);
 

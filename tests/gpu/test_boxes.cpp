@@ -148,22 +148,9 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     Twin twin(box);
     run.begin();
     const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
-    std::vector<std::uint32_t> by_place(places.size());
-    for (std::uint32_t rank = 0; rank < places.size(); ++rank) {
-        by_place[places[rank]] = rank;
-    }
+    const auto by_place = ranks_by_place(run);
     compare_pool(run, twin, box, places);
-    while (true) {
-        run.rounds(1);
-        gpu::ControlRec control = run.control();
-        REQUIRE(control.overflow == 0);
-        if (control.done != 0) {
-            break;
-        }
-        while (control.undecided > 0) {
-            run.rounds(1);
-            control = run.control();
-        }
+    while (decide_batch(run)) {
         compare_batch(run, twin, by_place);
         compare_states(run, twin, by_place);
     }

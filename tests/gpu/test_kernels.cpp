@@ -81,16 +81,6 @@ bool same(const gpu::SlotRec& slot, const ref::DiskCount& disk) {
            slot.tested == disk.tested;
 }
 
-/// Which rank lies at each place.
-std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run) {
-    const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
-    std::vector<std::uint32_t> ranks(places.size());
-    for (std::uint32_t rank = 0; rank < places.size(); ++rank) {
-        ranks[places[rank]] = rank;
-    }
-    return ranks;
-}
-
 float weight(std::uint32_t steps) {
     return static_cast<float>(steps) * 0x1p-24f;
 }
@@ -257,17 +247,7 @@ void step_through_samples(DeviceRun& run, Twin& twin, const std::vector<gpu::Sam
 /// The rounds of a chunk, once the samples before it have rejected.
 void step_through_candidates(DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
                              CallHistogram* calls) {
-    while (true) {
-        run.rounds(1);
-        gpu::ControlRec control = run.control();
-        REQUIRE(control.overflow == 0);
-        if (control.done != 0) {
-            break;
-        }
-        while (control.undecided > 0) {
-            run.rounds(1);
-            control = run.control();
-        }
+    while (decide_batch(run)) {
         compare_batch(run, twin, by_place, calls);
         compare_states(run, twin, by_place);
     }
