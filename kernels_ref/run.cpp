@@ -12,7 +12,9 @@ RunResult throw_from(const Surface<Real>& surface, const Bins<Real>& bins,
     for (std::uint32_t place = 0; place < count; ++place) {
         places[bins.order[place]] = place;
     }
-    std::vector<std::uint8_t> decided(count, 0);
+    // By its address: the callbacks would load a vector's own after every store.
+    std::vector<std::uint8_t> flags(count, 0);
+    std::uint8_t* const decided = flags.data();
     Detector<Real, kMayVary> detector(surface, bins, tolerances, tolerances.limit);
     for (std::uint32_t rank = 0; rank < count && result.ranks.size() < most; ++rank) {
         const std::uint32_t place = places[rank];
@@ -22,8 +24,8 @@ RunResult throw_from(const Surface<Real>& surface, const Bins<Real>& bins,
         decided[place] = 1;
         result.ranks.push_back(rank);
         const DiskCount disk = detector.run(
-            bins.points[place], [&](std::uint32_t q) { return !decided[q]; },
-            [&](std::uint32_t q, Real) { decided[q] = 1; });
+            bins.points[place], [decided](std::uint32_t q) { return !decided[q]; },
+            [decided](std::uint32_t q, Real) { decided[q] = 1; });
         result.windows += disk.windows;
         result.tested += disk.tested;
         result.most_waiting = std::max(result.most_waiting, disk.most_waiting);

@@ -1,9 +1,7 @@
 #include "lib/surface.hpp"
 
-#include <bit>
 #include <stdexcept>
 
-#include "constants.h"
 #include "lib/scalar.hpp"
 
 namespace geodisk::ref {
@@ -43,15 +41,6 @@ Real Surface<Real>::radius_at(FacePoint<Real> point) const {
     const Real(&r)[3] = radii[point.face].radius;
     return (Real{1} - point.weight1 - point.weight2) * r[0] + point.weight1 * r[1] +
            point.weight2 * r[2];
-}
-
-template <class Real>
-Real Surface<Real>::cells_per_unit(std::uint32_t face) const {
-    if (!is_adaptive()) {
-        return static_cast<Real>(gpu::kCellsPerDistance);
-    }
-    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(radii[face].largest()));
-    return static_cast<Real>(std::bit_cast<float>(0x7f000000u - (bits & 0x7f800000u)));
 }
 
 template <class Real>

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "constants.h"
 #include "geodisk/mesh.hpp"
 #include "geodisk/params.hpp"
 
@@ -58,7 +60,13 @@ struct Surface {
     /// The radius at a point, where radii vary.
     Real radius_at(FacePoint<Real> point) const;
     /// Cells of a face per unit of length, a power of two.
-    Real cells_per_unit(std::uint32_t face) const;
+    Real cells_per_unit(std::uint32_t face) const {
+        if (!is_adaptive()) {
+            return static_cast<Real>(gpu::kCellsPerDistance);
+        }
+        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(radii[face].largest()));
+        return static_cast<Real>(std::bit_cast<float>(0x7f000000u - (bits & 0x7f800000u)));
+    }
 
   private:
     void place_edges(const PreparedMesh& mesh);
