@@ -9,9 +9,9 @@
 
 namespace geodisk::ref {
 
-/// Square cells over a face, Surface::cells_per_unit() to the unit (two to the minimum distance where
-/// radii do not vary), in the frame of its longest edge. A face whose longest edge is shorter than a
-/// cell has just one.
+/// Square cells over a face, Surface::cells_per_unit() to the unit (two to the minimum distance
+/// where radii do not vary), in the frame of its longest edge. A face whose longest edge is shorter
+/// than a cell has just one.
 struct Grid {
     std::uint32_t columns, rows;
     std::uint32_t base; ///< Half-edge whose frame the grid lies in.
@@ -36,7 +36,7 @@ struct Bins {
     std::vector<std::uint32_t> first_cell; ///< One more than faces.
     std::vector<std::uint32_t> starts;     ///< One more than cells.
     std::vector<std::uint32_t> order;
-    std::vector<FacePoint<Real>> points;   ///< In the order of `order`.
+    std::vector<FacePoint<Real>> points; ///< In the order of `order`.
 
     Bins(const Surface<Real>& surface, std::span<const FacePoint<Real>> by_rank);
 };

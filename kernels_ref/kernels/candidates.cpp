@@ -104,9 +104,8 @@ FacePoint<Real> draw_candidate(const Surface<Real>& surface, std::uint64_t seed,
 template <class Real>
 std::vector<FacePoint<Real>> draw_candidates(std::span<const AliasColumn> alias, std::uint64_t seed,
                                              std::uint32_t count, std::uint32_t first) {
-    return draw_pool<std::vector<FacePoint<Real>>>(count, [&](std::uint32_t i) {
-        return draw_candidate<Real>(alias, seed, first + i);
-    });
+    return draw_pool<std::vector<FacePoint<Real>>>(
+        count, [&](std::uint32_t i) { return draw_candidate<Real>(alias, seed, first + i); });
 }
 
 template <class Real>

@@ -1,4 +1,5 @@
-// Twin of shaders/kernels/candidates.comp: the pool of candidates (paper sections 3.3, 4.2 and 5.8).
+// Twin of shaders/kernels/candidates.comp: the pool of candidates (paper sections 3.3, 4.2
+// and 5.8).
 #pragma once
 
 #include <cstdint>

@@ -91,7 +91,8 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
     const TemporaryFolder folder;
     Setting tuned = bench();
     tuned.environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}};
-    const Outcome found = run(folder, {"builtin:cube", "-n", "50", "--repeats", "1", "--tune"}, tuned);
+    const Outcome found =
+        run(folder, {"builtin:cube", "-n", "50", "--repeats", "1", "--tune"}, tuned);
     REQUIRE(found.status == 0);
     CHECK(found.err.empty());
     for (const char* const setting : {"reads storage", "slot_local_size 64", "pool_block 8",
@@ -108,8 +109,8 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
     std::ofstream(kept) << tuning;
     Setting sampler = tuned;
     sampler.program = GEODISK_COMMAND;
-    const std::vector<std::string> sample{"sample", "builtin:cube", "-n", "200", "-q", "--json",
-                                          "a.json", "-o"};
+    const std::vector<std::string> sample{"sample", "builtin:cube", "-n",     "200",
+                                          "-q",     "--json",       "a.json", "-o"};
     const auto with_output = [&](const char* name) {
         std::vector<std::string> arguments = sample;
         arguments.push_back(name);
@@ -125,7 +126,8 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
     CHECK(bytes_of(folder / "a.ply") == bytes_of(folder / "b.ply"));
 
     std::ofstream(kept) << "{}";
-    check_fails(folder, 3, "is not as geodisk_bench --tune writes it", with_output("c.ply"), sampler);
+    check_fails(folder, 3, "is not as geodisk_bench --tune writes it", with_output("c.ply"),
+                sampler);
     tuning["pool_block"] = 3;
     std::ofstream(kept) << tuning;
     check_fails(folder, 3, "the pool block must be", with_output("c.ply"), sampler);

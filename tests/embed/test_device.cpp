@@ -145,7 +145,8 @@ TEST_CASE("texel buffers that reach less far than storage buffers are not used")
     const Result<Sampler> refused = Sampler::create(refs, options);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().status == Status::device_lacks);
-    CHECK(contains(refused.error().message, "maxTexelBufferElements is 33554431, at least 33554432"));
+    CHECK(
+        contains(refused.error().message, "maxTexelBufferElements is 33554431, at least 33554432"));
 }
 
 TEST_CASE("a device of Vulkan 1.0 is not asked what it cannot answer") {

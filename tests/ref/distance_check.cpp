@@ -36,9 +36,10 @@ void report(const DistanceCase& c, const char* kind, const Point& source, const 
             double bound) {
     const Point& target = c.targets[worst.target];
     const std::string title = c.name + ", " + kind;
-    CHECK_MESSAGE(worst.error <= bound, title, ": face ", source.face, " (", source.weight1, ", ", source.weight2, ") to face ", target.face, " (",
-                  target.weight1, ", ", target.weight2, "): found ", worst.found, ", truth ",
-                  worst.truth, ", error ", worst.error, " > ", bound);
+    CHECK_MESSAGE(worst.error <= bound, title, ": face ", source.face, " (", source.weight1, ", ",
+                  source.weight2, ") to face ", target.face, " (", target.weight1, ", ",
+                  target.weight2, "): found ", worst.found, ", truth ", worst.truth, ", error ",
+                  worst.error, " > ", bound);
 }
 
 /// One query in the precision and with the tolerances of a run.

@@ -160,8 +160,8 @@ TEST_CASE("bins: every point once, in its cell, in rank order") {
 
 TEST_CASE("bins: a disk finds every point within reach, however large the triangles") {
     // Every orientation of the longest edge against the edge a window enters through.
-    const TestMesh shapes[] = {flat_grid(1, 1, 1, 1), flat_grid(1, 1, 1, 0.2),
-                               flat_obtuse_fan(1), flat_lines({0, 0.37, 1}, {0, 0.2, 1})};
+    const TestMesh shapes[] = {flat_grid(1, 1, 1, 1), flat_grid(1, 1, 1, 0.2), flat_obtuse_fan(1),
+                               flat_lines({0, 0.37, 1}, {0, 0.2, 1})};
     for (const TestMesh& mesh : shapes) {
         for (const double reach : {0.01, 0.07, 0.5}) {
             const PreparedMesh surface = prepared(mesh);

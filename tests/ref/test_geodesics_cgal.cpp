@@ -100,21 +100,29 @@ TEST_CASE("random pairs against CGAL: built-in shapes") {
     check_against_oracle("lattice", builtin("lattice", 1), 2, 1.0);
 }
 
-TEST_CASE("random pairs against CGAL: bunny") { check_shared("bunny_1k4.obj", 5); }
+TEST_CASE("random pairs against CGAL: bunny") {
+    check_shared("bunny_1k4.obj", 5);
+}
 
-TEST_CASE("random pairs against CGAL: spot") { check_shared("spot_pose_a_6k.obj", 3); }
+TEST_CASE("random pairs against CGAL: spot") {
+    check_shared("spot_pose_a_6k.obj", 3);
+}
 
-TEST_CASE("random pairs against CGAL: tray with slivers") { check_shared("tray_4k5.ply", 3); }
+TEST_CASE("random pairs against CGAL: tray with slivers") {
+    check_shared("tray_4k5.ply", 3);
+}
 
-TEST_CASE("random pairs against CGAL: fandisk") { check_shared("fandisk_13k.obj", 2); }
+TEST_CASE("random pairs against CGAL: fandisk") {
+    check_shared("fandisk_13k.obj", 2);
+}
 
 TEST_CASE("symmetry d(a,b) = d(b,a) and triangle inequality") {
     check_metric("icosphere", builtin("icosphere", 2));
     check_metric("moebius", builtin("moebius", 4));
     check_metric("two-sided square", subdivided(two_sided_square(), 2));
-    for (const char* name : {"meshes/bunny_1k4.obj", "meshes/tray_4k5.ply",
-                             "meshes/teapot_6k.obj", "bad/warn_nonmanifold_edge.obj",
-                             "bad/warn_bowtie_closed.obj", "bad/warn_sliver_fan.obj"}) {
+    for (const char* name : {"meshes/bunny_1k4.obj", "meshes/tray_4k5.ply", "meshes/teapot_6k.obj",
+                             "bad/warn_nonmanifold_edge.obj", "bad/warn_bowtie_closed.obj",
+                             "bad/warn_sliver_fan.obj"}) {
         if (const auto mesh = shared_mesh(name)) {
             check_metric(name, *mesh);
         }

@@ -50,8 +50,8 @@ struct Book {
         for (std::uint32_t i = 1; i <= parts; ++i) {
             for (std::uint32_t j = 0; j <= parts; ++j) {
                 const double out = static_cast<double>(i) / parts;
-                mesh.add_vertex({out * std::cos(angle), out * std::sin(angle),
-                                 static_cast<double>(j) / parts});
+                mesh.add_vertex(
+                    {out * std::cos(angle), out * std::sin(angle), static_cast<double>(j) / parts});
             }
         }
         const auto vertex = [=](std::uint32_t i, std::uint32_t j) {
@@ -150,12 +150,12 @@ TEST_CASE("bow-tie of closed parts: through the common vertex") {
     }
     const PreparedMesh surface = prepared(*tie);
     std::vector<Point> points = random_points(surface, 13, 300);
-    const auto fan = static_cast<std::uint32_t>(
-        std::max_element(surface.fans().begin(), surface.fans().end(),
-                         [](const VertexFan& a, const VertexFan& b) {
-                             return a.corner_count < b.corner_count;
-                         }) -
-        surface.fans().begin());
+    const auto fan =
+        static_cast<std::uint32_t>(std::max_element(surface.fans().begin(), surface.fans().end(),
+                                                    [](const VertexFan& a, const VertexFan& b) {
+                                                        return a.corner_count < b.corner_count;
+                                                    }) -
+                                   surface.fans().begin());
     points.push_back(at_vertex(*tie, fan));
     GeodesicQuery<double> query(surface, 6, points, tight_tolerances());
     const std::vector<double> from_tie = query.from(points.back());

@@ -70,9 +70,13 @@ std::vector<double> even(int parts) {
 
 } // namespace
 
-TEST_CASE("flat: regular grid") { check_flat("grid", flat_grid(9, 7, 1, 0.8), 5); }
+TEST_CASE("flat: regular grid") {
+    check_flat("grid", flat_grid(9, 7, 1, 0.8), 5);
+}
 
-TEST_CASE("flat: irregular triangles") { check_flat("irregular", flat_irregular(10, 3), 9); }
+TEST_CASE("flat: irregular triangles") {
+    check_flat("irregular", flat_irregular(10, 3), 9);
+}
 
 TEST_CASE("flat: obtuse fans where one window is cut by both children") {
     check_flat("obtuse fan", flat_obtuse_fan(6), 1);

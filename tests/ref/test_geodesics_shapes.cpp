@@ -99,12 +99,12 @@ TEST_CASE("two-sided square: opposite sides are not at distance 0") {
         const TestMesh mesh = subdivided(coarse, times);
         const std::uint32_t front = mesh.face_count() / 2;
         const std::vector<Point> points = random_points(prepared(mesh), 31, 300);
-        check_distances({"two-sided square", mesh, 1.6,
-                         {points.begin(), points.begin() + 30}, points},
-                        [&](const Point& a, std::size_t i) {
-                            const bool same = (a.face < front) == (points[i].face < front);
-                            return two_sided_distance(mesh, a, points[i], same);
-                        });
+        check_distances(
+            {"two-sided square", mesh, 1.6, {points.begin(), points.begin() + 30}, points},
+            [&](const Point& a, std::size_t i) {
+                const bool same = (a.face < front) == (points[i].face < front);
+                return two_sided_distance(mesh, a, points[i], same);
+            });
     }
 }
 
@@ -128,8 +128,7 @@ TEST_CASE("cube: distances by unfolding") {
         CHECK(distance({0, 0, 0}, {1, 1, 1}) == doctest::Approx(std::sqrt(5)).epsilon(1e-7));
         CHECK(distance({0.5, 0.5, 0}, {0.5, 0.5, 1}) == doctest::Approx(2).epsilon(1e-7));
         CHECK(distance({0, 0, 0}, {1, 1, 0}) == doctest::Approx(std::sqrt(2)).epsilon(1e-7));
-        CHECK(distance({0.5, 0.5, 0}, {0, 0, 1}) ==
-              doctest::Approx(std::sqrt(2.5)).epsilon(1e-7));
+        CHECK(distance({0.5, 0.5, 0}, {0, 0, 1}) == doctest::Approx(std::sqrt(2.5)).epsilon(1e-7));
         CHECK(distance({0.25, 0.5, 0}, {0, 0.5, 0.25}) == doctest::Approx(0.5).epsilon(1e-7));
         // Over a side wall: unfolded, 1.5 along and 0.75 across.
         CHECK(distance({0.25, 0.125, 0}, {0.875, 0, 0.25}) ==
@@ -209,13 +208,10 @@ void check_cone(const std::string& name, std::uint32_t sectors, double angle, do
             points.push_back(face_point(f, 0.25, 0.25));
         }
         // Beyond the rim lies nothing: the sectors are straight there and stay convex.
-        check_distances({name, mesh, 2.1, sources, points}, [&](const Point& a, std::size_t i) {
-            return cone.distance(a, points[i]);
-        });
+        check_distances({name, mesh, 2.1, sources, points},
+                        [&](const Point& a, std::size_t i) { return cone.distance(a, points[i]); });
         check_distances({name + ", disk", mesh, 0.6, sources, points},
-                        [&](const Point& a, std::size_t i) {
-                            return cone.distance(a, points[i]);
-                        });
+                        [&](const Point& a, std::size_t i) { return cone.distance(a, points[i]); });
     }
 }
 

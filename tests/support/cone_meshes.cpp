@@ -16,8 +16,8 @@ std::vector<Vec3> lifted_rim(std::uint32_t sectors, double tilt, double zigzag) 
     for (std::uint32_t i = 0; i < sectors; ++i) {
         const double around = 2 * kPi * i / sectors;
         const double up = tilt + (i % 2 == 0 ? zigzag : -zigzag);
-        rim.push_back({std::cos(around) * std::cos(up), std::sin(around) * std::cos(up),
-                       std::sin(up)});
+        rim.push_back(
+            {std::cos(around) * std::cos(up), std::sin(around) * std::cos(up), std::sin(up)});
     }
     return rim;
 }

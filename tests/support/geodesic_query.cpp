@@ -33,8 +33,7 @@ Tolerances tight_tolerances() {
 template <class Real>
 GeodesicQuery<Real>::GeodesicQuery(PreparedMesh mesh, double reach,
                                    const std::vector<Point>& targets, const Tolerances& tolerances)
-    : mesh_(std::move(mesh)), surface_(mesh_, reach),
-      bins_(surface_, converted<Real>(targets)),
+    : mesh_(std::move(mesh)), surface_(mesh_, reach), bins_(surface_, converted<Real>(targets)),
       detector_(surface_, bins_, tolerances, tolerances.limit) {}
 
 template <class Real>

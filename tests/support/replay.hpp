@@ -10,9 +10,9 @@ namespace geodisk::test {
 
 struct ReplayReport {
     std::uint32_t accepted = 0;
-    std::uint32_t ties = 0;    ///< Decisions where double would differ, within the guard of the limit.
-    std::uint32_t wrong = 0;   ///< Decisions where double differs by more.
-    double largest_gap = 0;    ///< Of the ties, in units of the minimum distance.
+    std::uint32_t ties = 0; ///< Decisions where double would differ, within the guard of the limit.
+    std::uint32_t wrong = 0; ///< Decisions where double differs by more.
+    double largest_gap = 0;  ///< Of the ties, in units of the minimum distance.
 };
 
 /// Sequential dart throwing as the float twin decides, with every disk checked in double precision.

@@ -69,8 +69,8 @@ struct Axis {
     double step = 0; ///< From tick to tick of a linear axis; 0 where it is logarithmic.
 
     double place(double value) const {
-        const double part = step > 0 ? (value - low) / (high - low)
-                                     : std::log(value / low) / std::log(high / low);
+        const double part =
+            step > 0 ? (value - low) / (high - low) : std::log(value / low) / std::log(high / low);
         return start + (end - start) * part;
     }
     std::string text(double tick, const std::string& unit) const {

@@ -133,8 +133,8 @@ void print_row(const Measurement& row) {
             std::cout << "  " << to_string(static_cast<Stage>(stage)) << ' '
                       << seconds(row.run.stages[stage]);
         }
-        const double waited = 1 - static_cast<double>(row.run.trips) /
-                                      static_cast<double>(row.run.lane_trips);
+        const double waited =
+            1 - static_cast<double>(row.run.trips) / static_cast<double>(row.run.lane_trips);
         std::cout << "  lanes waiting " << fixed(100 * waited, 0) << " %\n";
     }
     std::cout << std::flush;

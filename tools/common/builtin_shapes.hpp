@@ -21,8 +21,8 @@ struct BuiltinShape {
 std::span<const BuiltinShape> builtin_shapes();
 
 /// Generates shape `name`. Every vertex is used, no triangle is degenerate, and neighbours agree in
-/// orientation (but across a seam of those that are one-sided). Throws UserError(usage) for an unknown
-/// name, listing the known ones, and for a resolution out of range.
+/// orientation (but across a seam of those that are one-sided). Throws UserError(usage) for an
+/// unknown name, listing the known ones, and for a resolution out of range.
 MeshFile make_builtin(std::string_view name, std::optional<int> resolution);
 
 } // namespace geodisk::tools

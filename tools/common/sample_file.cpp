@@ -228,7 +228,8 @@ void write_samples(AtomicFile& file, const std::filesystem::path& path, const Sa
                    has_radii(rows)});
         break;
     case Format::csv:
-        write_csv(file, header, rows, {dimension, dimension == 3 ? 3u : 0u, false, has_radii(rows)});
+        write_csv(file, header, rows,
+                  {dimension, dimension == 3 ? 3u : 0u, false, has_radii(rows)});
         break;
     case Format::xyz:
         write_xyz(file, rows);
@@ -244,7 +245,8 @@ void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
         write_ply(file, header, rows, ascii_ply, {dimension, 3, false, false, false});
         break;
     case Format::csv:
-        write_csv(file, header, rows, {dimension, dimension > 3 ? 0 : dimension, false, false, false});
+        write_csv(file, header, rows,
+                  {dimension, dimension > 3 ? 0 : dimension, false, false, false});
         break;
     case Format::xyz:
         write_xyz(file, rows);

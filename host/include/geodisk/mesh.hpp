@@ -27,10 +27,10 @@ struct MeshView {
 /// coordinates need exist, and no space that it would fit in.
 ///
 /// `lengths` holds three per face, in mesh units: from its first corner to the second, to the third
-/// and back, so `lengths[h]` is that of half-edge h. The faces of an edge must agree about its length
-/// to a billionth. Each face must satisfy the triangle inequality to a millionth of its longest edge,
-/// as lengths rounded to float do; one that does no more than that has no area. Vertices are numbered
-/// below `vertex_count`.
+/// and back, so `lengths[h]` is that of half-edge h. The faces of an edge must agree about its
+/// length to a billionth. Each face must satisfy the triangle inequality to a millionth of its
+/// longest edge, as lengths rounded to float do; one that does no more than that has no area.
+/// Vertices are numbered below `vertex_count`.
 struct LengthMeshView {
     std::span<const std::uint32_t> triangles;
     std::span<const double> lengths;
@@ -43,29 +43,37 @@ struct LengthMeshView {
 /// mesh units. Only lengths enter, so the frame is intrinsic.
 struct HalfEdge {
     double length;
-    double apex_x, apex_y;        ///< The face's third corner in this frame; apex_y >= 0.
-    double cosine, sine;          ///< Of the face's angle at the origin.
-    std::uint32_t origin;         ///< Vertex the half-edge starts from.
-    std::uint32_t around;         ///< Next half-edge of the same undirected edge, see `around_*`.
-    std::uint32_t fan_angles;     ///< The corner at the origin within its vertex's fan: start in the
-                                  ///< low 16 bits, size in the high ones, units of 2^-13 radian.
+    double apex_x, apex_y;    ///< The face's third corner in this frame; apex_y >= 0.
+    double cosine, sine;      ///< Of the face's angle at the origin.
+    std::uint32_t origin;     ///< Vertex the half-edge starts from.
+    std::uint32_t around;     ///< Next half-edge of the same undirected edge, see `around_*`.
+    std::uint32_t fan_angles; ///< The corner at the origin within its vertex's fan: start in the
+                              ///< low 16 bits, size in the high ones, units of 2^-13 radian.
 };
 
 /// `HalfEdge::around` packs the next half-edge around the same undirected edge (itself on a border,
 /// the twin on a manifold edge, a cycle of three or more otherwise) with one bit that tells whether
 /// it runs the same way.
-constexpr std::uint32_t around_half_edge(std::uint32_t around) { return around >> 1; }
-constexpr bool around_same_way(std::uint32_t around) { return (around & 1u) != 0; }
+constexpr std::uint32_t around_half_edge(std::uint32_t around) {
+    return around >> 1;
+}
+constexpr bool around_same_way(std::uint32_t around) {
+    return (around & 1u) != 0;
+}
 
-constexpr std::uint32_t next_in_face(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-constexpr std::uint32_t previous_in_face(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+constexpr std::uint32_t next_in_face(std::uint32_t h) {
+    return h % 3 == 2 ? h - 2 : h + 1;
+}
+constexpr std::uint32_t previous_in_face(std::uint32_t h) {
+    return h % 3 == 0 ? h + 2 : h - 1;
+}
 
 /// The corners around one vertex, in rotational order where there is one.
 struct VertexFan {
     std::uint32_t first_corner; ///< Into `PreparedMesh::corners`.
     std::uint32_t corner_count;
-    std::uint32_t total_angle;  ///< In units of 2^-13 radian.
-    std::uint32_t flags;        ///< `gpu::kFan*` bits of shaders/shared/constants.h.
+    std::uint32_t total_angle; ///< In units of 2^-13 radian.
+    std::uint32_t flags;       ///< `gpu::kFan*` bits of shaders/shared/constants.h.
 };
 
 /// Column of the alias table that draws faces in proportion to their area (Walker 1977, Vose 1991).
@@ -75,16 +83,16 @@ struct AliasColumn {
 };
 
 struct MeshStatistics {
-    std::uint64_t vertices = 0;          ///< Vertices used by a face.
+    std::uint64_t vertices = 0; ///< Vertices used by a face.
     std::uint64_t triangles = 0;
-    std::uint64_t components = 0;        ///< Parts with no path between them.
-    std::uint64_t boundary_edges = 0;    ///< Edges of one face.
-    std::uint64_t nonmanifold_edges = 0; ///< Edges of three or more faces.
+    std::uint64_t components = 0;           ///< Parts with no path between them.
+    std::uint64_t boundary_edges = 0;       ///< Edges of one face.
+    std::uint64_t nonmanifold_edges = 0;    ///< Edges of three or more faces.
     std::uint64_t repeated_index_faces = 0; ///< Faces naming a vertex twice; they take no part.
-    std::uint64_t zero_area_faces = 0;   ///< Faces without area; they connect but hold no sample.
+    std::uint64_t zero_area_faces = 0; ///< Faces without area; they connect but hold no sample.
     double area = 0;
-    double diagonal = 0;                 ///< Of the bounding box of the used vertices; 0 for a
-                                         ///< mesh without coordinates.
+    double diagonal = 0; ///< Of the bounding box of the used vertices; 0 for a
+                         ///< mesh without coordinates.
     double longest_edge = 0;
 };
 
@@ -98,14 +106,14 @@ class PreparedMesh {
     /// linear in the mesh (about 300 bytes per face). Large meshes take further threads, up to 16,
     /// which end before it returns; the result does not depend on them.
     ///
-    /// Fails with `mesh_rejected` and the face or vertex in `Error::element` when an index is out of
-    /// range, a used coordinate is not finite, there is no face with area, or the mesh is too large
-    /// to index with 32 bits; with `out_of_host_memory` when memory runs out.
+    /// Fails with `mesh_rejected` and the face or vertex in `Error::element` when an index is out
+    /// of range, a used coordinate is not finite, there is no face with area, or the mesh is too
+    /// large to index with 32 bits; with `out_of_host_memory` when memory runs out.
     GEODISK_API static Result<PreparedMesh> prepare(const MeshView& mesh) noexcept;
 
-    /// The same from edge lengths. Fails with `mesh_rejected` and the face in `Error::element` when a
-    /// length is not positive and finite, a face violates the triangle inequality, or the faces of an
-    /// edge disagree about its length. Faces that name a vertex twice may have any lengths.
+    /// The same from edge lengths. Fails with `mesh_rejected` and the face in `Error::element` when
+    /// a length is not positive and finite, a face violates the triangle inequality, or the faces
+    /// of an edge disagree about its length. Faces that name a vertex twice may have any lengths.
     GEODISK_API static Result<PreparedMesh> prepare(const LengthMeshView& mesh) noexcept;
 
     std::span<const HalfEdge> half_edges() const noexcept { return half_edges_; }

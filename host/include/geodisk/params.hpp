@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kMostCandidates = 0xffffffff;
 
 /// A sampling job. Lengths are in mesh units.
 struct SampleParams {
-    double min_distance = 0;   ///< D > 0: no two samples are closer along the surface.
+    double min_distance = 0; ///< D > 0: no two samples are closer along the surface.
     std::uint64_t seed = 0;
     double pool_ratio = kDefaultPoolRatio; ///< Candidates per expected sample, 1 to 10,000.
     /// Darts to throw (paper section 4.1): so many candidates instead of a pool by `pool_ratio`, if

@@ -14,16 +14,16 @@ namespace geodisk {
 /// Outcome of a call. Zero is success, negative is failure.
 enum class Status : std::int32_t {
     ok = 0,
-    invalid_argument = -1,     ///< A parameter is out of its documented range.
-    mesh_rejected = -2,        ///< The mesh cannot be sampled; `Error::element` names the place.
-    device_lacks = -3,         ///< The device misses a required limit or feature.
-    no_device = -4,            ///< No Vulkan loader, driver or device was found.
-    workspace_too_small = -5,  ///< A buffer is too small; the message names the size that fits.
+    invalid_argument = -1,    ///< A parameter is out of its documented range.
+    mesh_rejected = -2,       ///< The mesh cannot be sampled; `Error::element` names the place.
+    device_lacks = -3,        ///< The device misses a required limit or feature.
+    no_device = -4,           ///< No Vulkan loader, driver or device was found.
+    workspace_too_small = -5, ///< A buffer is too small; the message names the size that fits.
     out_of_host_memory = -6,
     out_of_device_memory = -7,
     device_lost = -8,
-    cancelled = -9,            ///< The progress callback asked to stop.
-    internal = -10,            ///< A broken invariant of geodisk itself or of the driver.
+    cancelled = -9, ///< The progress callback asked to stop.
+    internal = -10, ///< A broken invariant of geodisk itself or of the driver.
 };
 
 /// Name of a status as spelled above, for messages.
@@ -35,9 +35,9 @@ inline constexpr std::uint64_t kNoElement = ~std::uint64_t{0};
 /// A failure: what kind, which element, and one line of text for a person.
 struct Error {
     Status status = Status::internal;
-    std::string message;                  ///< One line, no trailing newline.
-    std::uint64_t element = kNoElement;   ///< Index of the offending vertex or face, if any.
-    std::int32_t vk_result = 0;           ///< The VkResult behind the failure, if any.
+    std::string message;                ///< One line, no trailing newline.
+    std::uint64_t element = kNoElement; ///< Index of the offending vertex or face, if any.
+    std::int32_t vk_result = 0;         ///< The VkResult behind the failure, if any.
 };
 
 /// Either a value or an Error.
