@@ -19,8 +19,8 @@ void main() {
         return;
     }
     uint rank = samples[sample_index].x;
-    Candidate c = draw_candidate(rank);
+    Candidate c = draw_candidate(rank - push.first_rank);
     samples[sample_index] =
-        uvec4(push.first_rank + rank, c.face, floatBitsToUint(weight_of(c.weight1)),
+        uvec4(rank, c.face, floatBitsToUint(weight_of(c.weight1)),
               floatBitsToUint(weight_of(c.weight2)));
 }

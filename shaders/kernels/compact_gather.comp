@@ -29,6 +29,6 @@ void main() {
     if (sample_index >= push.sample_capacity) {
         atomicOr(control.overflow, kOverflowSamples);
     } else {
-        samples[sample_index].x = rank;
+        samples[sample_index].x = push.first_rank + rank;
     }
 }

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The disk of every active candidate, by a distance through space, and the idle and active candidates in it (paper
-// DetectCollision, section 5.9). One invocation per slot; resumable. It visits the cells of the grid
+// The disk of every active candidate, by a distance through space, and the idle and active
+// candidates in it (paper DetectCollision, section 5.9). One invocation per slot; resumable. It visits the cells of the grid
 // that the disk reaches, a row along the first axis at a time, in trips of a bounded number of
 // iterations, push.step_budget of them to a dispatch.
 // reads: axes, cells, states, points   writes: pool, slots, control
@@ -11,6 +11,7 @@
 #include "../lib/tolerances.glsl"
 #include "../lib/curve.glsl"
 #include "../lib/grid.glsl"
+#include "../lib/point_words.glsl"
 
 layout(local_size_x_id = 0) in;
 // Lengths of curves instead of straight distances, in three dimensions.
@@ -41,22 +42,24 @@ uint scan_end;
 uint tested;
 uint rows_visited;
 
-vec3 normal_at(uint place) {
-    return uintBitsToFloat(uvec3(word_at(points, 3u * P.candidates + place),
-                                 word_at(points, 4u * P.candidates + place),
-                                 word_at(points, 5u * P.candidates + place)));
+vec3 normal_at(PointWords words) {
+    uint first = words.first + 3u * words.stride;
+    return uintBitsToFloat(uvec3(word_at(points, first), word_at(points, first + words.stride),
+                                 word_at(points, first + 2u * words.stride)));
 }
 
-void load_own() {
+void load_own(uint slot) {
+    PointWords words = own_place == kNoPlace ? words_of_settled(slot, kCurved ? 6u : kDimension)
+                                             : PointWords(own_place, P.candidates);
     for (uint i = 0u; i < kDimension; ++i) {
         grid[i] = load_axis(i);
-        own[i] = word_at(points, i * P.candidates + own_place);
+        own[i] = word_at(points, words.first + i * words.stride);
         uint inside;
         own_cell[i] = cell_on(grid[i], own[i], inside);
         precise float part = float(inside >> 8) * 5.9604645e-8;
         own_inside[i] = part;
     }
-    own_normal = kCurved ? normal_at(own_place) : vec3(0.0);
+    own_normal = kCurved ? normal_at(words) : vec3(0.0);
 }
 
 // So few cells around the axis that all of them are visited, each once, from the first on.
@@ -171,7 +174,9 @@ bool conflicts_with(uint place) {
         return square < P.limit;
     }
     // No curve is shorter than the straight way.
-    return square < P.limit && is_short_curve(way_to(place), square, own_normal, normal_at(place), P.limit);
+    return square < P.limit &&
+           is_short_curve(way_to(place), square, own_normal,
+                          normal_at(PointWords(place, P.candidates)), P.limit);
 }
 
 void trip() {
@@ -210,7 +215,7 @@ void main() {
     rows_visited = slots[row + 2u].y;
     overflow = 0u;
     list_first = list_row(slot);
-    load_own();
+    load_own(slot);
     for (uint i = 0u; i < P.step_budget && running(); ++i) {
         trip();
     }

@@ -13,12 +13,15 @@ bool is_due(uint slot) {
     return slot < control.slots_used && slots[slot * kSlotRows].y == kSlotSelected;
 }
 
+// Whether this is the rank of a sample of an earlier chunk: it wraps around from below zero.
+bool is_settled(uint rank) { return rank >= push.candidates; }
+
 uint rank_of(uint slot) { return slots[slot * kSlotRows + 1u].x; }
 
 // `candidate` becomes the row that begins with the rank. A sample of an earlier chunk has no place.
 void ready_slot(uint slot, uvec4 candidate) {
     uint row = slot * kSlotRows;
-    bool settled = candidate.x >= push.candidates;
+    bool settled = is_settled(candidate.x);
     uint place = kNoPlace;
     if (!settled) {
         place = word_at(places, candidate.x);

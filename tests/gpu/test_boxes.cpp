@@ -271,6 +271,38 @@ TEST_SUITE("boxes") {
         }
     }
 
+    TEST_CASE("nor do the chunks that candidates come in") {
+        for (const bool is_periodic : {false, true}) {
+            for (const std::size_t n : {1u, 2u, 5u}) {
+                CAPTURE(n);
+                const BoxParams box = unit_box(n, 300, is_periodic);
+                const std::uint32_t candidates = expect(pool_size(box));
+                const auto want = sequential_set<double>(box);
+                for (const std::uint32_t chunk : {97u, 1'000u, candidates - 1, candidates}) {
+                    CAPTURE(chunk);
+                    RunnerOptions options;
+                    options.plan.chunk = chunk;
+                    const BoxSampleSet set = sample(box, options);
+                    CHECK(set.report.chunks == (candidates + chunk - 1) / chunk);
+                    CHECK(set.candidates == want);
+                }
+            }
+        }
+    }
+
+    // The samples of the chunks before start each chunk, with slots and lists that are too few.
+    TEST_CASE("lists and samples that overflow in later chunks are enlarged") {
+        const BoxParams box = unit_box(3, 500, true);
+        RunnerOptions tight;
+        tight.plan.chunk = 3'000;
+        tight.plan.slots = 30;
+        tight.plan.list_capacity = 4;
+        tight.plan.sample_capacity = 10;
+        const BoxSampleSet set = sample(box, tight);
+        CHECK(set.report.regrown > 0);
+        CHECK(set.candidates == sequential_set<float>(box));
+    }
+
     TEST_CASE("lists and samples that overflow are enlarged") {
         const BoxParams box = unit_box(3, 500, false);
         RunnerOptions tight;
@@ -316,6 +348,7 @@ TEST_SUITE("boxes") {
             RunnerOptions tight;
             tight.sampler.tuning.reads = reads;
             tight.plan.list_capacity = 4;
+            tight.plan.chunk = 1'000;
             const BoxParams box = unit_box(3, 200, true);
             const BoxSampleSet set = sample(box, tight, context);
             CHECK(set.report.regrown > 0);

@@ -151,6 +151,26 @@ TEST_SUITE("space") {
         }
     }
 
+    TEST_CASE("darts in chunks give the same set, and stop at a count") {
+        const TestMesh mesh = builtin("torus-knot", 16);
+        SampleParams params = params_for(prepared(mesh), 500);
+        for (const Metric metric : {Metric::euclidean, Metric::approximate}) {
+            const auto want = twin_set(mesh, params, metric);
+            RunnerOptions options;
+            for (const std::uint32_t chunk : {500u, 4'000u}) {
+                options.plan.chunk = chunk;
+                const SampleSet set = sample_space(mesh, params, metric, options);
+                CHECK(set.report.chunks > 1);
+                CHECK(ranks_of(set) == want);
+            }
+            SampleParams darts = params;
+            darts.stop_count = static_cast<std::uint32_t>(want.size() / 2);
+            const SampleSet set = sample_space(mesh, darts, metric);
+            CHECK(ranks_of(set) == std::vector(want.begin(), want.begin() + darts.stop_count));
+            CHECK(set.report.candidates == set.samples.back().candidate + 1);
+        }
+    }
+
     TEST_CASE("what has no straight-line distance is refused") {
         Context& context = shared_context();
         SpaceRunner runner =
@@ -201,6 +221,7 @@ TEST_SUITE("space") {
         for (const Reads reads : {Reads::storage, Reads::texels}) {
             RunnerOptions run;
             run.sampler.tuning.reads = reads;
+            run.plan.chunk = 1'000;
             for (const Metric metric : {Metric::euclidean, Metric::approximate}) {
                 CHECK(ranks_of(sample_space(mesh, params, metric, run, context)) ==
                       twin_set(mesh, params, metric));

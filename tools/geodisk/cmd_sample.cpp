@@ -168,9 +168,6 @@ void check_metric(const SampleOptions& options) {
         throw UserError(ExitCode::usage, "--metric: " + in_quotes(options.metric) +
                                              " is none of geodesic, euclidean and approximate");
     }
-    if (options.metric != "geodesic" && options.throws_darts()) {
-        throw UserError(ExitCode::usage, "--method pdts takes no --metric but geodesic");
-    }
     if (options.metric != "geodesic" && options.density.is_given()) {
         throw UserError(ExitCode::usage, "--metric " + options.metric +
                                              " takes no radii that vary, so none of the "

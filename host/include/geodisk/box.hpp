@@ -78,8 +78,8 @@ class GEODISK_API BoxRunner {
     /// Returns the set that sequential dart throwing over the same candidates returns, whatever
     /// device, driver or plan.
     ///
-    /// Errors: `invalid_argument` as pool_size(), or for a box of another dimension; `device_lacks`
-    /// when the candidates do not fit the device in one piece; else as Runner::sample_and_wait.
+    /// Errors: `invalid_argument` as pool_size(), or for a box of another dimension; else as
+    /// Runner::sample_and_wait.
     Result<BoxSampleSet> sample_and_wait(const BoxParams& box,
                                          const ProgressCallback& progress = {}) noexcept;
 

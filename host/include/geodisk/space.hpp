@@ -42,8 +42,7 @@ class GEODISK_API SpaceRunner {
     /// their faces, and interpolated.
     ///
     /// Errors: `invalid_argument` as pool_size(), for a view of another mesh, or one that has not
-    /// three coordinates per vertex, or for a `stop_count` or `radii`; `device_lacks` when the
-    /// candidates do not fit the device in one piece; else as Runner::sample_and_wait.
+    /// three coordinates per vertex, or for `radii`; else as Runner::sample_and_wait.
     Result<SampleSet> sample_and_wait(const MeshView& view, const PreparedMesh& mesh,
                                       const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;

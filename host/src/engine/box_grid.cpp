@@ -13,8 +13,6 @@ constexpr std::uint32_t kHashStrides[gpu::kMostAxes] = {1u,          0x9E3779B1u
                                                         0x68E31DA5u, 0x1B56C4E9u, 0x7FEB352Du};
 // Of a distance: sides below it count as zero, which keeps denormal numbers out.
 constexpr double kSmallestSide = 0x1p-20;
-// Sparser tables cost memory, fuller ones make cells share a head.
-constexpr double kHeadsPerCandidate = 2;
 
 /// The minimum distance, or where that is beyond all distances in the box, a bound of those.
 double unit_of(const BoxParams& box) {
@@ -44,7 +42,7 @@ BoxGrid::BoxGrid(const BoxParams& box, std::uint32_t candidates, double guard)
         axes[i].width = static_cast<float>(side / cells);
     }
     heads = std::bit_ceil(
-        static_cast<std::uint32_t>(std::min(all_cells, kHeadsPerCandidate * candidates)));
+        static_cast<std::uint32_t>(std::min<double>(all_cells, kHeadsPerCandidate * candidates)));
     const bool fits = all_cells <= heads;
     std::uint32_t cells_before = 1;
     for (std::size_t i = 0; i < box.extents.size(); ++i) {

@@ -14,6 +14,10 @@ namespace geodisk {
 
 static_assert(gpu::kMostAxes == kMostBoxDimensions);
 
+/// Heads of a table of cells, in proportion; up to twice as many make a power of two. Sparser
+/// tables cost memory, fuller ones make cells share a head.
+inline constexpr std::uint64_t kHeadsPerCandidate = 2;
+
 /// Samples per D^n in a periodic box of n dimensions.
 double density_in_box(std::size_t dimension) noexcept;
 

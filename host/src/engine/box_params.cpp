@@ -21,8 +21,6 @@ constexpr Density kDensities[kMostBoxDimensions] = {{0.726, 0.281}, {0.601, 0.29
                                                     {0.523, 0.262}, {0.545, 0.245}, {0.597, 0.237}};
 
 constexpr double kMinimumPool = 64;
-// Four bytes for each are then more than Vulkan can bind.
-constexpr double kMaximumPool = 0x1p30;
 // A distance then still has 256 steps of a coordinate.
 constexpr double kLongestSide = 0x1p24;
 
@@ -101,10 +99,10 @@ Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
         return checked.error();
     }
     const double wanted = std::ceil(box.pool_ratio * expected_count(box));
-    if (!(wanted <= kMaximumPool)) {
+    if (!(wanted <= kMostCandidates)) {
         return invalid("the minimum distance is too small for this box: the pool would take " +
                        number_text(wanted) + " candidates, the most is " +
-                       number_text(kMaximumPool));
+                       number_text(kMostCandidates));
     }
     return static_cast<std::uint32_t>(std::max(wanted, kMinimumPool));
 }

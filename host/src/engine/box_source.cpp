@@ -1,6 +1,7 @@
 #include "engine/box_source.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -40,47 +41,61 @@ double candidates_in_disk(const BoxParams& box) {
            density_in_box(box.extents.size()) * box.pool_ratio;
 }
 
+/// As many candidates as one binding holds, their points and cells too, or as a run that may stop
+/// needs at once.
+std::uint32_t most_at_once(const BoxSource::Crowd& crowd, std::uint32_t slots,
+                           const DeviceReport& report) {
+    const std::uint64_t words = report.limits.max_storage_buffer_range / 4;
+    const auto most = static_cast<std::uint32_t>(std::min(
+        words / crowd.words_per_point - slots, std::bit_floor(words - 1) / kHeadsPerCandidate));
+    return crowd.stop_count == 0 ? most
+                                 : static_cast<std::uint32_t>(std::min<double>(
+                                       most, darts_at_once(crowd.stop_count, true)));
+}
+
 } // namespace
 
 BoxSource::BoxSource(const Sampler::Impl& sampler, const BoxParams& box, std::uint32_t candidates)
-    : BoxSource(sampler, box, candidates, candidates_in_disk(box), kBoxGuard) {}
+    : BoxSource(sampler, box, candidates,
+                {static_cast<std::uint32_t>(box.extents.size()), candidates_in_disk(box), kBoxGuard,
+                 0}) {}
 
 BoxSource::BoxSource(const Sampler::Impl& sampler, BoxParams box, std::uint32_t candidates,
-                     double in_disk, double guard)
-    : sampler_(sampler), box_(std::move(box)), candidates_(candidates), in_disk_(in_disk),
-      guard_(guard), grid_(box_, candidates, guard) {}
+                     const Crowd& crowd)
+    : sampler_(sampler), box_(std::move(box)), candidates_(candidates), crowd_(crowd),
+      slots_(wanted_slots(room(), sampler.tuning.batches, sampler.report)),
+      chunk_(std::min(candidates, most_at_once(crowd, slots_, sampler.report))),
+      grid_(box_, chunk_, crowd.guard) {}
+
+std::uint64_t BoxSource::bytes_per_candidate() const {
+    return (3 + crowd_.words_per_point + 2 * kHeadsPerCandidate) * 4;
+}
 
 Result<RunPlan> BoxSource::plan(std::uint64_t pool_bytes) const {
-    const double disks = candidates_ / box_.pool_ratio;
     const auto n = static_cast<double>(box_.extents.size());
     RunPlan plan;
     plan.pool_block = sampler_.tuning.pool_block;
-    plan.chunk = candidates_; // Of one piece.
-    plan.slots = wanted_slots(disks, sampler_.tuning.batches, sampler_.report);
+    plan.chunk = chunk_;
+    plan.slots = slots_;
     // Slots need no lanes here; the least that plans may have.
     plan.lanes = 1;
     plan.window_capacity = 2;
     plan.table_capacity = 1;
-    plan.list_capacity = std::max(4u, pow2_at_least(in_disk_ + 6 * std::sqrt(in_disk_) + 8));
+    const double in_disk = crowd_.in_disk * chunk_ / candidates_;
+    plan.list_capacity = std::max(4u, pow2_at_least(in_disk + 6 * std::sqrt(in_disk) + 8));
     plan.step_budget = most_trips(sampler_.report);
     plan.sample_capacity =
-        static_cast<std::uint32_t>(std::min<double>(candidates_, std::ceil(1.5 * disks) + 64));
+        wanted_sample_capacity(candidates_, room(), crowd_.stop_count, sampler_.report);
     plan.detect_passes = static_cast<std::uint32_t>(
-        std::clamp(std::ceil(trips_per_disk(n, in_disk_) / plan.step_budget), 1.0, kMostPasses));
+        std::clamp(std::ceil(trips_per_disk(n, in_disk) / plan.step_budget), 1.0, kMostPasses));
     return fitted(plan, pool_bytes, sampler_.report.limits);
 }
 
 Result<WorkspaceNeeds> BoxSource::needs(const RunPlan& plan) const {
-    if (plan.chunk < candidates_) {
-        return Error{Status::device_lacks,
-                     "candidates in space are worked on in one piece, and of these " +
-                         std::to_string(candidates_) + " the memory of " + sampler_.report.name +
-                         " holds " + std::to_string(plan.chunk) +
-                         "; raise the minimum distance or lower the pool ratio"};
-    }
-    WorkspaceNeeds needs = needs_of_run(candidates_, grid_.heads, plan);
+    const std::uint64_t chunk = std::min(plan.chunk, chunk_);
+    WorkspaceNeeds needs = needs_of_run(chunk, grid_.heads, plan);
     needs.bytes[gpu::kBindAxes] = box_.extents.size() * sizeof(gpu::AxisRec);
-    needs.bytes[gpu::kBindPoints] = std::uint64_t{candidates_} * box_.extents.size() * 4;
+    needs.bytes[gpu::kBindPoints] = (chunk + plan.slots) * crowd_.words_per_point * 4;
     const std::string what = "for " + std::to_string(candidates_) + " candidates of " +
                              std::to_string(box_.extents.size()) + " coordinates";
     if (auto checked = check_needs(needs, what, sampler_.report); !checked) {
@@ -91,8 +106,7 @@ Result<WorkspaceNeeds> BoxSource::needs(const RunPlan& plan) const {
 
 gpu::Push BoxSource::push() const {
     gpu::Push push{};
-    push.candidates = candidates_;
-    push.stop_count = kMostCandidates;
+    push.stop_count = crowd_.stop_count != 0 ? crowd_.stop_count : kMostCandidates;
     push.cells = grid_.heads;
     push.seed_low = static_cast<std::uint32_t>(box_.seed);
     push.seed_high = static_cast<std::uint32_t>(box_.seed >> 32);
@@ -101,7 +115,9 @@ gpu::Push BoxSource::push() const {
 }
 
 Result<Job> BoxSource::make_job(const RunPlan& plan, const Workspace& workspace) const {
-    return Job::Impl::open(sampler_, plan, workspace, push(), most_trips(sampler_.report));
+    gpu::Push all = push();
+    all.candidates = std::min(plan.chunk, chunk_);
+    return Job::Impl::open(sampler_, plan, workspace, all, most_trips(sampler_.report));
 }
 
 Result<std::vector<std::byte>> BoxSource::bytes(BufferRole role) const {

@@ -13,6 +13,8 @@ namespace {
 #include "bin_place_texels.spv.inc"
 #include "block.spv.inc"
 #include "block_texels.spv.inc"
+#include "box_activate.spv.inc"
+#include "box_activate_texels.spv.inc"
 #include "box_candidates.spv.inc"
 #include "box_candidates_texels.spv.inc"
 #include "box_fill.spv.inc"
@@ -31,8 +33,6 @@ namespace {
 #include "detect_texels.spv.inc"
 #include "find_idle.spv.inc"
 #include "find_idle_texels.spv.inc"
-#include "grid_activate.spv.inc"
-#include "grid_activate_texels.spv.inc"
 #include "grid_detect.spv.inc"
 #include "grid_detect_texels.spv.inc"
 #include "resolve.spv.inc"
@@ -49,6 +49,8 @@ namespace {
 #include "select_texels.spv.inc"
 #include "self_test.spv.inc"
 #include "self_test_texels.spv.inc"
+#include "space_activate.spv.inc"
+#include "space_activate_texels.spv.inc"
 #include "space_candidates.spv.inc"
 #include "space_candidates_texels.spv.inc"
 #include "space_fill.spv.inc"
@@ -107,11 +109,12 @@ constexpr Binding kSpaceCandidates[] = {{kBindFaces, read},     {kBindAxes, read
                                         {kBindPlaces, storage}, {kBindMarks, storage}};
 constexpr Binding kSpaceFill[] = {
     {kBindFaces, read}, {kBindAlias, read}, {kBindStates, storage}, {kBindPoints, storage}};
-constexpr Binding kGridActivate[] = {{kBindStates, storage},
-                                     {kBindPlaces, read},
-                                     {kBindSlots, storage},
-                                     {kBindControl, storage},
-                                     {kBindMarks, storage}};
+constexpr Binding kBoxActivate[] = {{kBindStates, storage},  {kBindPoints, storage},
+                                    {kBindPlaces, read},     {kBindSlots, storage},
+                                    {kBindControl, storage}, {kBindMarks, storage}};
+constexpr Binding kSpaceActivate[] = {
+    {kBindFaces, read},  {kBindAlias, read},    {kBindStates, storage},  {kBindPoints, storage},
+    {kBindPlaces, read}, {kBindSlots, storage}, {kBindControl, storage}, {kBindMarks, storage}};
 constexpr Binding kGridDetect[] = {
     {kBindAxes, read},     {kBindCells, read},   {kBindStates, read},    {kBindPoints, read},
     {kBindSlots, storage}, {kBindPool, storage}, {kBindControl, storage}};
@@ -144,8 +147,10 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"space_candidates", k_space_candidates_spirv, k_space_candidates_texels_spirv,
      kSpaceCandidates, false, Domain::space},
     {"space_fill", k_space_fill_spirv, k_space_fill_texels_spirv, kSpaceFill, false, Domain::space},
-    {"grid_activate", k_grid_activate_spirv, k_grid_activate_texels_spirv, kGridActivate, true,
-     Domain::in_space},
+    {"box_activate", k_box_activate_spirv, k_box_activate_texels_spirv, kBoxActivate, true,
+     Domain::box},
+    {"space_activate", k_space_activate_spirv, k_space_activate_texels_spirv, kSpaceActivate, true,
+     Domain::space},
     {"grid_detect", k_grid_detect_spirv, k_grid_detect_texels_spirv, kGridDetect, true,
      Domain::in_space},
 }};
@@ -158,11 +163,11 @@ const KernelInfo& kernel_info(Kernel kernel) noexcept {
 
 DomainKernels kernels_of(Domain domain) noexcept {
     if (domain == Domain::box) {
-        return {Kernel::box_candidates, Kernel::box_fill, Kernel::grid_activate,
+        return {Kernel::box_candidates, Kernel::box_fill, Kernel::box_activate,
                 Kernel::grid_detect};
     }
     if (domain == Domain::space) {
-        return {Kernel::space_candidates, Kernel::space_fill, Kernel::grid_activate,
+        return {Kernel::space_candidates, Kernel::space_fill, Kernel::space_activate,
                 Kernel::grid_detect};
     }
     return {Kernel::candidates, Kernel::bin_fill, Kernel::activate, Kernel::detect};

@@ -34,10 +34,11 @@ enum class Kernel : std::uint32_t {
     box_fill,
     space_candidates,
     space_fill,
-    grid_activate,
+    box_activate,
+    space_activate,
     grid_detect,
 };
-inline constexpr std::size_t kKernels = 24;
+inline constexpr std::size_t kKernels = 25;
 
 /// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
 enum class Domain : std::uint8_t {

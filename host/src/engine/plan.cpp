@@ -67,8 +67,7 @@ std::uint32_t wanted_chunk(const SampleParams& params, std::uint32_t candidates,
     if (params.throws == 0 && params.stop_count == 0) {
         return static_cast<std::uint32_t>(most);
     }
-    const double per_sample = params.stop_count != 0 ? kChunkToStop : kMostChunk;
-    const double wanted = std::max(kLeastChunk, std::ceil(per_sample * samples));
+    const double wanted = darts_at_once(samples, params.stop_count != 0);
     const double listed =
         std::ceil(static_cast<double>(pool_bytes) / kListShare / (4 * kListPerCrowd) * full);
     return static_cast<std::uint32_t>(std::min({most, wanted, listed}));
@@ -107,17 +106,6 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
-/// Borders, creases and thin parts hold more samples than their area tells. Where the device cannot
-/// bind that much, as many as it can, but never fewer than are expected.
-std::uint32_t wanted_sample_capacity(std::uint32_t candidates, double samples,
-                                     std::uint32_t stop_count, const DeviceReport& report) {
-    const auto bound =
-        static_cast<double>(report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec));
-    double capacity = std::min<double>(candidates, std::ceil(1.5 * samples) + 64);
-    capacity = stop_count != 0 ? std::min<double>(capacity, stop_count) : capacity;
-    return static_cast<std::uint32_t>(std::min(capacity, std::max(bound, std::ceil(samples))));
-}
-
 /// Dispatches of detect in which a batch should be done.
 std::uint32_t wanted_passes(const RunPlan& plan, double faces_per_disk) {
     // What a disk takes, by measurement.
@@ -148,6 +136,10 @@ const char* to_string(BufferRole role) noexcept {
     return kNames[static_cast<std::size_t>(role)];
 }
 
+double darts_at_once(double samples, bool may_stop) noexcept {
+    return std::max(kLeastChunk, std::ceil((may_stop ? kChunkToStop : kMostChunk) * samples));
+}
+
 std::uint32_t pow2_at_least(double x) {
     return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
 }
@@ -161,6 +153,17 @@ std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceRepo
     // No lane is to wait for the others with its last one.
     const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
     return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
+}
+
+// Borders, creases and thin parts hold more samples than their area tells. Where the device cannot
+// bind that much, as many as it can, but never fewer than are expected.
+std::uint32_t wanted_sample_capacity(std::uint32_t candidates, double samples,
+                                     std::uint32_t stop_count, const DeviceReport& report) {
+    const auto bound =
+        static_cast<double>(report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec));
+    double capacity = std::min<double>(candidates, std::ceil(1.5 * samples) + 64);
+    capacity = stop_count != 0 ? std::min<double>(capacity, stop_count) : capacity;
+    return static_cast<std::uint32_t>(std::min(capacity, std::max(bound, std::ceil(samples))));
 }
 
 std::uint32_t most_steps(const DeviceReport& report) noexcept {

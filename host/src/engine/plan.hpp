@@ -17,6 +17,14 @@ std::uint32_t most_steps(const DeviceReport& report) noexcept;
 /// device.
 std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report);
 
+/// Room for the samples of a run that expects so many, and may stop at `stop_count` unless that is
+/// 0: half as many again where the device can bind that.
+std::uint32_t wanted_sample_capacity(std::uint32_t candidates, double samples,
+                                     std::uint32_t stop_count, const DeviceReport& report);
+
+/// Darts of a chunk, where they may be far more than a pool.
+double darts_at_once(double samples, bool may_stop) noexcept;
+
 /// The least power of two that is not less, up to 2^25.
 std::uint32_t pow2_at_least(double x);
 

@@ -36,7 +36,6 @@ constexpr std::uint32_t kMostPasses = 64;
 constexpr double kDartsWhileSparse = 4;
 constexpr double kDartsWhileFull = 20;
 constexpr double kLeastFirstChunk = 4096;
-constexpr VkDeviceSize kBytesPerCandidate = 16;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
 constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
@@ -145,7 +144,8 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     if (!plan) {
         return plan.error();
     }
-    plan->chunk = std::min(plan->chunk, runner_.candidates_in_memory());
+    plan->chunk =
+        std::min(plan->chunk, runner_.candidates_in_memory(source_.bytes_per_candidate()));
     *plan = overridden(*plan, runner_.options.plan);
     plan->chain = std::max(plan->chain, chain);
     if (plan->pool_bytes() > runner_.options.pool_bytes) {
@@ -483,7 +483,7 @@ Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFla
     return DeviceBuffer::create(engine().device, engine().vk, memory, bytes, usage, kind);
 }
 
-std::uint32_t Runner::Impl::candidates_in_memory() const {
+std::uint32_t Runner::Impl::candidates_in_memory(std::uint64_t bytes_per_candidate) const {
     VkDeviceSize largest = 0;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
         const VkMemoryHeap& heap = memory.memoryHeaps[i];
@@ -493,7 +493,7 @@ std::uint32_t Runner::Impl::candidates_in_memory() const {
     }
     // A quarter is left for all else.
     return static_cast<std::uint32_t>(
-        std::clamp<VkDeviceSize>(largest / 4 * 3 / kBytesPerCandidate, 1, kMostCandidates));
+        std::clamp<VkDeviceSize>(largest / 4 * 3 / bytes_per_candidate, 1, kMostCandidates));
 }
 
 Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>& record) {

@@ -43,8 +43,8 @@ struct Runner::Impl {
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// As Submitter::run, for what a job records.
     Result<Done> run_timed(const std::function<void(VkCommandBuffer)>& record);
-    /// As many candidates as the device has memory for at once.
-    std::uint32_t candidates_in_memory() const;
+    /// As many candidates of so many bytes as the device has memory for at once.
+    std::uint32_t candidates_in_memory(std::uint64_t bytes_per_candidate) const;
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind) const;
 
@@ -68,6 +68,8 @@ class RunSource {
     virtual ~RunSource() = default;
     /// Of all chunks.
     virtual std::uint32_t candidates() const = 0;
+    /// Of device memory, about.
+    virtual std::uint64_t bytes_per_candidate() const = 0;
     /// Samples to stop at; 0 for none.
     virtual std::uint32_t stop_count() const { return 0; }
     /// Samples that there should be room for.
@@ -87,6 +89,7 @@ class SurfaceSource : public RunSource {
         : sampler_(sampler), mesh_(mesh), params_(params) {}
 
     std::uint32_t candidates() const override { return *pool_size(mesh_, params_); }
+    std::uint64_t bytes_per_candidate() const override { return 16; }
     std::uint32_t stop_count() const override { return params_.stop_count; }
     double room() const override {
         return expected_count(effective_area(mesh_, params_), params_.min_distance);

@@ -62,10 +62,6 @@ Result<SampleSet> SpaceRunner::sample_and_wait(const MeshView& view, const Prepa
             return Error{Status::invalid_argument,
                          "SampleParams::radii is for geodesic distances alone"};
         }
-        if (params.stop_count != 0) {
-            return Error{Status::invalid_argument,
-                         "SampleParams::stop_count is for geodesic distances alone"};
-        }
         if (auto checked = check_view(view, mesh); !checked) {
             return checked.error();
         }

@@ -60,11 +60,14 @@ std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
 
 } // namespace
 
-SpaceFrame::SpaceFrame(const MeshView& view, const SampleParams& params)
+SpaceFrame::SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
+                       std::uint32_t candidates)
     : normals(vertex_normals(view)) {
     box.min_distance = params.min_distance;
     box.seed = params.seed;
-    box.pool_ratio = params.pool_ratio;
+    // Of darts, too.
+    box.pool_ratio =
+        candidates / std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
     box.extents.assign(3, 0);
     vertices.resize(view.positions.size() / 3);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -94,8 +97,11 @@ double SpaceFrame::guard() const {
 }
 
 SpaceSource::SpaceSource(const Sampler::Impl& sampler, const MeshView& view,
-                         const PreparedMesh& mesh, SpaceFrame frame, std::uint32_t candidates)
-    : BoxSource(sampler, frame.box, candidates, kInDisk * frame.box.pool_ratio, frame.guard()),
+                         const PreparedMesh& mesh, SpaceFrame frame, std::uint32_t candidates,
+                         std::uint32_t stop_count)
+    : BoxSource(sampler, frame.box, candidates,
+                {sampler.takes_curves ? 6u : 3u, // Normals as well.
+                 kInDisk * frame.box.pool_ratio, frame.guard(), stop_count}),
       view_(view), mesh_(mesh), frame_(std::move(frame)) {}
 
 std::size_t SpaceSource::corner_bytes() const {
@@ -106,9 +112,6 @@ Result<WorkspaceNeeds> SpaceSource::needs(const RunPlan& plan) const {
     auto needs = BoxSource::needs(plan);
     if (!needs) {
         return needs;
-    }
-    if (sampler_.takes_curves) {
-        needs->bytes[gpu::kBindPoints] *= 2; // Normals as well.
     }
     needs->bytes[gpu::kBindFaces] = corner_bytes();
     needs->bytes[gpu::kBindAlias] = alias_bytes(mesh_);

@@ -18,7 +18,8 @@ struct SpaceFrame {
     std::vector<std::array<std::uint32_t, 3>> vertices;
     std::vector<std::array<float, 3>> normals; ///< Of the vertices.
 
-    SpaceFrame(const MeshView& view, const SampleParams& params);
+    SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
+               std::uint32_t candidates);
     /// Of conflicts, in minimum distances; covers that candidates are rounded to the frame.
     double guard() const;
 };
@@ -29,14 +30,15 @@ class SpaceSource : public BoxSource {
     /// in space, must outlive the source.
     SpaceSource(const Sampler::Impl& sampler, const MeshView& view, const PreparedMesh& mesh,
                 const SampleParams& params, std::uint32_t candidates)
-        : SpaceSource(sampler, view, mesh, SpaceFrame(view, params), candidates) {}
+        : SpaceSource(sampler, view, mesh, SpaceFrame(view, mesh, params, candidates), candidates,
+                      params.stop_count) {}
 
     Result<WorkspaceNeeds> needs(const RunPlan& plan) const override;
     Result<std::vector<std::byte>> bytes(BufferRole role) const override;
 
   private:
     SpaceSource(const Sampler::Impl& sampler, const MeshView& view, const PreparedMesh& mesh,
-                SpaceFrame frame, std::uint32_t candidates);
+                SpaceFrame frame, std::uint32_t candidates, std::uint32_t stop_count);
     gpu::Push push() const override;
     std::size_t corner_bytes() const;
 
