@@ -74,6 +74,7 @@ std::string json_text(const BoxReport& report) {
                     {"seed", report.box.seed},
                     {"pool_ratio", report.box.pool_ratio},
                     {"candidates", run.candidates},
+                    {"chunks", run.chunks},
                     {"samples", report.samples},
                     {"density", report.density()},
                     {"iterations", run.iterations},
