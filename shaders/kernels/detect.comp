@@ -111,6 +111,10 @@ void hand_in_slot() {
     slots[row + 2u] = uvec4(tested, pushed, most_waiting, vertices);
     slots[row + 3u].x = longest_chain;
     phase = kPhaseIdle;
+    // Whoever completes the last disk spares the batch further dispatches.
+    if (atomicAdd(control.incomplete, 0xffffffffu) == 1u) {
+        control.detect_x = 0u;
+    }
 }
 
 void take_slot() {

@@ -72,7 +72,9 @@ void main() {
     slots[slot * kSlotRows + 3u].z = resolved;
     if (resolved == total) {
         slots[slot * kSlotRows].y = kSlotDecided;
-        atomicAdd(control.undecided, 0xffffffffu);
+        if (atomicAdd(control.undecided, 0xffffffffu) == 1u) {
+            control.groups_x = 0u;
+        }
         if (place == kNoPlace) {
             return;
         }

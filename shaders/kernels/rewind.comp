@@ -27,5 +27,6 @@ void main() {
         control.undecided = 0u;
         control.overflow = 0u;
         control.groups_x = 0u;
+        control.detect_x = 0u;
     }
 }

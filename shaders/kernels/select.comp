@@ -79,6 +79,8 @@ uint groups_to_find(uint batch, uint next) {
     return min(groups, kFindMostGroups);
 }
 
+uint groups_of_slots(uint count) { return (count + kSlotLocalSize - 1u) / kSlotLocalSize; }
+
 void main() {
     // The same for all lanes: nothing writes them before the last barrier.
     if (control.undecided > 0u || control.overflow != 0u || control.done != 0u) {
@@ -105,15 +107,19 @@ void main() {
         control.next_sample = batch_sample + (settled ? taken : 0u);
         control.slots_used = taken;
         control.next_slot = 0u;
+        control.incomplete = taken;
         control.unfinished = taken;
         control.undecided = kCountCalls && !settled ? 2u * taken : taken;
         control.iterations += taken > 0u ? 1u : 0u;
         control.done = taken == 0u && (next == push.candidates || wanted == 0u) ? 1u : 0u;
-        control.groups_x = (taken + kSlotLocalSize - 1u) / kSlotLocalSize;
+        control.groups_x = groups_of_slots(taken);
         control.groups_y = 1u;
         control.groups_z = 1u;
         control.find_x = settled ? 0u : groups_to_find(batch, next);
         control.find_y = 1u;
         control.find_z = 1u;
+        control.detect_x = groups_of_slots(min(taken, push.lanes));
+        control.detect_y = 1u;
+        control.detect_z = 1u;
     }
 }

@@ -74,11 +74,12 @@ struct LaneRec {
     uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
 };
 
-// The run as a whole. The leading words are the indirect sizes of the kernels per slot, and of
-// find_idle. Those before `accepted` start from zero with every chunk.
+// The run as a whole. The leading words are the indirect sizes of the kernels per slot, of find_idle
+// and of detect. Those before `accepted` start from zero with every chunk.
 struct ControlRec {
     uint groups_x; uint groups_y; uint groups_z;
     uint find_x; uint find_y; uint find_z;
+    uint detect_x; uint detect_y; uint detect_z; // none once the disks of a batch are complete
     uint abi;
     uint next_rank;        // every lower rank is decided or active
     uint batch_rank;       // next_rank before the active batch was selected
@@ -86,6 +87,7 @@ struct ControlRec {
     uint batch_sample;     // next_sample before the active batch was selected
     uint slots_used;       // slots of the active batch
     uint next_slot;        // the first that no lane has taken yet
+    uint incomplete;       // slots whose disk is not complete, on surfaces
     uint unfinished;       // slots whose disk is not complete or not yet in the blockers
     uint undecided;        // slots neither accepted nor rejected; where calls are counted, besides
                            // those whose calls are not known yet
@@ -126,7 +128,7 @@ static_assert(sizeof(AxisRec) == 16 && offsetof(AxisRec, width) == 12);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, spare) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 180 && offsetof(ControlRec, calls_high) == 176);
+static_assert(sizeof(ControlRec) == 196 && offsetof(ControlRec, calls_high) == 192);
 } // namespace geodisk::gpu
 #endif
 

@@ -373,6 +373,7 @@ TEST_SUITE("workspaces") {
             CHECK(set.error().status == Status::invalid_argument);
         };
         check(&RunPlan::slots, 0);
+        check(&RunPlan::slots, 1u << 25);
         check(&RunPlan::window_capacity, 0);
         check(&RunPlan::window_capacity, 33);
         check(&RunPlan::window_capacity, 0xfffffffe);

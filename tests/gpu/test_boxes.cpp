@@ -334,6 +334,12 @@ TEST_SUITE("boxes") {
         const auto other = runner.sample_and_wait(unit_box(3, 10, false));
         REQUIRE(!other);
         CHECK(other.error().message == "the box has 3 sides, and the runner was made for 2");
+        RunnerOptions odd;
+        odd.plan.list_capacity = 6;
+        BoxRunner uneven = expect(BoxRunner::create(context.device(), context.queue(), 2, odd));
+        const auto refused = uneven.sample_and_wait(unit_box(2, 10, false));
+        REQUIRE(!refused);
+        CHECK(refused.error().status == Status::invalid_argument);
         const auto cancelled =
             runner.sample_and_wait(unit_box(2, 10, false), [](const Progress&) { return false; });
         REQUIRE(!cancelled);

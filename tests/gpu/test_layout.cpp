@@ -65,6 +65,9 @@ const Offsets kControl{GEODISK_OFFSET(ControlRec, groups_x),
                        GEODISK_OFFSET(ControlRec, find_x),
                        GEODISK_OFFSET(ControlRec, find_y),
                        GEODISK_OFFSET(ControlRec, find_z),
+                       GEODISK_OFFSET(ControlRec, detect_x),
+                       GEODISK_OFFSET(ControlRec, detect_y),
+                       GEODISK_OFFSET(ControlRec, detect_z),
                        GEODISK_OFFSET(ControlRec, abi),
                        GEODISK_OFFSET(ControlRec, next_rank),
                        GEODISK_OFFSET(ControlRec, batch_rank),
@@ -72,6 +75,7 @@ const Offsets kControl{GEODISK_OFFSET(ControlRec, groups_x),
                        GEODISK_OFFSET(ControlRec, batch_sample),
                        GEODISK_OFFSET(ControlRec, slots_used),
                        GEODISK_OFFSET(ControlRec, next_slot),
+                       GEODISK_OFFSET(ControlRec, incomplete),
                        GEODISK_OFFSET(ControlRec, unfinished),
                        GEODISK_OFFSET(ControlRec, undecided),
                        GEODISK_OFFSET(ControlRec, overflow),
@@ -116,7 +120,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 26);
+        CHECK(controls == 28);
     }
 
     TEST_CASE("no kernel binds more than eight storage buffers") {

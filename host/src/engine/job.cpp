@@ -87,6 +87,14 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
                      "window_capacity and table_capacity powers of two, list_capacity a "
                      "multiple of 4, none of them 0 or more than 2^26"};
     }
+    // Vulkan promises no more work groups.
+    const std::uint64_t most_slots = std::uint64_t{65535} * tuning.slot_local_size;
+    if (plan.slots > most_slots) {
+        return Error{Status::invalid_argument,
+                     "the plan's " + std::to_string(plan.slots) + " slots are more than the " +
+                         std::to_string(most_slots) + " that work groups of " +
+                         std::to_string(tuning.slot_local_size) + " reach"};
+    }
     if (plan.pool_block != tuning.pool_block) {
         return Error{Status::invalid_argument,
                      "the plan's pool_block is " + std::to_string(plan.pool_block) +
@@ -273,6 +281,9 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
 Result<Job> Job::Impl::open(const Sampler::Impl& sampler, const RunPlan& plan,
                             const Workspace& workspace, const gpu::Push& push,
                             std::uint32_t most_steps) {
+    if (auto checked = check_plan(plan, sampler.tuning); !checked) {
+        return checked.error();
+    }
     auto job = std::make_unique<Job::Impl>();
     job->sampler = &sampler;
     job->workspace = workspace;

@@ -22,7 +22,8 @@ namespace {
 constexpr std::uint32_t kLlvmpipeSteps = 65535 / gpu::kIterationsPerStep;
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
 constexpr std::uint32_t kDefaultSteps = 128;
-constexpr double kMostSlots = 1u << 16;
+// Even one to a work group, they are no more groups than any device takes.
+constexpr double kMostSlots = (1u << 16) - 64;
 // Of a CPU, whose caches the lists of more would leave.
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
@@ -106,14 +107,15 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
-/// Dispatches of detect in which a batch should be done.
+/// Dispatches of detect in which a batch should be done, even one with a large disk: those it does
+/// not need are empty.
 std::uint32_t wanted_passes(const RunPlan& plan, double faces_per_disk) {
     // What a disk takes, by measurement.
     const double trips =
         12 + 2.5 * faces_per_disk + 0.3 * faces_per_disk * std::sqrt(faces_per_disk);
     const double per_lane = std::ceil(static_cast<double>(plan.slots) / plan.lanes) * trips;
     return static_cast<std::uint32_t>(
-        std::clamp(per_lane / (plan.step_budget * gpu::kTripsPerStep) + 1, 1.0, kMostPasses));
+        std::clamp(per_lane / (plan.step_budget * gpu::kTripsPerStep) + 2, 1.0, kMostPasses));
 }
 
 Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {

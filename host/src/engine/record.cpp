@@ -1,6 +1,8 @@
 // What a job records. Every step depends on the one before it, so one barrier serves them all.
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
+#include <optional>
 
 #include <geodisk/sampler.hpp>
 
@@ -23,18 +25,18 @@ class Recorder {
         : commands_(commands), sampler_(sampler), job_(job) {}
 
     void dispatch(Kernel kernel, Groups groups, const gpu::Push& push,
-                  SetRole role = SetRole::workspace) const {
+                  SetRole role = SetRole::workspace) {
         bind(kernel, push, role);
         sampler_.vk.vkCmdDispatch(commands_, groups.x, groups.y, 1);
         barrier_compute_to_compute(sampler_.vk, commands_);
     }
 
-    void dispatch_per_candidate(Kernel kernel) const {
+    void dispatch_per_candidate(Kernel kernel) {
         dispatch(kernel, groups_for(job_.push.candidates, sampler_.tuning.local_size), job_.push);
     }
 
     /// The size is what `select` left at this offset of the control record.
-    void dispatch_indirect(Kernel kernel, VkDeviceSize offset) const {
+    void dispatch_indirect(Kernel kernel, VkDeviceSize offset) {
         bind(kernel, job_.push, SetRole::workspace);
         const BufferRange& control = range(BufferRole::control);
         sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset + offset);
@@ -42,17 +44,14 @@ class Recorder {
     }
 
     /// Geodesic disks are for lanes to share, straight ones are all alike.
-    void dispatch_detect() const {
-        const Kernel detect = kernels_of(sampler_.domain).detect;
-        if (sampler_.domain == Domain::surface) {
-            dispatch(detect, groups_for(job_.push.lanes, sampler_.tuning.slot_local_size),
-                     job_.push);
-        } else {
-            dispatch_per_slot(detect);
-        }
+    void dispatch_detect() {
+        const bool has_lanes = sampler_.domain == Domain::surface;
+        dispatch_indirect(kernels_of(sampler_.domain).detect,
+                          has_lanes ? offsetof(gpu::ControlRec, detect_x)
+                                    : offsetof(gpu::ControlRec, groups_x));
     }
 
-    void dispatch_per_slot(Kernel kernel) const {
+    void dispatch_per_slot(Kernel kernel) {
         dispatch_indirect(kernel, offsetof(gpu::ControlRec, groups_x));
     }
 
@@ -64,7 +63,7 @@ class Recorder {
     }
 
     /// Exclusive scan of `count` words.
-    void scan(std::uint32_t count, SetRole role) const {
+    void scan(std::uint32_t count, SetRole role) {
         gpu::Push push = job_.push;
         push.scan_count = count;
         const Groups blocks = groups_for(count, gpu::kScanBlock);
@@ -93,7 +92,15 @@ class Recorder {
         return job_.workspace[static_cast<std::size_t>(role)];
     }
 
-    void bind(Kernel kernel, const gpu::Push& push, SetRole role) const {
+    void bind(Kernel kernel, const gpu::Push& push, SetRole role) {
+        // A round repeats small dispatches; binding anew what is bound costs as much as they do.
+        if (kernel == bound_ && role == bound_role_ &&
+            std::memcmp(&push, &bound_push_, sizeof push) == 0) {
+            return;
+        }
+        bound_ = kernel;
+        bound_role_ = role;
+        bound_push_ = push;
         const auto k = static_cast<std::size_t>(kernel);
         const DeviceTable& vk = sampler_.vk;
         vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_.pipelines[k]);
@@ -106,12 +113,15 @@ class Recorder {
     VkCommandBuffer commands_;
     const Sampler::Impl& sampler_;
     const Job::Impl& job_;
+    std::optional<Kernel> bound_;
+    SetRole bound_role_ = SetRole::workspace;
+    gpu::Push bound_push_{};
 };
 
 } // namespace
 
 void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexcept {
-    const Recorder recorder(commands, *impl_, *job.impl_);
+    Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
     const DomainKernels own = kernels_of(impl_->domain);
     const std::uint32_t starts = push.cells + 1;
@@ -134,7 +144,7 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
 
 void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
                             std::uint32_t rounds) const noexcept {
-    const Recorder recorder(commands, *impl_, *job.impl_);
+    Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
     for (std::uint32_t round = 0; round < rounds; ++round) {
         recorder.dispatch_indirect(Kernel::find_idle, offsetof(gpu::ControlRec, find_x));
@@ -158,7 +168,7 @@ void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
 
 void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noexcept {
     // The batch was selected with the slots of an earlier plan, never fewer than now.
-    const Recorder recorder(commands, *impl_, *job.impl_);
+    Recorder recorder(commands, *impl_, *job.impl_);
     const BufferRange& slots = job.impl_->workspace[static_cast<std::size_t>(BufferRole::slots)];
     // No lane has a slot, and no row of a table a disk.
     recorder.fill(BufferRole::pool, VkDeviceSize{job.impl_->push.first_list_row} * 16);
@@ -169,7 +179,7 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
 }
 
 void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noexcept {
-    const Recorder recorder(commands, *impl_, *job.impl_);
+    Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
     recorder.dispatch_per_candidate(Kernel::compact_mark);
     recorder.scan(push.candidates, SetRole::workspace);
