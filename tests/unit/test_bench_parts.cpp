@@ -1,4 +1,5 @@
 #include "bench/log_plot.hpp"
+#include "bench/measurement.hpp"
 #include "bench/statistics.hpp"
 #include "bench/subdivision.hpp"
 
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace geodisk::bench;
@@ -30,6 +32,7 @@ TEST_CASE("a power law is found again") {
     CHECK(law->factor == doctest::Approx(0.25).epsilon(1e-12));
     CHECK(law->r_squared == doctest::Approx(1).epsilon(1e-12));
     CHECK(law->points == 4);
+    CHECK(law->from == 100);
 }
 
 TEST_CASE("a fit balances what does not follow it") {
@@ -54,6 +57,32 @@ TEST_CASE("too few points have no exponent") {
     CHECK_FALSE(fit_power_law(std::vector<Point>{{2, 3}}).has_value());
     CHECK_FALSE(fit_power_law(std::vector<Point>{{7, 3}, {7, 4}, {7, 5}}).has_value());
     CHECK_FALSE(fit_power_law(std::vector<Point>{{2, 3}, {0, 4}, {5, -1}}).has_value());
+}
+
+TEST_CASE("growth with samples counts from the least time on, with triangles all the way") {
+    std::vector<Measurement> rows;
+    for (const auto& [count, seconds] :
+         {std::pair{100, 4.0}, {300, 1.0}, {1000, 2.0}, {10000, 20.0}}) {
+        Measurement row;
+        row.samples = row.triangles = static_cast<std::uint64_t>(count);
+        row.seconds.device = row.seconds.reference = row.seconds.prepare = seconds;
+        rows.push_back(row);
+    }
+    for (const Growth& growth : fit_growth(Sweep::samples, rows)) {
+        REQUIRE(growth.law.has_value());
+        CHECK(growth.law->from == 300);
+        CHECK(growth.law->points == 3);
+    }
+    for (const Growth& growth : fit_growth(Sweep::triangles, rows)) {
+        REQUIRE(growth.law.has_value());
+        CHECK(growth.law->from == 100);
+        CHECK(growth.law->points == 4);
+    }
+    rows.back().seconds.device = 0.1; // Falls to the end: then the last step counts.
+    const auto falling = fit_growth(Sweep::samples, rows);
+    REQUIRE(falling[0].law.has_value());
+    CHECK(falling[0].law->points == 2);
+    CHECK(falling[0].law->exponent < 0);
 }
 
 TEST_CASE("subdivision keeps the surface and how it hangs together") {

@@ -54,7 +54,8 @@ struct Series {
 /// What `sweep` varies, of one row.
 double swept_value(Sweep sweep, const Measurement& row);
 
-/// Fits the exponents that make sense for `sweep`.
+/// Fits the exponents that make sense for `sweep`, which is one; those of samples from the count of
+/// least time on.
 std::vector<Growth> fit_growth(Sweep sweep, const std::vector<Measurement>& rows);
 
 } // namespace geodisk::bench

@@ -17,8 +17,8 @@ using tools::UserError;
 struct RawOptions {
     Options options;
     std::vector<std::string> counts{"1000", "10000", "100000"};
-    std::vector<std::string> scaling_counts{"100",   "300",   "1000",   "3000",
-                                            "10000", "30000", "100000", "300000"};
+    std::vector<std::string> scaling_counts{"100",   "300",    "1000",   "3000",   "10000",
+                                            "30000", "100000", "300000", "1000000"};
     std::string scaling_samples = "10000";
     std::string scaling_faces = "1000000";
     bool has_counts = false, has_sweep = false;

@@ -40,6 +40,7 @@ Json growth_json(const Series& series, const Growth& growth) {
         entry["factor"] = growth.law->factor;
         entry["r_squared"] = growth.law->r_squared;
         entry["points"] = growth.law->points;
+        entry["from"] = growth.law->from;
     } else {
         entry["exponent"] = nullptr;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace geodisk::bench {
 
@@ -14,8 +15,10 @@ double median(std::vector<double> values) {
 std::optional<PowerLaw> fit_power_law(std::span<const Point> points) {
     std::vector<Point> logs;
     Point mean{0, 0};
+    double from = std::numeric_limits<double>::infinity();
     for (const Point& point : points) {
         if (point.x > 0 && point.y > 0) {
+            from = std::min(from, point.x);
             logs.push_back({std::log(point.x), std::log(point.y)});
             mean.x += logs.back().x;
             mean.y += logs.back().y;
@@ -41,6 +44,7 @@ std::optional<PowerLaw> fit_power_law(std::span<const Point> points) {
     law.factor = std::exp(mean.y - law.exponent * mean.x);
     law.r_squared = yy > kNoSpread ? xy * xy / (xx * yy) : 1;
     law.points = logs.size();
+    law.from = from;
     return law;
 }
 

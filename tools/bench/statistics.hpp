@@ -21,6 +21,7 @@ struct PowerLaw {
     double factor = 0;
     double r_squared = 0; ///< Share of the variance of log y that the law explains.
     std::size_t points = 0;
+    double from = 0; ///< The least x.
 };
 
 /// Least squares in logarithms over the points with positive coordinates; nothing if these have

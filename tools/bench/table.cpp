@@ -145,8 +145,9 @@ void print_growth(const Series& series) {
         std::cout << "  " << growth.quantity << " time of " << tools::one_line(series.mesh);
         if (growth.law) {
             std::cout << " ~ " << to_string(series.sweep) << "^" << fixed(growth.law->exponent, 3)
-                      << "  (R2 " << fixed(growth.law->r_squared, 3) << ", " << growth.law->points
-                      << " points)\n";
+                      << " from " << tools::grouped(static_cast<std::uint64_t>(growth.law->from))
+                      << " on  (R2 " << fixed(growth.law->r_squared, 3) << ", "
+                      << growth.law->points << " points)\n";
         } else {
             std::cout << ": too few steps to fit an exponent\n";
         }
