@@ -1,5 +1,4 @@
 #include "bench/log_plot.hpp"
-#include "bench/measurement.hpp"
 #include "bench/statistics.hpp"
 #include "bench/subdivision.hpp"
 
@@ -9,7 +8,6 @@
 
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 using namespace geodisk::bench;
@@ -59,30 +57,19 @@ TEST_CASE("too few points have no exponent") {
     CHECK_FALSE(fit_power_law(std::vector<Point>{{2, 3}, {0, 4}, {5, -1}}).has_value());
 }
 
-TEST_CASE("growth with samples counts from the least time on, with triangles all the way") {
-    std::vector<Measurement> rows;
-    for (const auto& [count, seconds] :
-         {std::pair{100, 4.0}, {300, 1.0}, {1000, 2.0}, {10000, 20.0}}) {
-        Measurement row;
-        row.samples = row.triangles = static_cast<std::uint64_t>(count);
-        row.seconds.device = row.seconds.reference = row.seconds.prepare = seconds;
-        rows.push_back(row);
-    }
-    for (const Growth& growth : fit_growth(Sweep::samples, rows)) {
-        REQUIRE(growth.law.has_value());
-        CHECK(growth.law->from == 300);
-        CHECK(growth.law->points == 3);
-    }
-    for (const Growth& growth : fit_growth(Sweep::triangles, rows)) {
-        REQUIRE(growth.law.has_value());
-        CHECK(growth.law->from == 100);
-        CHECK(growth.law->points == 4);
-    }
-    rows.back().seconds.device = 0.1; // Falls to the end: then the last step counts.
-    const auto falling = fit_growth(Sweep::samples, rows);
-    REQUIRE(falling[0].law.has_value());
-    CHECK(falling[0].law->points == 2);
-    CHECK(falling[0].law->exponent < 0);
+TEST_CASE("what falls first is fitted where it rises") {
+    const std::vector<Point> valley{{100, 4}, {300, 1}, {1000, 2}, {10000, 20}};
+    const auto law = fit_rise(valley);
+    REQUIRE(law.has_value());
+    CHECK(law->from == 300);
+    CHECK(law->points == 3);
+    CHECK(law->exponent > 0.5);
+    const auto falling = fit_rise(std::vector<Point>{{1, 4}, {2, 2}, {4, 1}});
+    REQUIRE(falling.has_value());
+    CHECK(falling->from == 2);
+    CHECK(falling->exponent == doctest::Approx(-1));
+    CHECK_FALSE(fit_rise({}).has_value());
+    CHECK_FALSE(fit_rise(std::vector<Point>{{2, 3}}).has_value());
 }
 
 TEST_CASE("subdivision keeps the surface and how it hangs together") {

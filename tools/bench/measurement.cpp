@@ -1,9 +1,5 @@
 #include "bench/measurement.hpp"
 
-#include <algorithm>
-#include <cstddef>
-#include <span>
-
 namespace geodisk::bench {
 
 const char* to_string(Sweep sweep) {
@@ -20,20 +16,6 @@ const char* to_string(Sweep sweep) {
 double swept_value(Sweep sweep, const Measurement& row) {
     return static_cast<double>(sweep == Sweep::triangles ? row.triangles : row.samples);
 }
-
-namespace {
-
-/// Time falls with the number of samples first, since their disks shrink, and then rises: how it
-/// rises, at least in the last step.
-std::optional<PowerLaw> fit_rise(const std::vector<Point>& points) {
-    const auto least = std::min_element(points.begin(), points.end(),
-                                        [](const Point& a, const Point& b) { return a.y < b.y; });
-    const std::size_t last_step = points.size() - std::min<std::size_t>(points.size(), 2);
-    const auto skipped = std::min(static_cast<std::size_t>(least - points.begin()), last_step);
-    return fit_power_law(std::span(points).subspan(skipped));
-}
-
-} // namespace
 
 std::vector<Growth> fit_growth(Sweep sweep, const std::vector<Measurement>& rows) {
     std::vector<Point> device;

@@ -48,4 +48,12 @@ std::optional<PowerLaw> fit_power_law(std::span<const Point> points) {
     return law;
 }
 
+std::optional<PowerLaw> fit_rise(std::span<const Point> points) {
+    const auto least = std::min_element(points.begin(), points.end(),
+                                        [](const Point& a, const Point& b) { return a.y < b.y; });
+    const std::size_t last_step = points.size() - std::min<std::size_t>(points.size(), 2);
+    return fit_power_law(
+        points.subspan(std::min(static_cast<std::size_t>(least - points.begin()), last_step)));
+}
+
 } // namespace geodisk::bench

@@ -28,4 +28,8 @@ struct PowerLaw {
 /// fewer than two different x.
 std::optional<PowerLaw> fit_power_law(std::span<const Point> points);
 
+/// The same over the points from that of least y on, but at least the last two. Times fall with the
+/// number of samples first, since disks shrink, and then rise. `points` must ascend in x.
+std::optional<PowerLaw> fit_rise(std::span<const Point> points);
+
 } // namespace geodisk::bench
