@@ -127,6 +127,9 @@ class PreparedMesh {
     const MeshStatistics& statistics() const noexcept { return statistics_; }
 
   private:
+    template <class View>
+    static Result<PreparedMesh> prepare_any(const View& mesh);
+
     UninitializedVector<HalfEdge> half_edges_;
     std::vector<VertexFan> fans_;
     std::vector<std::uint32_t> corners_;

@@ -53,8 +53,9 @@ void connect(std::span<const std::uint32_t> triangles, std::span<Link> links,
     });
 }
 
-void measure_box(const MeshView& mesh, std::span<const VertexFan> fans,
-                 MeshStatistics& statistics) {
+/// The length that areas are measured against: of coordinates, the diagonal of their box.
+Result<double> measure_extent(const MeshView& mesh, std::span<const HalfEdge>,
+                              std::span<const VertexFan> fans, MeshStatistics& statistics) {
     std::array<double, kMostDimensions> low;
     std::array<double, kMostDimensions> high;
     low.fill(HUGE_VAL);
@@ -73,15 +74,29 @@ void measure_box(const MeshView& mesh, std::span<const VertexFan> fans,
         sum += (high[axis] - low[axis]) * (high[axis] - low[axis]);
     }
     statistics.diagonal = std::sqrt(sum);
+    return statistics.diagonal;
+}
+
+/// Of lengths, which may contradict each other, the longest.
+Result<double> measure_extent(const LengthMeshView&, std::span<const HalfEdge> half_edges,
+                              std::span<const VertexFan>, MeshStatistics& statistics) {
+    if (auto checked = check_agreement(half_edges); !checked) {
+        return checked.error();
+    }
+    return statistics.longest_edge;
+}
+
+std::size_t vertices_of(const MeshView& mesh) {
+    return mesh.positions.size() / mesh.dimension;
+}
+
+std::size_t vertices_of(const LengthMeshView& mesh) {
+    return mesh.vertex_count;
 }
 
 /// Whether the area of all faces is more than rounding for a mesh of this extent.
 bool has_area(double area, double extent) {
     return area > 1e-13 * extent * extent && extent >= kSmallestExtent;
-}
-
-Error no_area() {
-    return {Status::mesh_rejected, "no face has area: all are degenerate"};
 }
 
 Error current_failure() {
@@ -96,7 +111,8 @@ Error current_failure() {
 
 } // namespace
 
-Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh) noexcept try {
+template <class View>
+Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh) {
     if (auto checked = check_mesh(mesh); !checked) {
         return checked.error();
     }
@@ -105,37 +121,27 @@ Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh) noexcept try {
     UninitializedVector<Link> links;
     const UninitializedVector<double> areas =
         place_faces(mesh, result.half_edges_, links, statistics);
-    result.fans_.resize(mesh.positions.size() / mesh.dimension);
+    result.fans_.resize(vertices_of(mesh));
     connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
-    measure_box(mesh, result.fans_, statistics);
-    if (!has_area(statistics.area, statistics.diagonal)) {
-        return no_area();
+    const auto extent = measure_extent(mesh, result.half_edges_, result.fans_, statistics);
+    if (!extent) {
+        return extent.error();
+    }
+    if (!has_area(statistics.area, *extent)) {
+        return Error{Status::mesh_rejected, "no face has area: all are degenerate"};
     }
     result.alias_ = build_alias_table(areas, statistics.area);
     return result;
+}
+
+Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh) noexcept try {
+    return prepare_any(mesh);
 } catch (...) {
     return current_failure();
 }
 
 Result<PreparedMesh> PreparedMesh::prepare(const LengthMeshView& mesh) noexcept try {
-    if (auto checked = check_mesh(mesh); !checked) {
-        return checked.error();
-    }
-    PreparedMesh result;
-    MeshStatistics& statistics = result.statistics_;
-    UninitializedVector<Link> links;
-    const UninitializedVector<double> areas =
-        place_faces(mesh, result.half_edges_, links, statistics);
-    result.fans_.resize(mesh.vertex_count);
-    connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
-    if (auto checked = check_agreement(result.half_edges_); !checked) {
-        return checked.error();
-    }
-    if (!has_area(statistics.area, statistics.longest_edge)) {
-        return no_area();
-    }
-    result.alias_ = build_alias_table(areas, statistics.area);
-    return result;
+    return prepare_any(mesh);
 } catch (...) {
     return current_failure();
 }
