@@ -15,6 +15,7 @@
 #include "common/user_error.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -153,9 +154,9 @@ RadiusField load_radii(const DensityOptions& options, const std::string& path, c
         file.positions.empty() ? mesh.vertex_count() : file.positions.size() / file.dimension;
     Factors factors = factors_of(options, path, file, vertex_count);
     if (factors.values.size() != vertex_count) {
-        fail_input(factors.source, "has " + std::to_string(factors.values.size()) +
-                                       " values for the " + std::to_string(vertex_count) +
-                                       " vertices of the mesh");
+        fail_input(factors.source, "has " + counted(factors.values.size(), "value", "values") +
+                                       " for the " + counted(vertex_count, "vertex", "vertices") +
+                                       " of the mesh");
     }
     // With edge lengths, unused vertices at the end are none.
     factors.values.resize(mesh.vertex_count());
