@@ -83,6 +83,70 @@ TEST_CASE("box: samples keep their distance in every dimension") {
     }
 }
 
+TEST_CASE("box: verify takes the box from the file") {
+    const TemporaryFolder folder;
+    for (const std::string dimension : {"1", "2", "4", "6"}) {
+        for (const std::string output : {"a.csv", "a.ply"}) {
+            CAPTURE(output);
+            boxed(folder, output, {"--dim", dimension, "-n", "300", "--periodic"});
+            const Outcome outcome = run(folder, {"verify", output, "--json", "v.json"});
+            INFO(outcome.err);
+            CHECK(outcome.status == 0);
+            CHECK(contains(outcome.out, ", periodic\n"));
+            CHECK(contains(outcome.out, "violations    0\n"));
+            const auto report = nlohmann::json::parse(bytes_of(folder / "v.json"));
+            CHECK(report["smallest_ratio"] >= 1);
+            CHECK(report["smallest_ratio"] < 1.1);
+        }
+    }
+    CHECK(run(folder, {"verify", "a.ply", "--quiet"}).out.empty());
+}
+
+TEST_CASE("box: verify finds samples that are too close, across the sides too, or outside") {
+    const TemporaryFolder folder;
+    const auto file = [&](const std::string& sides, const std::string& rows) {
+        folder.write("a.csv", "# box: 1 x 2\n# sides: " + sides + "\n# min_distance: 0.1\n" +
+                                  "x,y,candidate\n" + rows);
+        return run(folder, {"verify", "a.csv"});
+    };
+    const std::string corners = "0.01,0.5,0\n0.5,0.02,1\n0.98,0.5,2\n0.5,1.97,3\n";
+    CHECK(file("open", corners).status == 0);
+    const Outcome around = file("periodic", corners);
+    CHECK(around.status == 1);
+    CHECK(contains(around.out, "violations    2\n"));
+    CHECK(contains(around.out, "sample 0 (candidate 0) and sample 2 (candidate 2): 0.03\n"));
+    CHECK(contains(around.out, "sample 1 (candidate 1) and sample 3 (candidate 3): 0.05\n"));
+    CHECK(contains(around.out, "too close     4 of 4 samples\n"));
+    CHECK(contains(around.err, "2 pairs of samples are closer than 0.1"));
+    CHECK(run(folder, {"verify", "a.csv", "-d", "0.02"}).status == 0);
+    const Outcome outside = file("open", "0.5,0.5,0\n0.5,2.5,1\n");
+    CHECK(outside.status == 1);
+    CHECK(contains(outside.err, "1 sample lies outside the box"));
+    CHECK(file("open", "0.5,0.5,0\n").status == 0);
+    CHECK(file("open", "").status == 0);
+}
+
+TEST_CASE("box: verify explains what is no file of samples in a box") {
+    const TemporaryFolder folder;
+    const auto refuse = [&](const std::string& part, const std::string& text, int status = 3) {
+        folder.write("a.csv", text);
+        check_fails(folder, status, part, {"verify", "a.csv"});
+    };
+    const std::string rows = "x,y,candidate\n0.5,0.5,0\n";
+    refuse("tells of no box", rows);
+    refuse("not 1 to 6 positive sides", "# box: 1 x\n" + rows);
+    refuse("not 1 to 6 positive sides", "# box: 1 x -1\n" + rows);
+    refuse("has 2 coordinates, but its box has 3 sides", "# box: 1 x 1 x 1\n" + rows);
+    refuse("open or periodic", "# box: 1 x 1\n" + rows);
+    refuse("no minimum distance", "# box: 1 x 1\n# sides: open\n" + rows, 2);
+    refuse("has no column y", "# box: 1 x 1\nx,z\n1,1\n");
+    refuse("line 2: 'half' is not a number", "x,y\nhalf,1\n");
+    folder.write("a.csv", "# box: 1 x 1\n# sides: open\n# min_distance: 1\n" + rows);
+    check_fails(folder, 2, "options of surfaces", {"verify", "a.csv", "--lift", "normals:1"});
+    check_fails(folder, 2, "a.csv", {"verify", "a.csv", "--json", "a.csv"});
+    check_fails(folder, 3, "does not tell of its box", {"verify", "a.xyz"});
+}
+
 TEST_CASE("box: all formats hold the same samples") {
     const TemporaryFolder folder;
     const Arguments options{"--extents", "2,0.5", "-d", "0.1"};

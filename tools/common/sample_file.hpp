@@ -37,7 +37,7 @@ class AtomicFile;
 struct SampleFile {
     std::vector<SampleRow> rows;
     SampleHeader header;
-    std::uint32_t dimension = 3; ///< Coordinates of each row: 0, or 3 to 8.
+    std::uint32_t dimension = 3; ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
 };
 
 /// Writes `rows` in the format of the extension of `path`:
@@ -80,5 +80,9 @@ void check_box_dimension(const std::filesystem::path& path, std::uint32_t dimens
 /// the others are 0 if absent, unknown ones are skipped. Throws UserError(bad_input) naming the
 /// file and the line or record.
 SampleFile read_samples(const std::filesystem::path& path);
+
+/// The same for samples in a box, which need have neither faces nor weights, and coordinates x0 x1
+/// ... or x, x y or x y z.
+SampleFile read_box_samples(const std::filesystem::path& path);
 
 } // namespace geodisk::tools

@@ -32,10 +32,14 @@ bool is_required(SampleColumn column) {
     return column >= SampleColumn::face_index && column <= SampleColumn::bary_w;
 }
 
-/// `place_of(name)` is where the column of that name stands, if the file has it.
+/// What samples lie in, and so what columns must be there.
+enum class Domain { surface, box };
+
+/// x0 x1 ... as far as they go; `place_of(name)` is where the column of that name stands, if the
+/// file has it.
 template <typename PlaceOf>
-ColumnPlaces find_places(const std::filesystem::path& path, const PlaceOf& place_of) {
-    ColumnPlaces places;
+void find_numbered(const std::filesystem::path& path, const PlaceOf& place_of,
+                   ColumnPlaces& places) {
     for (const std::string_view name : kNumberedColumnNames) {
         const std::optional<std::size_t> place = place_of(name);
         if (!place) {
@@ -48,22 +52,47 @@ ColumnPlaces find_places(const std::filesystem::path& path, const PlaceOf& place
         fail_input(path,
                    "has no column " + std::string(kNumberedColumnNames[places.coordinates.size()]));
     }
+}
+
+/// x y z: on a surface all or none, in a box the first ones, as many as it has.
+template <typename PlaceOf>
+void find_named(const std::filesystem::path& path, Domain domain, const PlaceOf& place_of,
+                ColumnPlaces& places) {
     std::string_view missing;
-    for (std::size_t i = 0; i < kSampleColumnNames.size(); ++i) {
-        const std::optional<std::size_t> place = place_of(kSampleColumnNames[i]);
-        if (!place && is_required(SampleColumn{i})) {
-            fail_input(path, "has no column " + std::string(kSampleColumnNames[i]));
-        }
-        if (!is_coordinate(SampleColumn{i})) {
-            places.named[i] = place;
-        } else if (place && !places.is_numbered) {
-            places.coordinates.push_back(*place);
-        } else if (!place && missing.empty()) {
-            missing = kSampleColumnNames[i];
+    for (const SampleColumn column : {SampleColumn::x, SampleColumn::y, SampleColumn::z}) {
+        const std::string_view name = kSampleColumnNames[static_cast<std::size_t>(column)];
+        const std::optional<std::size_t> found = place_of(name);
+        if (found && missing.empty()) {
+            places.coordinates.push_back(*found);
+        } else if (found) {
+            fail_input(path, "has no column " + std::string(missing));
+        } else if (missing.empty()) {
+            missing = name;
         }
     }
-    if (!places.is_numbered && !missing.empty() && !places.coordinates.empty()) {
+    const bool is_short = domain == Domain::box ? places.coordinates.empty()
+                                                : !places.coordinates.empty() && !missing.empty();
+    if (is_short) {
         fail_input(path, "has no column " + std::string(missing));
+    }
+}
+
+template <typename PlaceOf>
+ColumnPlaces find_places(const std::filesystem::path& path, Domain domain,
+                         const PlaceOf& place_of) {
+    ColumnPlaces places;
+    find_numbered(path, place_of, places);
+    for (std::size_t i = 0; i < kSampleColumnNames.size(); ++i) {
+        if (is_coordinate(SampleColumn{i})) {
+            continue;
+        }
+        places.named[i] = place_of(kSampleColumnNames[i]);
+        if (!places.named[i] && domain == Domain::surface && is_required(SampleColumn{i})) {
+            fail_input(path, "has no column " + std::string(kSampleColumnNames[i]));
+        }
+    }
+    if (!places.is_numbered) {
+        find_named(path, domain, place_of, places);
     }
     return places;
 }
@@ -131,7 +160,7 @@ void add_entry(SampleHeader& header, std::string_view comment) {
     }
 }
 
-SampleFile read_ply_samples(const std::filesystem::path& path) {
+SampleFile read_ply_samples(const std::filesystem::path& path, Domain domain) {
     PlyFile file(path);
     SampleFile samples;
     for (const std::string& comment : file.comments()) {
@@ -144,8 +173,8 @@ SampleFile read_ply_samples(const std::filesystem::path& path) {
             continue;
         }
         has_vertices = true;
-        const ColumnPlaces places =
-            find_places(path, [&](std::string_view name) { return element.find_scalar(name); });
+        const ColumnPlaces places = find_places(
+            path, domain, [&](std::string_view name) { return element.find_scalar(name); });
         samples.dimension = places.dimension();
         samples.rows.reserve(file.possible_records(element));
         file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
@@ -176,7 +205,8 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
 /// Reads a CSV sample file line by line.
 class CsvReader {
   public:
-    explicit CsvReader(const std::filesystem::path& path) : path_(path), bytes_(read_file(path)) {}
+    CsvReader(const std::filesystem::path& path, Domain domain)
+        : path_(path), domain_(domain), bytes_(read_file(path)) {}
 
     SampleFile read() {
         SampleFile samples;
@@ -223,7 +253,7 @@ class CsvReader {
     }
 
     ColumnPlaces find_columns() const {
-        return find_places(path_, [this](std::string_view name) {
+        return find_places(path_, domain_, [this](std::string_view name) {
             const auto cell = std::find(cells_.begin(), cells_.end(), name);
             return cell == cells_.end()
                        ? std::nullopt
@@ -244,26 +274,37 @@ class CsvReader {
     }
 
     const std::filesystem::path& path_;
+    Domain domain_;
     std::string bytes_;
     std::size_t position_ = 0;
     std::size_t line_ = 0;
     std::vector<std::string_view> cells_;
 };
 
+SampleFile read_in(const std::filesystem::path& path, Domain domain) {
+    const std::string extension = lower_extension(path);
+    if (extension == ".ply") {
+        return read_ply_samples(path, domain);
+    }
+    if (extension == ".csv") {
+        return CsvReader(path, domain).read();
+    }
+    if (extension == ".xyz") {
+        fail_input(path, domain == Domain::surface
+                             ? "an .xyz file has no face_index and bary columns; use .ply or .csv"
+                             : "an .xyz file does not tell of its box; use .ply or .csv");
+    }
+    fail_input(path, "unknown sample format; known are .ply and .csv");
+}
+
 } // namespace
 
 SampleFile read_samples(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(path);
-    if (extension == ".ply") {
-        return read_ply_samples(path);
-    }
-    if (extension == ".csv") {
-        return CsvReader(path).read();
-    }
-    if (extension == ".xyz") {
-        fail_input(path, "an .xyz file has no face_index and bary columns; use .ply or .csv");
-    }
-    fail_input(path, "unknown sample format; known are .ply and .csv");
+    return read_in(path, Domain::surface);
+}
+
+SampleFile read_box_samples(const std::filesystem::path& path) {
+    return read_in(path, Domain::box);
 }
 
 } // namespace geodisk::tools

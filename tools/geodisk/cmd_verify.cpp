@@ -24,13 +24,14 @@
 #include "geodisk/progress.hpp"
 #include "geodisk/sample_checks.hpp"
 #include "geodisk/spacing_check.hpp"
+#include "geodisk/verify_box.hpp"
 #include "program/arguments.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
 
-constexpr std::size_t kNamedViolations = 10;
+constexpr std::size_t kNamedStrays = 10;
 
 struct VerifyOptions {
     MeshOptions mesh;
@@ -67,20 +68,7 @@ double distance_of(const VerifyOptions& options, const SampleFile& samples,
     if (!options.min_distance.empty()) {
         return distance_on_mesh(parse_length("--min-distance", options.min_distance), mesh);
     }
-    for (const auto& [key, value] : samples.header.entries) {
-        if (key != "min_distance") {
-            continue;
-        }
-        const std::optional<double> distance = parse_real(trimmed(value));
-        if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
-            fail_input(options.samples,
-                       "its header has the minimum distance " + in_quotes(value) +
-                           ", which is not a positive number; give --min-distance");
-        }
-        return *distance;
-    }
-    throw UserError(ExitCode::usage, options.samples + ": its header has no minimum distance; give "
-                                                       "--min-distance");
+    return header_distance(options.samples, samples.header);
 }
 
 /// How far samples must be apart.
@@ -146,10 +134,6 @@ void print_spacing(std::ostream& out, const SampleFile& samples, const MeshInput
     }
 }
 
-std::string count_text(std::size_t count, bool is_complete) {
-    return (is_complete ? "" : "at least ") + grouped(count);
-}
-
 void print_result(std::ostream& out, const VerifyOptions& options, const SampleFile& samples,
                   const MeshInput& mesh, const Spacing& spacing, const SpacingResult& result,
                   const std::vector<StrayRow>& strays) {
@@ -157,28 +141,15 @@ void print_result(std::ostream& out, const VerifyOptions& options, const SampleF
         << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
         << '\n';
     print_spacing(out, samples, mesh, spacing);
-    out << "smallest      " << smallest_text(result, spacing) << '\n'
-        << "violations    " << count_text(result.violations.size(), result.is_complete) << '\n';
-    for (std::size_t i = 0; i < std::min(result.violations.size(), kNamedViolations); ++i) {
-        const ClosePair& pair = result.violations[i];
-        out << "              " << row_text(samples, pair.row_a) << " and "
-            << row_text(samples, pair.row_b) << ": " << rounded(pair.distance, 9);
-        if (spacing.radii_vary) {
-            out << ", " << rounded(pair.ratio, 9) << " of the sum of their radii";
-        }
-        out << '\n';
-    }
-    if (!result.violations.empty()) {
-        out << "too close     " << count_text(result.violating_samples(), result.is_complete)
-            << " of " << counted(samples.rows.size(), "sample", "samples") << '\n';
-    }
+    out << "smallest      " << smallest_text(result, spacing) << '\n';
+    print_violations(out, samples, result, spacing.radii_vary);
     if (spacing.wrong > 0) {
         out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
     if (!strays.empty()) {
         out << "off the mesh  " << grouped(strays.size()) << '\n';
     }
-    for (std::size_t i = 0; i < std::min(strays.size(), kNamedViolations); ++i) {
+    for (std::size_t i = 0; i < std::min(strays.size(), kNamedStrays); ++i) {
         out << "              " << row_text(samples, strays[i].row) << ": "
             << offset_text(strays[i]) << '\n';
     }
@@ -199,10 +170,7 @@ std::string report_text(const VerifyOptions& options, const SampleFile& samples,
              {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
              {"smallest", pair_json(samples, result.closest)},
              {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
-             {"violations",
-              {{"pairs", result.violations.size()},
-               {"samples", result.violating_samples()},
-               {"complete", result.is_complete}}},
+             {"violations", violations_json(result)},
              {"wrong_radii", spacing.wrong},
              {"off_the_mesh", strays.size()}});
 }
@@ -222,13 +190,8 @@ void check_report(const VerifyOptions& options) {
 
 void fail_on_violations(const VerifyOptions& options, const Spacing& spacing,
                         const SpacingResult& result, const std::vector<StrayRow>& strays) {
-    std::string message;
-    if (const std::size_t count = result.violations.size(); count > 0) {
-        message =
-            count_text(count, result.is_complete) +
-            (count == 1 ? " pair of samples is" : " pairs of samples are") + " closer than " +
-            (spacing.radii_vary ? "the sum of their radii" : rounded(spacing.min_distance, 9));
-    }
+    std::string message = violation_text(
+        result, spacing.radii_vary ? "the sum of their radii" : rounded(spacing.min_distance, 9));
     const auto add = [&message](std::size_t count, const std::string& one, const std::string& many,
                                 const char* what) {
         if (count > 0) {
@@ -242,9 +205,27 @@ void fail_on_violations(const VerifyOptions& options, const Spacing& spacing,
     }
 }
 
+/// A single file must be one of samples in a box, which has nothing of a surface.
+void check_box(const VerifyOptions& options) {
+    const std::string extension = lower_extension(options.mesh.mesh);
+    if (extension != ".ply" && extension != ".csv" && extension != ".xyz") {
+        throw UserError(ExitCode::usage, "SAMPLES is required, except for samples in a box, which "
+                                         "are verified without a mesh");
+    }
+    if (!options.mesh.additions().empty() || options.density.is_given()) {
+        throw UserError(ExitCode::usage, "options of surfaces need MESH and SAMPLES; a single file "
+                                         "is one of samples in a box");
+    }
+}
+
 void run_verify(const VerifyOptions& options) {
     if (!options.min_distance.empty()) {
         parse_length("--min-distance", options.min_distance); // Before the files are read.
+    }
+    if (options.samples.empty()) {
+        check_box(options);
+        verify_box({options.mesh.mesh, options.min_distance, options.json, options.quiet});
+        return;
     }
     check_report(options);
     ProgressLine progress(options.quiet);
@@ -274,9 +255,11 @@ void add_verify_command(CLI::App& app) {
         "verify", "Check the distances in a sample file, exactly and without a device");
     const auto options = std::make_shared<VerifyOptions>();
     add_mesh_argument(*command, options->mesh, "Mesh they were made on");
-    command->add_option("SAMPLES", options->samples, "Samples to check: *.ply or *.csv")
-        ->type_name("")
-        ->required();
+    command
+        ->add_option("SAMPLES", options->samples,
+                     "Samples to check: *.ply or *.csv; those of geodisk box\n"
+                     "stand alone, without a mesh")
+        ->type_name("");
     command
         ->add_option("-d,--min-distance", options->min_distance,
                      "Least distance along the surface, in mesh units,\n"

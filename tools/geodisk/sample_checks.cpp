@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "common/file_input.hpp"
+#include "common/text.hpp"
+#include "common/user_error.hpp"
+#include "geodisk/spacing_result.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
@@ -25,9 +29,20 @@ void check_dimensions(const std::string& samples_path, const SampleFile& samples
 
 } // namespace
 
-std::string row_text(const SampleFile& samples, std::uint32_t row) {
-    return "sample " + std::to_string(row) + " (candidate " +
-           std::to_string(samples.rows[row].candidate) + ")";
+double header_distance(const std::string& samples_path, const SampleHeader& header) {
+    for (const auto& [key, value] : header.entries) {
+        if (key != "min_distance") {
+            continue;
+        }
+        const std::optional<double> distance = parse_real(trimmed(value));
+        if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
+            fail_input(samples_path, "its header has the minimum distance " + in_quotes(value) +
+                                         ", which is not a positive number; give --min-distance");
+        }
+        return *distance;
+    }
+    throw UserError(ExitCode::usage,
+                    samples_path + ": its header has no minimum distance; give --min-distance");
 }
 
 void check_rows(const std::string& samples_path, const SampleFile& samples,

@@ -16,8 +16,8 @@ struct StrayRow {
     double offset;
 };
 
-/// "sample ROW (candidate INDEX)".
-std::string row_text(const SampleFile& samples, std::uint32_t row);
+/// The minimum distance that the header tells. Throws UserError if it tells none, or nonsense.
+double header_distance(const std::string& samples_path, const SampleHeader& header);
 
 /// The rows must at least name points of the mesh, with as many coordinates as it has. Throws
 /// UserError(bad_input) naming the first that does not; the paths are those of the files.

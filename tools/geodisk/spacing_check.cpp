@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 #include <geodisk/params.hpp>
 
@@ -18,11 +19,8 @@
 namespace geodisk::tools {
 namespace {
 
+/// Of the distance expected.
 constexpr double kCutFactor = 1.25;
-/// Doubles round at 2^-53; chains of crossings may add up some thousand such errors.
-constexpr double kSmallestViolation = 1e-9;
-/// Enough to say that a file is hopeless, and little enough to hold.
-constexpr std::size_t kMostViolations = 1'000'000;
 constexpr double kMostCells = 0x1p26;
 
 /// Cells of the reference's grids when lengths are in units of `unit`.
@@ -63,25 +61,6 @@ std::vector<ref::FacePoint<double>> points_of(std::span<const SampleRow> rows) {
         points.push_back({row.face, row.bary[1], row.bary[2]});
     }
     return points;
-}
-
-/// Each pair may have been found from both of its rows; the shorter distance counts.
-void sort_violations(std::vector<ClosePair>& pairs) {
-    std::sort(pairs.begin(), pairs.end(), [](const ClosePair& a, const ClosePair& b) {
-        return std::tie(a.row_a, a.row_b, a.distance) < std::tie(b.row_a, b.row_b, b.distance);
-    });
-    const auto end =
-        std::unique(pairs.begin(), pairs.end(), [](const ClosePair& a, const ClosePair& b) {
-            return a.row_a == b.row_a && a.row_b == b.row_b;
-        });
-    pairs.erase(end, pairs.end());
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const ClosePair& a, const ClosePair& b) { return a.ratio < b.ratio; });
-}
-
-bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than) {
-    return !than || std::tie(pair.ratio, pair.row_a, pair.row_b) <
-                        std::tie(than->ratio, than->row_a, than->row_b);
 }
 
 /// Calls `visit(row_a, row_b, distance)` for all pairs not farther apart than `cut_of(row)` of one
@@ -131,37 +110,19 @@ double longest_path(const PreparedMesh& mesh) {
 
 } // namespace
 
-std::size_t SpacingResult::violating_samples() const {
-    std::vector<std::uint32_t> rows;
-    for (const ClosePair& pair : violations) {
-        rows.insert(rows.end(), {pair.row_a, pair.row_b});
-    }
-    std::sort(rows.begin(), rows.end());
-    return static_cast<std::size_t>(std::unique(rows.begin(), rows.end()) - rows.begin());
-}
-
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                             std::span<const double> radii, ProgressLine& progress) {
     SpacingResult result;
-    result.cut = kCutFactor;
     const double largest = radii.empty() ? 1 : *std::max_element(radii.begin(), radii.end());
     progress.begin_stage("verifying");
     // From the sample with the larger radius, every pair is found this way.
-    const auto cut_of = [&](std::uint32_t row) { return kCutFactor * 2 * radii[row]; };
+    const auto cut_of = [&](std::uint32_t row) { return result.cut * 2 * radii[row]; };
     for_each_pair(mesh, rows, choose_unit(mesh.prepared, 2 * largest), cut_of, progress,
                   [&](std::uint32_t row_a, std::uint32_t row_b, double distance) {
                       const double ratio = distance / (radii[row_a] + radii[row_b]);
-                      const ClosePair pair{row_a, row_b, distance, ratio};
-                      if (ratio <= result.cut && is_closer(pair, result.closest)) {
-                          result.closest = pair;
-                      }
-                      if (ratio < 1 - kSmallestViolation) {
-                          result.violations.push_back(pair);
-                      }
-                      result.is_complete = result.violations.size() < kMostViolations;
-                      return result.is_complete;
+                      return result.add({row_a, row_b, distance, ratio});
                   });
-    sort_violations(result.violations);
+    result.finish();
     return result;
 }
 

@@ -1,0 +1,160 @@
+#include "geodisk/verify_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <string_view>
+
+#include <geodisk/box.hpp>
+#include <geodisk/version.hpp>
+
+#include "common/file_input.hpp"
+#include "common/sample_file.hpp"
+#include "common/text.hpp"
+#include "common/user_error.hpp"
+#include "geodisk/box_spacing.hpp"
+#include "geodisk/outputs.hpp"
+#include "geodisk/progress.hpp"
+#include "geodisk/sample_checks.hpp"
+#include "program/arguments.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+std::optional<std::string> entry_of(const SampleHeader& header, std::string_view key) {
+    const auto entry = std::find_if(header.entries.begin(), header.entries.end(),
+                                    [key](const auto& one) { return one.first == key; });
+    return entry == header.entries.end() ? std::nullopt : std::optional(entry->second);
+}
+
+/// "1 x 0.5": the sides; none if one is no positive number.
+std::vector<double> parse_sides(std::string_view text) {
+    std::vector<double> sides;
+    for (bool more = true; more;) {
+        const std::size_t end = text.find(" x ");
+        const std::optional<double> side = parse_real(trimmed(text.substr(0, end)));
+        if (!side || !(*side > 0) || !std::isfinite(*side)) {
+            return {};
+        }
+        sides.push_back(*side);
+        more = end != std::string_view::npos;
+        text.remove_prefix(more ? end + 3 : text.size());
+    }
+    return sides;
+}
+
+BoxParams box_of(const VerifyBoxOptions& options, const SampleFile& samples) {
+    const auto box_text = entry_of(samples.header, "box");
+    if (!box_text) {
+        fail_input(options.samples, "its header tells of no box; samples on a mesh are verified "
+                                    "with it: geodisk verify MESH SAMPLES");
+    }
+    BoxParams box;
+    box.extents = parse_sides(*box_text);
+    if (box.extents.empty() || box.extents.size() > kMostBoxDimensions) {
+        fail_input(options.samples, "its header has the box " + in_quotes(*box_text) +
+                                        ", which is not 1 to 6 positive sides");
+    }
+    if (box.extents.size() > samples.dimension) {
+        fail_input(options.samples, "has " + std::to_string(samples.dimension) +
+                                        " coordinates, but its box has " +
+                                        std::to_string(box.extents.size()) + " sides");
+    }
+    const std::string kind = entry_of(samples.header, "sides").value_or("");
+    if (kind != "open" && kind != "periodic") {
+        fail_input(options.samples,
+                   "its header does not tell whether the sides of the box are open or periodic");
+    }
+    box.is_periodic = kind == "periodic";
+    double square = 0;
+    for (const double side : box.extents) {
+        square += side * side;
+    }
+    box.min_distance = options.min_distance.empty()
+                           ? header_distance(options.samples, samples.header)
+                           : parse_length("--min-distance", options.min_distance)
+                                 .in_mesh_units(std::sqrt(square));
+    return box;
+}
+
+std::size_t count_outside(const BoxParams& box, const SampleFile& samples) {
+    return static_cast<std::size_t>(
+        std::count_if(samples.rows.begin(), samples.rows.end(), [&](const SampleRow& row) {
+            bool outside = false;
+            for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
+                outside |= !(row.position[axis] >= 0 && row.position[axis] <= box.extents[axis]);
+            }
+            return outside;
+        }));
+}
+
+std::string smallest_text(const BoxParams& box, const SpacingResult& result) {
+    return result.closest ? rounded(result.closest->distance, 9) + ", " +
+                                rounded(result.closest->ratio, 9) + " of the minimum distance"
+                          : "> " + rounded(result.cut * box.min_distance, 6);
+}
+
+void print_result(const VerifyBoxOptions& options, const BoxParams& box, const SampleFile& samples,
+                  const SpacingResult& result, std::size_t outside) {
+    std::string sides;
+    for (const double side : box.extents) {
+        sides += (sides.empty() ? "" : " x ") + rounded(side, 6);
+    }
+    std::cout << "box           " << sides << ", " << (box.is_periodic ? "periodic" : "open")
+              << '\n'
+              << "samples       " << grouped(samples.rows.size()) << " in "
+              << one_line(options.samples) << '\n'
+              << "min distance  " << rounded(box.min_distance, 9) << '\n'
+              << "smallest      " << smallest_text(box, result) << '\n';
+    print_violations(std::cout, samples, result, false);
+    if (outside > 0) {
+        std::cout << "outside       " << grouped(outside) << '\n';
+    }
+    flush_or_fail("the result");
+}
+
+std::string report_text(const VerifyBoxOptions& options, const BoxParams& box,
+                        const SampleFile& samples, const SpacingResult& result,
+                        std::size_t outside) {
+    return text_of(Json{{"version", GEODISK_VERSION_STRING},
+                        {"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}},
+                        {"samples_file", options.samples},
+                        {"samples", samples.rows.size()},
+                        {"min_distance", box.min_distance},
+                        {"cut", result.cut * box.min_distance},
+                        {"smallest", pair_json(samples, result.closest)},
+                        {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json()},
+                        {"violations", violations_json(result)},
+                        {"outside", outside}});
+}
+
+} // namespace
+
+void verify_box(const VerifyBoxOptions& options) {
+    check_distinct({{"the report", options.json}}, {{"the samples", options.samples}});
+    check_report_path(options.json);
+    ProgressLine progress(options.quiet);
+    progress.begin_stage("reading the samples");
+    const SampleFile samples = read_box_samples(options.samples);
+    progress.clear();
+    const BoxParams box = box_of(options, samples);
+    const std::size_t outside = count_outside(box, samples);
+    const SpacingResult result = check_box_spacing(box, samples.rows, progress);
+    ReportFile report(options.json, report_text(options, box, samples, result, outside));
+    report.commit();
+    if (!options.quiet && options.json != "-") {
+        print_result(options, box, samples, result, outside);
+    }
+    std::string message = violation_text(result, rounded(box.min_distance, 9));
+    if (outside > 0) {
+        message += (message.empty() ? "" : ", and ") + counted(outside, "sample", "samples") +
+                   (outside == 1 ? " lies" : " lie") + " outside the box";
+    }
+    if (!message.empty()) {
+        throw UserError(ExitCode::violation, options.samples + ": " + message);
+    }
+}
+
+} // namespace geodisk::tools
