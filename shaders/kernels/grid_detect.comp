@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The disk of every active candidate, by a distance through space, and the idle and active
-// candidates in it (paper DetectCollision, section 5.9). One invocation per slot; resumable. It visits the cells of the grid
-// that the disk reaches, a row along the first axis at a time, in trips of a bounded number of
-// iterations, push.step_budget of them to a dispatch.
+// candidates in it (paper DetectCollision, section 5.9). One invocation per slot; resumable. It
+// visits the cells of the grid that the disk reaches, a row along the first axis at a time, in
+// trips of a bounded number of iterations, push.step_budget of them to a dispatch.
 // reads: axes, cells, states, points   writes: pool, slots, control
 // spec: local size, rounding, pool block, dimension, curved
 

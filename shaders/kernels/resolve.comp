@@ -5,7 +5,8 @@
 // blocks. Blocks only fall and rejections only come, so every order of events ends the same. A sample
 // of an earlier chunk has been accepted; nothing blocks it, and it only rejects.
 // One invocation per slot; resumable, since lists may be long.
-// reads: pool lists, slots, marks   writes: states, slots, control, blockers   spec: local size, pool block
+// reads: pool lists, slots, marks   writes: states, slots, control, blockers
+// spec: local size, pool block
 
 #include "../lib/prelude.glsl"
 

@@ -51,7 +51,9 @@ DeviceRun::DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOpt
                                                  static_cast<std::uint32_t>(box.extents.size()),
                                                  context.device(), options)),
                 context) {
-    open(BoxSource(Sampler::Impl::of(*sampler_), box, expect(pool_size(box))), plan);
+    open(
+        BoxSource(Sampler::Impl::of(*sampler_), box, expect(pool_size(box)), VkDeviceSize{1} << 40),
+        plan);
 }
 
 void DeviceRun::open(const RunSource& source, const RunPlan& plan) {

@@ -72,10 +72,10 @@ BoxParams box_of(const VerifyBoxOptions& options, const SampleFile& samples) {
     for (const double side : box.extents) {
         square += side * side;
     }
-    box.min_distance = options.min_distance.empty()
-                           ? header_distance(options.samples, samples.header)
-                           : parse_length("--min-distance", options.min_distance)
-                                 .in_mesh_units(std::sqrt(square));
+    box.min_distance =
+        options.min_distance.empty()
+            ? header_distance(options.samples, samples.header)
+            : parse_length("--min-distance", options.min_distance).in_mesh_units(std::sqrt(square));
     return box;
 }
 

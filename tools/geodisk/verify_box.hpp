@@ -10,7 +10,8 @@ struct VerifyBoxOptions {
     bool quiet = false;
 };
 
-/// Throws UserError(violation) if samples are too close or outside the box, and as read_box_samples().
+/// Throws UserError(violation) if samples are too close or outside the box, and as
+/// read_box_samples().
 void verify_box(const VerifyBoxOptions& options);
 
 } // namespace geodisk::tools

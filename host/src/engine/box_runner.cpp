@@ -53,8 +53,9 @@ Result<BoxSampleSet> BoxRunner::sample_and_wait(const BoxParams& box,
                          "the box has " + std::to_string(box.extents.size()) +
                              " sides, and the runner was made for " + std::to_string(dimension())};
         }
-        const auto result =
-            run_and_wait(*impl_, BoxSource(impl_->engine(), box, *candidates), progress);
+        const auto result = run_and_wait(
+            *impl_, BoxSource(impl_->engine(), box, *candidates, impl_->memory_for_candidates()),
+            progress);
         if (!result) {
             return result.error();
         }

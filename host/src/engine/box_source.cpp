@@ -41,13 +41,15 @@ double candidates_in_disk(const BoxParams& box) {
            density_in_box(box.extents.size()) * box.pool_ratio;
 }
 
-/// As many candidates as one binding holds, their points and cells too, or as a run that may stop
-/// needs at once.
-std::uint32_t most_at_once(const BoxSource::Crowd& crowd, std::uint32_t slots,
+/// As many candidates as one binding and the memory hold, their points and cells too, or as a run
+/// that may stop needs at once.
+std::uint32_t most_at_once(const BoxSource::Crowd& crowd, std::uint32_t slots, VkDeviceSize memory,
                            const DeviceReport& report) {
     const std::uint64_t words = report.limits.max_storage_buffer_range / 4;
-    const auto most = static_cast<std::uint32_t>(std::min(
-        words / crowd.words_per_point - slots, std::bit_floor(words - 1) / kHeadsPerCandidate));
+    const std::uint64_t bound = std::min(words / crowd.words_per_point - slots,
+                                         std::bit_floor(words - 1) / kHeadsPerCandidate);
+    const auto most = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(memory / crowd.bytes_per_candidate(), 1, bound));
     return crowd.stop_count == 0 ? most
                                  : static_cast<std::uint32_t>(std::min<double>(
                                        most, darts_at_once(crowd.stop_count, true)));
@@ -55,21 +57,22 @@ std::uint32_t most_at_once(const BoxSource::Crowd& crowd, std::uint32_t slots,
 
 } // namespace
 
-BoxSource::BoxSource(const Sampler::Impl& sampler, const BoxParams& box, std::uint32_t candidates)
-    : BoxSource(sampler, box, candidates,
+std::uint64_t BoxSource::Crowd::bytes_per_candidate() const {
+    return (3 + words_per_point + 2 * kHeadsPerCandidate) * 4;
+}
+
+BoxSource::BoxSource(const Sampler::Impl& sampler, const BoxParams& box, std::uint32_t candidates,
+                     VkDeviceSize memory)
+    : BoxSource(sampler, box, candidates, memory,
                 {static_cast<std::uint32_t>(box.extents.size()), candidates_in_disk(box), kBoxGuard,
                  0}) {}
 
 BoxSource::BoxSource(const Sampler::Impl& sampler, BoxParams box, std::uint32_t candidates,
-                     const Crowd& crowd)
+                     VkDeviceSize memory, const Crowd& crowd)
     : sampler_(sampler), box_(std::move(box)), candidates_(candidates), crowd_(crowd),
       slots_(wanted_slots(room(), sampler.tuning.batches, sampler.report)),
-      chunk_(std::min(candidates, most_at_once(crowd, slots_, sampler.report))),
+      chunk_(std::min(candidates, most_at_once(crowd, slots_, memory, sampler.report))),
       grid_(box_, chunk_, crowd.guard) {}
-
-std::uint64_t BoxSource::bytes_per_candidate() const {
-    return (3 + crowd_.words_per_point + 2 * kHeadsPerCandidate) * 4;
-}
 
 Result<RunPlan> BoxSource::plan(std::uint64_t pool_bytes) const {
     const auto n = static_cast<double>(box_.extents.size());

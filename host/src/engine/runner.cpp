@@ -144,8 +144,8 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     if (!plan) {
         return plan.error();
     }
-    plan->chunk =
-        std::min(plan->chunk, runner_.candidates_in_memory(source_.bytes_per_candidate()));
+    const std::uint64_t in_memory = runner_.memory_for_candidates() / source_.bytes_per_candidate();
+    plan->chunk = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(in_memory, 1, plan->chunk));
     *plan = overridden(*plan, runner_.options.plan);
     plan->chain = std::max(plan->chain, chain);
     if (plan->pool_bytes() > runner_.options.pool_bytes) {
@@ -483,7 +483,7 @@ Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFla
     return DeviceBuffer::create(engine().device, engine().vk, memory, bytes, usage, kind);
 }
 
-std::uint32_t Runner::Impl::candidates_in_memory(std::uint64_t bytes_per_candidate) const {
+VkDeviceSize Runner::Impl::memory_for_candidates() const {
     VkDeviceSize largest = 0;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
         const VkMemoryHeap& heap = memory.memoryHeaps[i];
@@ -491,9 +491,7 @@ std::uint32_t Runner::Impl::candidates_in_memory(std::uint64_t bytes_per_candida
             largest = std::max(largest, heap.size);
         }
     }
-    // A quarter is left for all else.
-    return static_cast<std::uint32_t>(
-        std::clamp<VkDeviceSize>(largest / 4 * 3 / bytes_per_candidate, 1, kMostCandidates));
+    return largest / 4 * 3; // A quarter is left for all else.
 }
 
 Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>& record) {

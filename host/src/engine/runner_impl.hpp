@@ -43,8 +43,8 @@ struct Runner::Impl {
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// As Submitter::run, for what a job records.
     Result<Done> run_timed(const std::function<void(VkCommandBuffer)>& record);
-    /// As many candidates of so many bytes as the device has memory for at once.
-    std::uint32_t candidates_in_memory(std::uint64_t bytes_per_candidate) const;
+    /// Bytes of device memory that candidates may take.
+    VkDeviceSize memory_for_candidates() const;
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind) const;
 

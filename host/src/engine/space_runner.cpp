@@ -65,7 +65,8 @@ Result<SampleSet> SpaceRunner::sample_and_wait(const MeshView& view, const Prepa
         if (auto checked = check_view(view, mesh); !checked) {
             return checked.error();
         }
-        const SpaceSource source(impl_->engine(), view, mesh, params, *candidates);
+        const SpaceSource source(impl_->engine(), view, mesh, params, *candidates,
+                                 impl_->memory_for_candidates());
         if (!(source.guard({}) <= kWidestGuard)) {
             return Error{Status::invalid_argument,
                          "the minimum distance is too small beside the bounding box of the mesh"};

@@ -98,8 +98,8 @@ double SpaceFrame::guard() const {
 
 SpaceSource::SpaceSource(const Sampler::Impl& sampler, const MeshView& view,
                          const PreparedMesh& mesh, SpaceFrame frame, std::uint32_t candidates,
-                         std::uint32_t stop_count)
-    : BoxSource(sampler, frame.box, candidates,
+                         VkDeviceSize memory, std::uint32_t stop_count)
+    : BoxSource(sampler, frame.box, candidates, memory,
                 {sampler.takes_curves ? 6u : 3u, // Normals as well.
                  kInDisk * frame.box.pool_ratio, frame.guard(), stop_count}),
       view_(view), mesh_(mesh), frame_(std::move(frame)) {}

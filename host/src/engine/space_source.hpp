@@ -29,16 +29,17 @@ class SpaceSource : public BoxSource {
     /// `candidates` is pool_size() of the mesh. `view`, `mesh`, and the sampler, made for surfaces
     /// in space, must outlive the source.
     SpaceSource(const Sampler::Impl& sampler, const MeshView& view, const PreparedMesh& mesh,
-                const SampleParams& params, std::uint32_t candidates)
+                const SampleParams& params, std::uint32_t candidates, VkDeviceSize memory)
         : SpaceSource(sampler, view, mesh, SpaceFrame(view, mesh, params, candidates), candidates,
-                      params.stop_count) {}
+                      memory, params.stop_count) {}
 
     Result<WorkspaceNeeds> needs(const RunPlan& plan) const override;
     Result<std::vector<std::byte>> bytes(BufferRole role) const override;
 
   private:
     SpaceSource(const Sampler::Impl& sampler, const MeshView& view, const PreparedMesh& mesh,
-                SpaceFrame frame, std::uint32_t candidates, std::uint32_t stop_count);
+                SpaceFrame frame, std::uint32_t candidates, VkDeviceSize memory,
+                std::uint32_t stop_count);
     gpu::Push push() const override;
     std::size_t corner_bytes() const;
 
