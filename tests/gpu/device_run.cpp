@@ -153,4 +153,14 @@ std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run) {
     return ranks;
 }
 
+std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
+                           const std::vector<std::uint32_t>& by_place) {
+    const auto on_device = run.read<std::uint32_t>(BufferRole::states, run.candidates());
+    std::uint32_t wrong = 0;
+    for (std::uint32_t place = 0; place < on_device.size(); ++place) {
+        wrong += (on_device[place] & gpu::kStateMask) != states[by_place[place]];
+    }
+    return wrong;
+}
+
 } // namespace geodisk::test

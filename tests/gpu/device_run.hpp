@@ -86,6 +86,10 @@ bool decide_batch(DeviceRun& run);
 /// The rank at each place.
 std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run);
 
+/// How many candidates have another state on the device than in `states`, which are by rank.
+std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
+                           const std::vector<std::uint32_t>& by_place);
+
 /// The ranks of the conflicts of higher rank that slot `index` lists, ascending; `by_place` is
 /// ranks_by_place().
 std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,

@@ -130,16 +130,6 @@ void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint
     ref::resolve_batch(batch, conflicts, twin.states);
 }
 
-void compare_states(const DeviceRun& run, const Twin& twin,
-                    const std::vector<std::uint32_t>& by_place) {
-    const auto states = run.read<std::uint32_t>(BufferRole::states, run.candidates());
-    std::uint32_t wrong = 0;
-    for (std::uint32_t place = 0; place < states.size(); ++place) {
-        wrong += (states[place] & gpu::kStateMask) != twin.states[by_place[place]];
-    }
-    CHECK(wrong == 0);
-}
-
 void step_through(const BoxParams& box, const SamplerOptions& options, std::uint32_t slots) {
     RunPlan plan;
     plan.slots = slots;
@@ -152,7 +142,7 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     compare_pool(run, twin, box, places);
     while (decide_batch(run)) {
         compare_batch(run, twin, by_place);
-        compare_states(run, twin, by_place);
+        CHECK(wrong_states(run, twin.states, by_place) == 0);
     }
     run.finish();
     std::vector<std::uint32_t> want;

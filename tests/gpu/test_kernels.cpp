@@ -179,16 +179,6 @@ void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint
     }
 }
 
-void compare_states(const DeviceRun& run, const Twin& twin,
-                    const std::vector<std::uint32_t>& by_place) {
-    const auto states = run.read<std::uint32_t>(BufferRole::states, run.candidates());
-    std::uint32_t wrong = 0;
-    for (std::uint32_t place = 0; place < states.size(); ++place) {
-        wrong += (states[place] & gpu::kStateMask) != twin.states[by_place[place]];
-    }
-    CHECK(wrong == 0);
-}
-
 /// Adds the chunk's samples to those of the chunks before.
 void compare_samples(const DeviceRun& run, const Twin& twin, std::vector<gpu::SampleRec>& want) {
     const gpu::ControlRec control = run.control();
@@ -239,7 +229,7 @@ void step_through_samples(DeviceRun& run, Twin& twin, const std::vector<gpu::Sam
         for (const auto& rejected : conflicts) {
             ref::reject_all(rejected, twin.states);
         }
-        compare_states(run, twin, by_place);
+        CHECK(wrong_states(run, twin.states, by_place) == 0);
         next = control.next_sample;
     }
 }
@@ -249,7 +239,7 @@ void step_through_candidates(DeviceRun& run, Twin& twin, const std::vector<std::
                              CallHistogram* calls) {
     while (decide_batch(run)) {
         compare_batch(run, twin, by_place, calls);
-        compare_states(run, twin, by_place);
+        CHECK(wrong_states(run, twin.states, by_place) == 0);
     }
 }
 
