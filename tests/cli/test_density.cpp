@@ -187,6 +187,33 @@ TEST_CASE("the report tells of radii that vary") {
     CHECK_FALSE(contains(bytes_of(folder / "b.csv"), "candidate,radius"));
 }
 
+TEST_CASE("the smallest radii count as a thousandth of the largest, with a warning") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    const std::string values = bytes_of(folder / "g.txt");
+    const auto write_with_first = [&](const std::string& file, const std::string& first) {
+        folder.write(file, first + values.substr(values.find('\n')));
+    };
+    write_with_first("tiny.txt", "1e-9");
+    write_with_first("small.txt", "0.001");
+    const auto sample = [&](const std::string& g, const std::string& output) {
+        const Outcome outcome =
+            run(folder, {"sample", "mesh.ply", "-o", output, "-d", "0.2", "--density-file", g});
+        REQUIRE(outcome.status == 0);
+        return outcome.err;
+    };
+    CHECK(sample("tiny.txt", "a.csv") ==
+          "geodisk: warning: tiny.txt: g is below 0.001 at 1 vertex, first at vertex 0 (from 0), "
+          "and counts as 0.001 there\n");
+    CHECK(sample("small.txt", "b.csv").empty());
+    const auto rows = [&](const char* file) {
+        const std::string bytes = bytes_of(folder / file);
+        return bytes.substr(bytes.find("x,y,z"));
+    };
+    CHECK(rows("a.csv") == rows("b.csv"));
+    CHECK(run(folder, {"verify", "mesh.ply", "a.csv", "--density-file", "tiny.txt"}).status == 0);
+}
+
 TEST_CASE("radii that cannot be are refused, naming file and vertex") {
     const TemporaryFolder folder;
     write_square(folder);

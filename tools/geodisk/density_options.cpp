@@ -70,6 +70,27 @@ std::optional<double> floor_of(const DensityOptions& options) {
     return options.curvature ? std::optional(kCurvatureFloor) : std::nullopt;
 }
 
+/// Positive values below the least factor count as that: disks only become larger, but not
+/// silently. Returns a warning, or nothing.
+std::string raise_small(Factors& factors, const PreparedMesh& mesh) {
+    std::size_t count = 0;
+    std::size_t first = 0;
+    for (std::size_t v = 0; v < factors.values.size(); ++v) {
+        double& value = factors.values[v];
+        if (value > 0 && value < RadiusField::kLeastFactor) {
+            value = RadiusField::kLeastFactor;
+            if (mesh.fans()[v].corner_count > 0) {
+                first = count == 0 ? v : first;
+                ++count;
+            }
+        }
+    }
+    return count == 0 ? ""
+                      : factors.source + ": g is below 0.001 at " +
+                            counted(count, "vertex", "vertices") + ", first at vertex " +
+                            std::to_string(first) + " (from 0), and counts as 0.001 there";
+}
+
 } // namespace
 
 bool DensityOptions::is_given() const {
@@ -120,7 +141,8 @@ std::vector<std::pair<std::string, std::string>> DensityOptions::additions() con
 }
 
 void add_density_options(CLI::App& command, DensityOptions& options) {
-    const char* const density = "Radii that vary: the largest times g, 0.001 to 1; give one";
+    const char* const density =
+        "Radii that vary: the largest times g, above 0 and up to 1; give one";
     command
         .add_option("--density-attribute", options.attribute, "g is this vertex property of a PLY")
         ->type_name("NAME")
@@ -148,7 +170,7 @@ void add_density_options(CLI::App& command, DensityOptions& options) {
         ->group(density);
 }
 
-RadiusField load_radii(const DensityOptions& options, const std::string& path, const MeshFile& file,
+LoadedRadii load_radii(const DensityOptions& options, const std::string& path, const MeshFile& file,
                        const PreparedMesh& mesh) {
     const std::size_t vertex_count =
         file.positions.empty() ? mesh.vertex_count() : file.positions.size() / file.dimension;
@@ -166,15 +188,15 @@ RadiusField load_radii(const DensityOptions& options, const std::string& path, c
     for (double& value : factors.values) {
         value = floor && value >= 0 && !all_zero ? std::max(value, *floor) : value;
     }
+    std::string warning = raise_small(factors, mesh);
     auto field = RadiusField::prepare(mesh, factors.values);
     if (!field && field.error().status == Status::invalid_argument) {
         const std::uint64_t v = field.error().element;
-        const bool is_small = v < factors.values.size() && factors.values[v] >= 0 &&
-                              factors.values[v] < RadiusField::kLeastFactor;
+        const bool is_zero = v < factors.values.size() && factors.values[v] == 0;
         fail_input(factors.source,
-                   field.error().message + (is_small ? ", or be raised by --density-floor" : ""));
+                   field.error().message + (is_zero ? ", or be raised by --density-floor" : ""));
     }
-    return take(std::move(field));
+    return {take(std::move(field)), std::move(warning)};
 }
 
 } // namespace geodisk::tools

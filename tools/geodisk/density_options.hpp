@@ -31,11 +31,16 @@ struct DensityOptions {
 
 void add_density_options(CLI::App& command, DensityOptions& options);
 
+struct LoadedRadii {
+    RadiusField field;
+    std::string warning; ///< Empty without.
+};
+
 /// The factors at the vertices of the mesh at `path`, which must have been read with what the
 /// options need: for an attribute as the last one of `file`, for an image with texture coordinates.
 ///
 /// Throws UserError(bad_input) naming the source of a value that is no factor, and its vertex.
-RadiusField load_radii(const DensityOptions& options, const std::string& path, const MeshFile& file,
+LoadedRadii load_radii(const DensityOptions& options, const std::string& path, const MeshFile& file,
                        const PreparedMesh& mesh);
 
 } // namespace geodisk::tools

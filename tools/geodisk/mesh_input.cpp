@@ -144,14 +144,20 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
     start = Clock::now();
     PreparedMesh prepared = prepare(path, file, lifts);
     std::optional<RadiusField> radii;
+    std::string radii_warning;
     if (radii_vary) {
-        radii = load_radii(density, path, file, prepared);
+        LoadedRadii loaded = load_radii(density, path, file, prepared);
+        radii = std::move(loaded.field);
+        radii_warning = std::move(loaded.warning);
     }
     MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), load_seconds,
                    seconds_since(start)};
     check_interrupted();
     progress.clear();
     print_warnings(path, mesh);
+    if (!radii_warning.empty()) {
+        print_warning(radii_warning);
+    }
     if (lift_attributes(lifts).size() < lifts.size()) {
         warn_of_turned_faces(path, mesh.prepared);
     }
