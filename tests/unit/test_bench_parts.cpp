@@ -100,6 +100,8 @@ TEST_CASE("ticks are short") {
     CHECK(tick_text(2e6, "") == "2M");
     CHECK(tick_text(0.002, "s") == "2 ms");
     CHECK(tick_text(10, "s") == "10 s");
+    CHECK(tick_text(0.05, "") == "0.05");
+    CHECK(tick_text(0.001, "") == "0.001");
     CHECK(tick_text(5e7, "B") == "50 MB");
 }
 
@@ -122,6 +124,11 @@ TEST_CASE("a linear axis reaches from the least to the greatest value") {
     CHECK_FALSE(contains(svg, ">0.80<"));
     plot.lines[0].points = {{10, 0.5}};
     CHECK_FALSE(contains(svg_text(plot), "nan"));
+    plot.lines[0].points = {{10, 0}, {20, 0}}; // Zero is a value there.
+    const std::string zeros = svg_text(plot);
+    CHECK_FALSE(contains(zeros, "nan"));
+    CHECK(contains(zeros, ">0.0<"));
+    CHECK(zeros.find("<circle", zeros.find("<circle") + 1) < zeros.find(">rho<"));
 }
 
 TEST_CASE("a plot draws every line and escapes its texts") {

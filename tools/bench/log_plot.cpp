@@ -57,8 +57,9 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-bool is_drawable(const Point& point) {
-    return point.x > 0 && point.y > 0 && std::isfinite(point.x) && std::isfinite(point.y);
+bool is_drawable(const Point& point, bool is_linear_y) {
+    return point.x > 0 && (point.y > 0 || (is_linear_y && point.y == 0)) &&
+           std::isfinite(point.x) && std::isfinite(point.y);
 }
 
 /// An axis from `low` to `high`, at pixels `start` to `end`.
@@ -98,7 +99,7 @@ double round_to_step(double value, bool up) {
 
 Axis make_linear_axis(double least, double most, double start, double end) {
     constexpr double kTicks = 6;
-    const double extent = most > least ? most - least : 0.2 * most;
+    const double extent = most > least ? most - least : most > 0 ? 0.2 * most : 1;
     const double step = round_to_step(extent / kTicks, true);
     Axis axis{step * std::floor(least / step), step * std::ceil(most / step), start, end, {}, step};
     if (!(axis.low < axis.high)) {
@@ -140,7 +141,7 @@ class Drawing {
         double high_y = 0;
         for (const LogPlot::Line& line : plot.lines) {
             for (const Point& point : line.points) {
-                if (is_drawable(point)) {
+                if (is_drawable(point, plot.is_linear_y)) {
                     low_x = std::min(low_x, point.x);
                     high_x = std::max(high_x, point.x);
                     low_y = std::min(low_y, point.y);
@@ -268,13 +269,13 @@ class Drawing {
     void draw_line(const LogPlot::Line& line) {
         std::string points;
         for (const Point& point : line.points) {
-            if (is_drawable(point)) {
+            if (is_drawable(point, plot_.is_linear_y)) {
                 points += number(x_.place(point.x)) + ',' + number(y_.place(point.y)) + ' ';
             }
         }
         add_path(line, points);
         for (const Point& point : line.points) {
-            if (is_drawable(point)) {
+            if (is_drawable(point, plot_.is_linear_y)) {
                 add_marker(line, x_.place(point.x), y_.place(point.y));
             }
         }
@@ -307,11 +308,17 @@ std::string tick_text(double value, const std::string& unit) {
     };
     constexpr Prefix kPrefixes[] = {{1e12, "T"}, {1e9, "G"},  {1e6, "M"},         {1e3, "k"},
                                     {1, ""},     {1e-3, "m"}, {1e-6, "\xC2\xB5"}, {1e-9, "n"}};
+    char digits[32];
+    // A thousandth of no unit would read "50m".
+    if (unit.empty() && value < 1 && value >= 0.0009) {
+        const auto end =
+            std::to_chars(digits, std::end(digits), value, std::chars_format::general, 3);
+        return {digits, end.ptr};
+    }
     const Prefix* prefix = kPrefixes;
     while (prefix + 1 != std::end(kPrefixes) && value < prefix->factor * 0.9999) {
         ++prefix;
     }
-    char digits[32];
     const auto end = std::to_chars(digits, std::end(digits), value / prefix->factor,
                                    std::chars_format::general, 3);
     return std::string(digits, end.ptr) + (unit.empty() ? "" : " ") + prefix->name + unit;

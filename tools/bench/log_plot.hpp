@@ -15,7 +15,7 @@ struct LogPlot {
         /// by their markers.
         std::size_t group = 0;
         bool is_dashed = false;
-        std::vector<Point> points; ///< Those without positive coordinates are left out.
+        std::vector<Point> points; ///< Those that an axis cannot show are left out.
     };
 
     std::string title;
@@ -28,8 +28,8 @@ struct LogPlot {
 /// A document of its own. Colours follow the reader's preference for light or dark.
 std::string svg_text(const LogPlot& plot);
 
-/// A number with at most three digits and a prefix from n to T: "300", "1k", "2 m" with unit "" or
-/// "s" following: "3 ms".
+/// A number with at most three digits and a prefix from n to T: "300", "1k", or with the unit "s"
+/// "3 ms"; without a unit "0.05" rather than "50m".
 std::string tick_text(double value, const std::string& unit);
 
 /// A number in full, with as many decimals as a tick of this distance to the next one needs:
