@@ -254,6 +254,12 @@ void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
     }
 }
 
+const std::string* SampleHeader::find(std::string_view key) const {
+    const auto entry = std::find_if(entries.begin(), entries.end(),
+                                    [key](const auto& one) { return one.first == key; });
+    return entry == entries.end() ? nullptr : &entry->second;
+}
+
 void check_output_path(const std::filesystem::path& path) {
     format_of(path);
     const AtomicFile probe(path); // Creates and removes the temporary file.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,9 @@ inline bool has_radii(std::span<const SampleRow> rows) {
 /// Line breaks in them are written as blanks.
 struct SampleHeader {
     std::vector<std::pair<std::string, std::string>> entries;
+
+    /// The value of the first entry with this key; null without one.
+    const std::string* find(std::string_view key) const;
 };
 
 class AtomicFile;

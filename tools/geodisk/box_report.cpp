@@ -4,21 +4,12 @@
 
 #include <geodisk/version.hpp>
 
+#include "geodisk/box_text.hpp"
 #include "geodisk/report_parts.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-/// "1 x 0.5 x 2".
-std::string sides_text(const BoxParams& box, const char* separator,
-                       std::string (*text)(double side)) {
-    std::string sides;
-    for (const double side : box.extents) {
-        sides += (sides.empty() ? "" : separator) + text(side);
-    }
-    return sides;
-}
 
 Json seconds_json(const BoxReport& report) {
     return {{"device", report.seconds.device},         {"pipelines", report.seconds.pipelines},
@@ -32,10 +23,6 @@ double total_seconds(const BoxReport& report) {
         total += stage.get<double>();
     }
     return total;
-}
-
-const char* kind_of(const BoxParams& box) {
-    return box.is_periodic ? "periodic" : "open";
 }
 
 } // namespace
@@ -53,8 +40,8 @@ double BoxReport::density() const {
 
 SampleHeader sample_header(const BoxReport& report) {
     return {{{"version", "geodisk " GEODISK_VERSION_STRING},
-             {"box", sides_text(report.box, " x ", exact_text<double>)},
-             {"sides", kind_of(report.box)},
+             {"box", sides_text(report.box, exact_text<double>)},
+             {"sides", kind_text(report.box)},
              {"min_distance", exact_text(report.box.min_distance)},
              {"seed", exact_text(report.box.seed)},
              {"pool_size", exact_text(report.run.candidates)},
@@ -92,9 +79,7 @@ std::string json_text(const BoxReport& report) {
 }
 
 void print_summary(std::ostream& out, const BoxReport& report) {
-    const auto side_text = [](double side) { return rounded(side, 6); };
-    out << "box           " << sides_text(report.box, " x ", side_text) << ", "
-        << kind_of(report.box) << '\n'
+    out << "box           " << box_text(report.box) << '\n'
         << "min distance  " << rounded(report.box.min_distance, 6) << '\n'
         << "samples       " << grouped(report.samples);
     if (report.wanted_count > 0) {

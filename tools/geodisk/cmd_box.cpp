@@ -15,6 +15,7 @@
 #include "common/atomic_file.hpp"
 #include "common/text.hpp"
 #include "geodisk/box_report.hpp"
+#include "geodisk/box_text.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/outputs.hpp"
 #include "geodisk/run_options.hpp"
@@ -74,15 +75,6 @@ std::vector<double> parse_sides(const BoxOptions& options) {
     return sides;
 }
 
-double diagonal_of(const std::vector<double>& sides) {
-    const double longest = *std::max_element(sides.begin(), sides.end());
-    double sum = 0;
-    for (const double side : sides) {
-        sum += (side / longest) * (side / longest);
-    }
-    return longest * std::sqrt(sum);
-}
-
 BoxRequest parse_request(const BoxOptions& options) {
     if (options.min_distance.empty() == options.count.empty()) {
         throw UserError(ExitCode::usage,
@@ -97,8 +89,8 @@ BoxRequest parse_request(const BoxOptions& options) {
     box.seed = options.run.parsed_seed();
     box.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
     if (options.count.empty()) {
-        box.min_distance = parse_length("--min-distance", options.min_distance)
-                               .in_mesh_units(diagonal_of(box.extents));
+        box.min_distance =
+            parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));
     } else {
         request.count = parse_count("--count", options.count);
         box.min_distance = distance_for_count(box, request.count);

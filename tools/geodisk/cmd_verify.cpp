@@ -106,11 +106,7 @@ std::string smallest_text(const SpacingResult& result, const Spacing& spacing) {
                                : "> " + rounded(result.cut, 6)) +
                " of the sum of two radii";
     }
-    if (!result.closest) {
-        return "> " + rounded(result.cut * spacing.min_distance, 6);
-    }
-    return rounded(result.closest->distance, 9) + ", " + rounded(result.closest->ratio, 9) +
-           " of the minimum distance";
+    return smallest_text(result, spacing.min_distance);
 }
 
 /// Of samples that a distance is known of.

@@ -30,19 +30,17 @@ void check_dimensions(const std::string& samples_path, const SampleFile& samples
 } // namespace
 
 double header_distance(const std::string& samples_path, const SampleHeader& header) {
-    for (const auto& [key, value] : header.entries) {
-        if (key != "min_distance") {
-            continue;
-        }
-        const std::optional<double> distance = parse_real(trimmed(value));
-        if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
-            fail_input(samples_path, "its header has the minimum distance " + in_quotes(value) +
-                                         ", which is not a positive number; give --min-distance");
-        }
-        return *distance;
+    const std::string* const value = header.find("min_distance");
+    if (value == nullptr) {
+        throw UserError(ExitCode::usage,
+                        samples_path + ": its header has no minimum distance; give --min-distance");
     }
-    throw UserError(ExitCode::usage,
-                    samples_path + ": its header has no minimum distance; give --min-distance");
+    const std::optional<double> distance = parse_real(trimmed(*value));
+    if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
+        fail_input(samples_path, "its header has the minimum distance " + in_quotes(*value) +
+                                     ", which is not a positive number; give --min-distance");
+    }
+    return *distance;
 }
 
 void check_rows(const std::string& samples_path, const SampleFile& samples,

@@ -63,6 +63,12 @@ std::string row_text(const SampleFile& samples, std::uint32_t row) {
            std::to_string(samples.rows[row].candidate) + ")";
 }
 
+std::string smallest_text(const SpacingResult& result, double min_distance) {
+    return result.closest ? rounded(result.closest->distance, 9) + ", " +
+                                rounded(result.closest->ratio, 9) + " of the minimum distance"
+                          : "> " + rounded(result.cut * min_distance, 6);
+}
+
 void print_violations(std::ostream& out, const SampleFile& samples, const SpacingResult& result,
                       bool with_ratios) {
     out << "violations    " << count_text(result.violations.size(), result.is_complete) << '\n';

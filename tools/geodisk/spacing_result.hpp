@@ -42,6 +42,9 @@ struct SpacingResult {
 /// "sample ROW (candidate INDEX)".
 std::string row_text(const SampleFile& samples, std::uint32_t row);
 
+/// The smallest distance, and what part of `min_distance` it is, the least for all pairs.
+std::string smallest_text(const SpacingResult& result, double min_distance);
+
 /// Prints how many violations there are, the first ones, and how many samples are in them.
 /// `with_ratios` tells what part of the sum of its radii the distance of a pair is.
 void print_violations(std::ostream& out, const SampleFile& samples, const SpacingResult& result,

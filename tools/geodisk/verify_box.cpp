@@ -14,6 +14,7 @@
 #include "common/text.hpp"
 #include "common/user_error.hpp"
 #include "geodisk/box_spacing.hpp"
+#include "geodisk/box_text.hpp"
 #include "geodisk/outputs.hpp"
 #include "geodisk/progress.hpp"
 #include "geodisk/sample_checks.hpp"
@@ -22,12 +23,6 @@
 
 namespace geodisk::tools {
 namespace {
-
-std::optional<std::string> entry_of(const SampleHeader& header, std::string_view key) {
-    const auto entry = std::find_if(header.entries.begin(), header.entries.end(),
-                                    [key](const auto& one) { return one.first == key; });
-    return entry == header.entries.end() ? std::nullopt : std::optional(entry->second);
-}
 
 /// "1 x 0.5": the sides; none if one is no positive number.
 std::vector<double> parse_sides(std::string_view text) {
@@ -46,15 +41,15 @@ std::vector<double> parse_sides(std::string_view text) {
 }
 
 BoxParams box_of(const VerifyBoxOptions& options, const SampleFile& samples) {
-    const auto box_text = entry_of(samples.header, "box");
-    if (!box_text) {
+    const std::string* const sides = samples.header.find("box");
+    if (sides == nullptr) {
         fail_input(options.samples, "its header tells of no box; samples on a mesh are verified "
                                     "with it: geodisk verify MESH SAMPLES");
     }
     BoxParams box;
-    box.extents = parse_sides(*box_text);
+    box.extents = parse_sides(*sides);
     if (box.extents.empty() || box.extents.size() > kMostBoxDimensions) {
-        fail_input(options.samples, "its header has the box " + in_quotes(*box_text) +
+        fail_input(options.samples, "its header has the box " + in_quotes(*sides) +
                                         ", which is not 1 to 6 positive sides");
     }
     if (box.extents.size() > samples.dimension) {
@@ -62,20 +57,16 @@ BoxParams box_of(const VerifyBoxOptions& options, const SampleFile& samples) {
                                         " coordinates, but its box has " +
                                         std::to_string(box.extents.size()) + " sides");
     }
-    const std::string kind = entry_of(samples.header, "sides").value_or("");
-    if (kind != "open" && kind != "periodic") {
+    const std::string* const kind = samples.header.find("sides");
+    if (kind == nullptr || (*kind != "open" && *kind != "periodic")) {
         fail_input(options.samples,
                    "its header does not tell whether the sides of the box are open or periodic");
     }
-    box.is_periodic = kind == "periodic";
-    double square = 0;
-    for (const double side : box.extents) {
-        square += side * side;
-    }
+    box.is_periodic = *kind == "periodic";
     box.min_distance =
         options.min_distance.empty()
             ? header_distance(options.samples, samples.header)
-            : parse_length("--min-distance", options.min_distance).in_mesh_units(std::sqrt(square));
+            : parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));
     return box;
 }
 
@@ -90,24 +81,13 @@ std::size_t count_outside(const BoxParams& box, const SampleFile& samples) {
         }));
 }
 
-std::string smallest_text(const BoxParams& box, const SpacingResult& result) {
-    return result.closest ? rounded(result.closest->distance, 9) + ", " +
-                                rounded(result.closest->ratio, 9) + " of the minimum distance"
-                          : "> " + rounded(result.cut * box.min_distance, 6);
-}
-
 void print_result(const VerifyBoxOptions& options, const BoxParams& box, const SampleFile& samples,
                   const SpacingResult& result, std::size_t outside) {
-    std::string sides;
-    for (const double side : box.extents) {
-        sides += (sides.empty() ? "" : " x ") + rounded(side, 6);
-    }
-    std::cout << "box           " << sides << ", " << (box.is_periodic ? "periodic" : "open")
-              << '\n'
+    std::cout << "box           " << box_text(box) << '\n'
               << "samples       " << grouped(samples.rows.size()) << " in "
               << one_line(options.samples) << '\n'
               << "min distance  " << rounded(box.min_distance, 9) << '\n'
-              << "smallest      " << smallest_text(box, result) << '\n';
+              << "smallest      " << smallest_text(result, box.min_distance) << '\n';
     print_violations(std::cout, samples, result, false);
     if (outside > 0) {
         std::cout << "outside       " << grouped(outside) << '\n';
