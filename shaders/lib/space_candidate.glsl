@@ -23,7 +23,7 @@ uvec2 plus_product(uvec2 sum, uint weight, uint coordinate) {
 // Of unit length, or zero.
 vec3 normal_of(Candidate c) {
     uint row = kSpaceRows * c.face + 3u;
-    float weight0 = weight_of(16777216u - c.weight1 - c.weight2);
+    float weight0 = weight_of(kOneWeight - c.weight1 - c.weight2);
     float weight1 = weight_of(c.weight1);
     float weight2 = weight_of(c.weight2);
     vec3 normal0 = uintBitsToFloat(row_at(corners, row).xyz);
@@ -39,7 +39,7 @@ uint words_per_point() { return kCurved ? 6u : 3u; }
 uint[kMostAxes] draw_point(uint rank) {
     Candidate c = draw_uniform(
         philox(uvec2(push.seed_low, push.seed_high), uvec2(push.first_rank + rank, 0u)));
-    uint weight0 = 16777216u - c.weight1 - c.weight2;
+    uint weight0 = kOneWeight - c.weight1 - c.weight2;
     uint row = kSpaceRows * c.face;
     uvec4 corner0 = row_at(corners, row);
     uvec4 corner1 = row_at(corners, row + 1u);

@@ -30,7 +30,7 @@ Candidate draw_uniform(uvec4 random) {
     precise float square = float(alpha) * 5.9604645e-8;
     precise float both_scaled = root(square) * 16777216.0;
     uint both = uint(both_scaled);
-    umulExtended(both, 16777216u - beta, high, low);
+    umulExtended(both, kOneWeight - beta, high, low);
     uint second = high << 8 | low >> 24;
     return Candidate(face, second, both - second);
 }
