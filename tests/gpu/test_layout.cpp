@@ -10,39 +10,10 @@
 #include "engine/kernel_table.hpp"
 #include "push.h"
 #include "records.h"
+#include "spirv.hpp"
 
 namespace geodisk::test {
 namespace {
-
-constexpr std::uint32_t kOpName = 5;
-constexpr std::uint32_t kOpMemberName = 6;
-constexpr std::uint32_t kOpMemberDecorate = 72;
-constexpr std::uint32_t kDecorationOffset = 35;
-
-using Offsets = std::map<std::string, std::uint32_t>;
-
-std::string text_at(std::span<const std::uint32_t> words) {
-    return reinterpret_cast<const char*>(words.data());
-}
-
-/// Member offsets of every struct that carries them, by the struct's name.
-std::map<std::string, Offsets> struct_offsets(std::span<const std::uint32_t> spirv) {
-    std::map<std::uint32_t, std::string> names;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> members;
-    std::map<std::string, Offsets> result;
-    for (std::size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
-        const std::uint32_t op = spirv[at] & 0xffffu;
-        const auto words = spirv.subspan(at, spirv[at] >> 16);
-        if (op == kOpName) {
-            names[words[1]] = text_at(words.subspan(2));
-        } else if (op == kOpMemberName) {
-            members[{words[1], words[2]}] = text_at(words.subspan(3));
-        } else if (op == kOpMemberDecorate && words[3] == kDecorationOffset) {
-            result[names[words[1]]][members[{words[1], words[2]}]] = words[4];
-        }
-    }
-    return result;
-}
 
 #define GEODISK_OFFSET(type, member)                                                               \
     { #member, static_cast < std::uint32_t>(offsetof(gpu::type, member)) }

@@ -1,0 +1,93 @@
+// What the compiled kernels must hold for every driver to compute the same bits and to be given the
+// descriptors that it looks for.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/kernel_table.hpp"
+#include "spirv.hpp"
+
+namespace doctest {
+template <>
+struct StringMaker<std::vector<geodisk::test::DeclaredBinding>> {
+    static String convert(const std::vector<geodisk::test::DeclaredBinding>& bindings) {
+        std::string text;
+        for (const auto& binding : bindings) {
+            text += "set " + std::to_string(binding.set) + " binding " +
+                    std::to_string(binding.number) + " type " + std::to_string(binding.type) + "; ";
+        }
+        return text.c_str();
+    }
+};
+} // namespace doctest
+
+namespace geodisk::test {
+namespace {
+
+/// Calls visit(kernel, spirv, texels) for both variants of every kernel.
+template <class Visit>
+void for_each_variant(Visit&& visit) {
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
+        for (const bool texels : {false, true}) {
+            const std::string variant = std::string(info.name) + (texels ? " with texels" : "");
+            CAPTURE(variant);
+            visit(info, texels ? info.texels_spirv : info.spirv, texels);
+        }
+    }
+}
+
+std::vector<DeclaredBinding> bindings_in_table(const KernelInfo& info, bool texels) {
+    std::vector<DeclaredBinding> bindings;
+    for (const Binding& binding : info.bindings) {
+        if (has_binding(binding.access, texels)) {
+            bindings.push_back({0, binding.number, descriptor_type(binding.access, texels)});
+        }
+    }
+    return bindings;
+}
+
+/// Takes away the last of the decorations NoContraction.
+std::vector<std::uint32_t> without_last_decoration(std::span<const std::uint32_t> spirv) {
+    constexpr std::uint32_t kDecorate = 3u << 16 | 71u, kNoContraction = 42, kNop = 1u << 16;
+    std::vector<std::uint32_t> words(spirv.begin(), spirv.end());
+    std::size_t last = 0;
+    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
+        if (words[at] == kDecorate && words[at + 2] == kNoContraction) {
+            last = at;
+        }
+    }
+    REQUIRE(last > 0);
+    std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(last), 3, kNop);
+    return words;
+}
+
+} // namespace
+
+TEST_SUITE("spirv") {
+    TEST_CASE("every float operation rounds as written") {
+        for_each_variant([](const KernelInfo&, std::span<const std::uint32_t> spirv, bool) {
+            for (const LooseOperation& loose : loose_operations(spirv)) {
+                FAIL_CHECK("%" << loose.result << " in " << loose.function << ' ' << loose.why);
+            }
+        });
+    }
+
+    TEST_CASE("an operation that lacks its decoration is found") {
+        const auto& spirv = kernel_info(Kernel::self_test).spirv;
+        const auto spoilt = without_last_decoration(spirv);
+        CHECK(loose_operations(spoilt).size() == loose_operations(spirv).size() + 1);
+    }
+
+    TEST_CASE("kernels declare the descriptors that the table gives them") {
+        for_each_variant(
+            [](const KernelInfo& info, std::span<const std::uint32_t> spirv, bool texels) {
+                CHECK(declared_bindings(spirv) == bindings_in_table(info, texels));
+            });
+    }
+}
+
+} // namespace geodisk::test
