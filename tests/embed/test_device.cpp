@@ -5,12 +5,14 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <geodisk/context.hpp>
 #include <geodisk/sampler.hpp>
 
 #include "fake_driver.hpp"
 #include "owned/context_access.hpp"
+#include "support/device_abilities.hpp"
 #include "support/guard.hpp"
 #include "vk/dispatch.hpp"
 #include "vk/result.hpp"
@@ -19,15 +21,14 @@ using namespace geodisk;
 
 namespace {
 
-Context create_on_lavapipe() {
-    ContextOptions options;
-    options.device = "llvmpipe";
-    Result<Context> context = Context::create(options);
+/// On the device that a context takes by itself.
+Context create_context() {
+    Result<Context> context = Context::create();
     REQUIRE(context);
     return std::move(context).value();
 }
 
-/// Queries lavapipe as `driver` shows it.
+/// Queries the context's device as `driver` shows it.
 Result<DeviceReport> query(const test::FakeDriver& driver, const Context& context) {
     const DeviceRefs refs = context.device();
     return query_device(driver.loader().get_instance_proc_addr(), refs.instance,
@@ -78,7 +79,7 @@ VkQueueFamilyProperties family_of(VkQueueFlags flags, std::uint32_t timestamp_bi
 } // namespace
 
 TEST_CASE("a weak device is reported with every reason") {
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     test::FakeDriver driver;
     driver.edit_properties = weaken;
     driver.edit_queue_families = [](auto& families) {
@@ -101,16 +102,20 @@ TEST_CASE("a weak device is reported with every reason") {
 }
 
 TEST_CASE("a context on a weak device is refused with every reason") {
+    const std::string taken = create_context().report().name;
+    const std::string first = list_devices().value().front().name;
     test::FakeDriver driver;
     driver.edit_properties = weaken;
-    for (const char* name : {"", "llvmpipe", "0"}) {
+    const std::pair<std::string, std::string> choices[] = {
+        {"", taken}, {taken, taken}, {"0", first}};
+    for (const auto& [name, refused] : choices) {
         CAPTURE(name);
         ContextOptions options;
         options.device = name;
         const Result<Context> context = ContextAccess::create(driver.loader(), options);
         REQUIRE_FALSE(context);
         CHECK(context.error().status == Status::device_lacks);
-        CHECK(contains(context.error().message, "llvmpipe"));
+        CHECK(contains(context.error().message, refused));
         CHECK(contains(context.error().message, "maxPerStageDescriptorStorageBuffers is 7"));
         CHECK(contains(context.error().message, "maxComputeSharedMemorySize is 16383"));
         CHECK(driver.live_instances() == 0);
@@ -121,18 +126,20 @@ TEST_CASE("a context on a weak device is refused with every reason") {
 }
 
 TEST_CASE("a device that just meets the requirements is usable") {
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     test::FakeDriver driver;
     driver.edit_properties = reduce_to_floor;
     const Result<DeviceReport> report = query(driver, context);
     REQUIRE(report);
     CHECK(report->reasons_against.empty());
-    CHECK(report->rounds_natively); // Found through the extension, without Vulkan 1.2.
+    // Found through the extension, without Vulkan 1.2.
+    CHECK(report->driver_id == context.report().driver_id);
+    CHECK(report->rounds_natively == context.report().rounds_natively);
     CHECK(report->limits.subgroup_size == context.report().limits.subgroup_size);
 }
 
 TEST_CASE("texel buffers that reach less far than storage buffers are not used") {
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     test::FakeDriver driver;
     driver.edit_properties = [](VkPhysicalDeviceProperties& properties) {
         properties.limits.maxTexelBufferElements = properties.limits.maxStorageBufferRange / 4 - 1;
@@ -145,12 +152,28 @@ TEST_CASE("texel buffers that reach less far than storage buffers are not used")
     const Result<Sampler> refused = Sampler::create(refs, options);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().status == Status::device_lacks);
-    CHECK(
-        contains(refused.error().message, "maxTexelBufferElements is 33554431, at least 33554432"));
+    const std::uint64_t least = context.report().limits.max_storage_buffer_range / 4;
+    CHECK(contains(refused.error().message, "maxTexelBufferElements is " +
+                                                std::to_string(least - 1) + ", at least " +
+                                                std::to_string(least)));
+}
+
+TEST_CASE("a sampler reads and rounds in every way that its device has") {
+    const Context context = create_context();
+    for (const Reads reads : test::reads_of(context.report())) {
+        for (const Rounding rounding : test::roundings_of(context.report())) {
+            CAPTURE(to_string(reads));
+            CAPTURE(static_cast<int>(rounding));
+            SamplerOptions options;
+            options.tuning.reads = reads;
+            options.rounding = rounding;
+            CHECK(Sampler::create(context.device(), options));
+        }
+    }
 }
 
 TEST_CASE("a device of Vulkan 1.0 is not asked what it cannot answer") {
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     test::FakeDriver driver;
     driver.edit_properties = [](VkPhysicalDeviceProperties& properties) {
         properties.apiVersion = VK_MAKE_API_VERSION(0, 1, 0, 65);
@@ -164,7 +187,7 @@ TEST_CASE("a device of Vulkan 1.0 is not asked what it cannot answer") {
 }
 
 TEST_CASE("a device name without its terminator stays within its field") {
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     test::FakeDriver driver;
     driver.edit_properties = [](VkPhysicalDeviceProperties& properties) {
         std::fill(std::begin(properties.deviceName), std::end(properties.deviceName), 'x');
@@ -176,7 +199,7 @@ TEST_CASE("a device name without its terminator stays within its field") {
 
 TEST_CASE("a compute family without graphics is preferred") {
     constexpr VkQueueFlags kBoth = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     test::FakeDriver driver;
     std::vector<VkQueueFamilyProperties> families;
     std::uint32_t expected = 0;
@@ -209,7 +232,7 @@ TEST_CASE("a compute family without graphics is preferred") {
 }
 
 TEST_CASE("each missing function is named") {
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     test::FakeDriver driver;
     DeviceRefs refs = context.device();
     refs.get_instance_proc_addr = driver.loader().get_instance_proc_addr();
@@ -234,7 +257,7 @@ TEST_CASE("each missing function is named") {
 }
 
 TEST_CASE("null arguments are refused by name") {
-    const Context context = create_on_lavapipe();
+    const Context context = create_context();
     const DeviceRefs good = context.device();
     const auto message_of = [](const DeviceRefs& refs) {
         const Result<DeviceTable> table = load_device_table(refs);

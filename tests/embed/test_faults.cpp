@@ -13,6 +13,7 @@
 #include "fake_driver.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"
+#include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
 #include "vk/result.hpp"
 
@@ -58,7 +59,11 @@ struct Bench {
     PreparedMesh mesh = prepared(builtin("icosphere", 2));
     SampleParams params = params_for(mesh, 30);
 
-    Result<Runner> create(const RunnerOptions& options = {}) const {
+    /// Whether runners read through buffer views; they do wherever they can.
+    bool reads_texels() const { return reads_of(context.report()).back() == Reads::texels; }
+
+    Result<Runner> create(RunnerOptions options = {}) const {
+        options.sampler.tuning.reads = reads_of(context.report()).back();
         DeviceRefs refs = context.device();
         refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
         return Runner::create(refs, context.queue(), options);
@@ -150,6 +155,10 @@ TEST_SUITE("faults") {
     TEST_CASE("no failed call leaks, spoils the runner or goes unnamed") {
         Bench bench;
         for (const Fallible& fallible : kFallible) {
+            if (!bench.reads_texels() && fallible.function == std::string("vkCreateBufferView")) {
+                MESSAGE("skipped: vkCreateBufferView, the device reads no texels");
+                continue;
+            }
             for (const VkResult result : fallible.results) {
                 CAPTURE(fallible.function);
                 CAPTURE(to_string(result));
@@ -311,7 +320,8 @@ TEST_SUITE("faults") {
                 REQUIRE_FALSE(runner);
                 CHECK(runner.error().status == Status::device_lacks);
                 CHECK(runner.error().message.find(operations[operation]) != std::string::npos);
-                CHECK(runner.error().message.find("llvmpipe") != std::string::npos);
+                CHECK(runner.error().message.find(bench.context.report().name) !=
+                      std::string::npos);
                 CHECK(bench.spy.alive() == "");
             }
         }

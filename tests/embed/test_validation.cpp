@@ -19,7 +19,6 @@ namespace {
 
 ContextOptions with_validation() {
     ContextOptions options;
-    options.device = "llvmpipe";
     options.validation = true;
     return options;
 }
