@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -11,6 +10,7 @@
 
 #include "cli/command.hpp"
 #include "common/sample_file.hpp"
+#include "support/data_file.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -236,13 +236,12 @@ TEST_CASE("wrong usage of transfer is explained") {
 }
 
 TEST_CASE("a scanned animal changes its pose") {
-    const std::string meshes = std::string(GEODISK_SHARED_DATA) + "/meshes/";
-    const std::string first = meshes + "spot_pose_a_6k.obj";
-    const std::string second = meshes + "spot_pose_b_6k.obj";
-    if (!std::filesystem::exists(first) || !std::filesystem::exists(second)) {
-        MESSAGE("skipped: no " << first << " and " << second << ", set GEODISK_SHARED_DATA");
+    const auto rests = data_file("meshes/spot_pose_a_6k.obj");
+    if (!rests) {
         return;
     }
+    const std::string first = rests->string();
+    const std::string second = data_file("meshes/spot_pose_b_6k.obj")->string();
     const TemporaryFolder folder;
     make_samples(folder, first, "1000");
     const Json stays = check_transfer(folder, first, first);

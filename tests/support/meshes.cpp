@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numbers>
 #include <random>
 #include <stdexcept>
 #include <utility>
 
-#include <doctest/doctest.h>
-
 #include "common/builtin_shapes.hpp"
 #include "common/mesh_file.hpp"
 #include "kernels/candidates.hpp"
+#include "support/data_file.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -70,12 +68,11 @@ PreparedMesh prepared(const TestMesh& mesh) {
 }
 
 std::optional<TestMesh> shared_mesh(const std::string& name) {
-    const std::filesystem::path folder{GEODISK_SHARED_DATA};
-    if (!std::filesystem::is_directory(folder)) {
-        MESSAGE("skipped: no shared data folder for " << name);
+    const auto path = data_file(name);
+    if (!path) {
         return std::nullopt;
     }
-    tools::MeshFile file = tools::read_mesh((folder / name).string());
+    tools::MeshFile file = tools::read_mesh(path->string());
     return TestMesh{std::move(file.positions), std::move(file.triangles), file.dimension};
 }
 

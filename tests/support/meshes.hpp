@@ -1,4 +1,4 @@
-// Meshes for tests: shared files, built-in shapes and tiny ones made by hand.
+// Meshes for tests: files, built-in shapes and tiny ones made by hand.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +40,8 @@ struct TestMesh {
 /// PreparedMesh::prepare; throws std::runtime_error with the message when the mesh is rejected.
 PreparedMesh prepared(const TestMesh& mesh);
 
-/// A file of the shared data folder ("meshes/bunny_1k4.obj"), or nothing and a doctest message when
-/// the folder is not there.
+/// The mesh in data_file(name), "meshes/bunny_1k4.obj" or "bad/warn_unwelded.obj", where there is
+/// one.
 std::optional<TestMesh> shared_mesh(const std::string& name);
 
 /// A built-in shape of the tools.

@@ -1,8 +1,9 @@
-// The odd and broken files and the meshes of the shared data folder, if it is there.
+// The odd and broken files, and the real meshes where they are.
 #include "common/mesh_file.hpp"
 #include "common/text.hpp"
 
 #include "mesh_facts.hpp"
+#include "support/data_file.hpp"
 #include "test_files.hpp"
 
 #include <filesystem>
@@ -15,14 +16,8 @@ using namespace geodisk::tools;
 
 namespace {
 
-const std::filesystem::path kSharedData = GEODISK_SHARED_DATA;
-
-bool has_shared_data() {
-    if (std::filesystem::is_directory(kSharedData)) {
-        return true;
-    }
-    MESSAGE("skipped: no folder " << kSharedData.string() << ", set GEODISK_SHARED_DATA");
-    return false;
+std::filesystem::path bad_file(const std::string& name) {
+    return geodisk::test::data_file("bad/" + name).value();
 }
 
 struct Expected {
@@ -35,7 +30,7 @@ struct Expected {
 
 /// The table expected.tsv.
 std::vector<Expected> expected_files() {
-    std::ifstream file(kSharedData / "bad" / "expected.tsv");
+    std::ifstream file(bad_file("expected.tsv"));
     std::vector<Expected> files;
     std::string line;
     std::getline(file, line);
@@ -87,12 +82,9 @@ void check_survives(const TemporaryFolder& folder, const std::string& extension,
 } // namespace
 
 TEST_CASE("odd and broken files get their expected verdict") {
-    if (!has_shared_data()) {
-        return;
-    }
     for (const Expected& expected : expected_files()) {
         CAPTURE(expected.name);
-        const std::string path = (kSharedData / "bad" / expected.name).string();
+        const std::string path = bad_file(expected.name).string();
         MeshFile mesh;
         const std::optional<UserError> error = error_of([&] { mesh = read_mesh(path); });
         if (error) {
@@ -111,15 +103,12 @@ TEST_CASE("odd and broken files get their expected verdict") {
 }
 
 TEST_CASE("cut and altered files are read or refused") {
-    if (!has_shared_data()) {
-        return;
-    }
     const TemporaryFolder folder;
     std::uint32_t random = 12345;
     const auto next_random = [&random] { return random = random * 1664525u + 1013904223u; };
     for (const Expected& expected : expected_files()) {
         CAPTURE(expected.name);
-        const std::filesystem::path path = kSharedData / "bad" / expected.name;
+        const std::filesystem::path path = bad_file(expected.name);
         const std::string bytes = bytes_of(path);
         if (bytes.empty() || bytes.size() > 4000) {
             continue;
@@ -140,9 +129,6 @@ TEST_CASE("cut and altered files are read or refused") {
 }
 
 TEST_CASE("the meshes have the documented numbers of vertices and triangles") {
-    if (!has_shared_data()) {
-        return;
-    }
     struct Size {
         const char* name;
         std::size_t vertices;
@@ -174,7 +160,11 @@ TEST_CASE("the meshes have the documented numbers of vertices and triangles") {
     };
     for (const Size& size : kSizes) {
         CAPTURE(size.name);
-        const MeshFile mesh = read_mesh((kSharedData / "meshes" / size.name).string());
+        const auto path = geodisk::test::data_file(std::string("meshes/") + size.name);
+        if (!path) {
+            return;
+        }
+        const MeshFile mesh = read_mesh(path->string());
         CHECK(mesh.positions.size() / 3 == size.vertices);
         CHECK(mesh.triangles.size() / 3 == size.triangles);
         CHECK(mesh.warnings.empty());

@@ -1,0 +1,15 @@
+// Files that tests read: the project's own in tests/data, real meshes outside the repository.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace geodisk::test {
+
+/// The file "bad/NAME" of tests/data, or "meshes/NAME" of the folder GEODISK_SHARED_DATA. Where
+/// that folder is missing there is nothing and a doctest message says so; in continuous integration
+/// (CI=true in the environment) the test fails.
+std::optional<std::filesystem::path> data_file(const std::string& name);
+
+} // namespace geodisk::test
