@@ -45,7 +45,7 @@ struct SampleOptions {
     std::string output;
     std::string min_distance, radius, count, throws;
     std::string method = "psdp", metric = "geodesic", pool_ratio = "20";
-    bool has_pool_ratio = false;
+    bool has_pool_ratio = false, count_calls = false;
     RunOptions run;
 
     bool throws_darts() const { return method == "pdts"; }
@@ -223,13 +223,13 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     const Context context =
         open_device(options.run.device, options.run.validate, report.seconds.device, progress);
     report.device = context.report();
-    RunnerOptions counting = runner_options;
-    counting.sampler.count_calls = !options.run.json.empty();
-    counting.sampler.adaptive = report.params.radii != nullptr;
+    RunnerOptions chosen = runner_options;
+    chosen.sampler.count_calls = options.count_calls;
+    chosen.sampler.adaptive = report.params.radii != nullptr;
     const double expected = expected_samples(mesh.prepared, report.params);
     SampleSet set;
     if (options.metric == "geodesic") {
-        set = run_on<Runner>(context, counting, expected, report, progress,
+        set = run_on<Runner>(context, chosen, expected, report, progress,
                              [&](Runner& runner, const ProgressCallback& callback) {
                                  return runner.sample_and_wait(mesh.prepared, report.params,
                                                                callback);
@@ -237,7 +237,7 @@ std::vector<Sample> sample_on_device(const SampleOptions& options,
     } else {
         const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
         set = run_on<SpaceRunner>(
-            context, counting, expected, report, progress,
+            context, chosen, expected, report, progress,
             [&](SpaceRunner& runner, const ProgressCallback& callback) {
                 return runner.sample_and_wait(view, mesh.prepared, report.params, callback);
             },
@@ -305,6 +305,7 @@ void run_sample(const SampleOptions& options) {
     report.metric = options.metric;
     report.mesh = mesh.prepared.statistics();
     report.throws_darts = options.throws_darts();
+    report.counts_calls = options.count_calls;
     report.params = request.params_on(mesh);
     report.wanted_count = request.count;
     report.seconds.load = mesh.load_seconds;
@@ -389,6 +390,9 @@ void add_sample_command(CLI::App& app) {
             ->group(method);
 
     add_run_options(*command, options->run);
+    command->add_flag("--count-calls", options->count_calls,
+                      "Count how often the paper's CheckStatus would call itself;\n"
+                      "takes a little time, does not change the samples");
     command->callback([options, pool_ratio] {
         options->has_pool_ratio = pool_ratio->count() > 0;
         run_sample(*options);

@@ -25,6 +25,7 @@ struct SampleReport {
     MeshStatistics mesh;
     SampleParams params;
     bool throws_darts = false; ///< --method pdts.
+    bool counts_calls = false; ///< --count-calls: run.calls tells.
     double wanted_count = 0;   ///< Of --count, where it chose the distance; else 0.
     std::uint64_t samples = 0;
     double rho = 0; ///< Where radii vary, of the samples on a surface of the effective area.
