@@ -217,6 +217,7 @@ void check_replay(const std::string& name, const Case& c, const SampleParams& pa
         replay(c.surface, params, provided_chain(c.surface, params.min_distance));
     CHECK(judged.wrong == 0);
     CHECK(judged.ties <= 2);
+    check_deviation(name, judged);
 }
 
 /// A long needle and thin caps beside plain faces.

@@ -93,6 +93,7 @@ void check_sampled(const std::string& name, const TestMesh& mesh, double count) 
     const ReplayReport judged = replay(surface, params, darts.tolerances.chain);
     CHECK(judged.wrong == 0);
     CHECK(judged.accepted == darts.ranks.size());
+    check_deviation(name, judged);
 }
 
 TestMesh lifted(const char* name, int resolution, const char* lift) {

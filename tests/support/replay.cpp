@@ -1,9 +1,11 @@
 #include "support/replay.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
+
+#include <doctest/doctest.h>
 
 #include "kernels/candidates.hpp"
 #include "kernels/detect.hpp"
@@ -25,19 +27,38 @@ struct Side {
           bins(surface, points), detector(surface, bins, tolerances, limit) {}
 };
 
-/// `limit_with(q)` is the distance below which candidate q conflicts.
-template <class Limit>
-void judge(const std::unordered_set<std::uint32_t>& hits,
-           const std::unordered_map<std::uint32_t, double>& distances, const Limit& limit_with,
-           const Tolerances& tolerances, ReplayReport& report) {
-    for (const std::uint32_t q : hits) {
-        if (distances.count(q) == 0) {
-            ++report.wrong;
-        }
+/// Distances from the sample in hand, by rank; of several paths the shortest counts.
+class Distances {
+  public:
+    void note(std::uint32_t q, double distance) {
+        const auto [at, fresh] = shortest_.emplace(q, distance);
+        at->second = std::min(at->second, distance);
     }
-    for (const auto& [q, distance] : distances) {
+    bool has(std::uint32_t q) const { return shortest_.contains(q); }
+    double of(std::uint32_t q) const { return shortest_.at(q); }
+    auto begin() const { return shortest_.begin(); }
+    auto end() const { return shortest_.end(); }
+
+  private:
+    std::unordered_map<std::uint32_t, double> shortest_;
+};
+
+/// `limit_with(q)` is the distance below which candidate q conflicts; `hits` are those that do in
+/// float.
+template <class Limit>
+void judge(const Distances& hits, const Distances& truth, const Limit& limit_with,
+           const Tolerances& tolerances, ReplayReport& report) {
+    for (const auto& [q, distance] : hits) {
+        if (!truth.has(q)) {
+            ++report.wrong;
+            continue;
+        }
+        report.largest_deviation =
+            std::max(report.largest_deviation, std::abs(distance - truth.of(q)) / tolerances.guard);
+    }
+    for (const auto& [q, distance] : truth) {
         const double limit = limit_with(q);
-        if ((distance < limit) == (hits.count(q) != 0)) {
+        if ((distance < limit) == hits.has(q)) {
             continue;
         }
         const double gap = std::abs(distance - limit);
@@ -65,17 +86,14 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::u
         }
         decided[rank] = true;
         ++report.accepted;
-        std::unordered_set<std::uint32_t> hits;
-        std::unordered_map<std::uint32_t, double> distances;
+        Distances hits;
+        Distances truth;
         floats.detector.run(
             floats.points[rank], [&](std::uint32_t q) { return !decided[floats.bins.order[q]]; },
-            [&](std::uint32_t q, float) { hits.insert(floats.bins.order[q]); });
+            [&](std::uint32_t q, float distance) { hits.note(floats.bins.order[q], distance); });
         doubles.detector.run(
             doubles.points[rank], [&](std::uint32_t q) { return !decided[doubles.bins.order[q]]; },
-            [&](std::uint32_t q, double distance) {
-                const auto [at, fresh] = distances.emplace(doubles.bins.order[q], distance);
-                at->second = std::min(at->second, distance);
-            });
+            [&](std::uint32_t q, double distance) { truth.note(doubles.bins.order[q], distance); });
         const auto limit_with = [&](std::uint32_t q) {
             const double limit = tolerances.limit;
             const auto radius = [&](std::uint32_t i) {
@@ -83,12 +101,18 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::u
             };
             return params.radii == nullptr ? limit : radius(rank) + radius(q) + (limit - 1);
         };
-        judge(hits, distances, limit_with, tolerances, report);
-        for (const std::uint32_t q : hits) {
+        judge(hits, truth, limit_with, tolerances, report);
+        for (const auto& [q, distance] : hits) {
             decided[q] = true;
         }
     }
     return report;
+}
+
+void check_deviation(const std::string& name, const ReplayReport& report) {
+    MESSAGE(name << ": float distances deviate by at most " << report.largest_deviation
+                 << " of the guard");
+    CHECK(report.largest_deviation < 1);
 }
 
 } // namespace geodisk::test
