@@ -1,10 +1,11 @@
 #include "mesh/checks.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <string>
+
+#include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
@@ -96,12 +97,6 @@ Result<Done> check_elements(const MeshView& mesh) {
     return Done{};
 }
 
-/// The shortest text that reads back as the same number, the same in every locale.
-std::string number(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 /// Whether the face names three vertices.
 bool takes_part(std::span<const std::uint32_t> face) {
     return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
@@ -111,7 +106,7 @@ Result<Done> check_face(std::size_t face, std::span<const double> lengths) {
     const std::string name = "face " + std::to_string(face);
     for (const double length : lengths) {
         if (!(length > 0) || length > kLargestCoordinate) {
-            return rejected(name + " has an edge of length " + number(length) +
+            return rejected(name + " has an edge of length " + exact_text(length) +
                                 "; lengths must be positive and at most 1e100",
                             face);
         }
@@ -120,8 +115,8 @@ Result<Done> check_face(std::size_t face, std::span<const double> lengths) {
     const double rest = lengths[0] + lengths[1] + lengths[2] - longest;
     if (rest < longest * (1 - kRoundedLength)) {
         return rejected(name + " violates the triangle inequality: its edges have the lengths " +
-                            number(lengths[0]) + ", " + number(lengths[1]) + " and " +
-                            number(lengths[2]),
+                            exact_text(lengths[0]) + ", " + exact_text(lengths[1]) + " and " +
+                            exact_text(lengths[2]),
                         face);
     }
     return Done{};
@@ -168,12 +163,13 @@ Result<Done> check_agreement(std::span<const HalfEdge> half_edges) {
         const double b = half_edges[other].length;
         if (std::abs(a - b) > kAgreement * std::max(a, b)) {
             const auto [low, high] = std::minmax(h, other);
-            return rejected(
-                "faces " + std::to_string(low / 3) + " and " + std::to_string(high / 3) +
-                    " disagree about edge " + std::to_string(half_edges[low].origin) + "-" +
-                    std::to_string(half_edges[next_in_face(low)].origin) + ": its length is " +
-                    number(half_edges[low].length) + " and " + number(half_edges[high].length),
-                low / 3);
+            return rejected("faces " + std::to_string(low / 3) + " and " +
+                                std::to_string(high / 3) + " disagree about edge " +
+                                std::to_string(half_edges[low].origin) + "-" +
+                                std::to_string(half_edges[next_in_face(low)].origin) +
+                                ": its length is " + exact_text(half_edges[low].length) + " and " +
+                                exact_text(half_edges[high].length),
+                            low / 3);
         }
     }
     return Done{};

@@ -1,24 +1,19 @@
 #include "geodisk/radius_field.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include "mesh/alias_table.hpp"
 #include "mesh/inverse_square.hpp"
 #include "support/guard.hpp"
+#include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
 
 bool is_used(const PreparedMesh& mesh, std::size_t vertex) {
     return mesh.fans()[vertex].corner_count > 0;
-}
-
-std::string text_of(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 /// g^(2/3), by Newton's method from above: by + - * / alone, so it is the same on every machine.
@@ -50,8 +45,8 @@ Result<Done> check_factors(const PreparedMesh& mesh, std::span<const double> fac
         if (is_used(mesh, v) && !(factors[v] >= RadiusField::kLeastFactor && factors[v] <= 1)) {
             return Error{Status::invalid_argument,
                          "the radius factor g of vertex " + std::to_string(v) + " (from 0) is " +
-                             text_of(factors[v]) + "; it must be from " +
-                             text_of(RadiusField::kLeastFactor) + " to 1",
+                             exact_text(factors[v]) + "; it must be from " +
+                             exact_text(RadiusField::kLeastFactor) + " to 1",
                          v};
         }
     }

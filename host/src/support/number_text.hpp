@@ -1,4 +1,4 @@
-// Numbers in messages.
+// Numbers in messages, the same in every locale.
 #pragma once
 
 #include <charconv>
@@ -7,7 +7,7 @@
 
 namespace geodisk {
 
-/// A large or small number for a message, three digits, the same in every locale.
+/// A large or small number, three digits.
 inline std::string number_text(double value) {
     if (!std::isfinite(value)) {
         return "more than 1e308";
@@ -15,6 +15,12 @@ inline std::string number_text(double value) {
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
     return {text, end.ptr};
+}
+
+/// The shortest text that reads back as the same number.
+inline std::string exact_text(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 } // namespace geodisk
