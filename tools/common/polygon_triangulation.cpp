@@ -9,14 +9,8 @@ namespace geodisk::tools {
 
 namespace {
 
-struct Point2 {
-    double x;
-    double y;
-    friend bool operator==(Point2, Point2) = default;
-};
-
 /// Twice the signed area of triangle a b c.
-double turn(Point2 a, Point2 b, Point2 c) {
+double turn(Vec2 a, Vec2 b, Vec2 c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -59,27 +53,27 @@ std::vector<Vec3> normalized_corners(std::span<const double> positions,
 
 /// The polygon seen along the axis nearest to its Newell normal, counter-clockwise. Dropping a
 /// coordinate instead of rotating keeps the others exact and maps a planar polygon one to one.
-std::vector<Point2> project(const std::vector<Vec3>& points) {
+std::vector<Vec2> project(const std::vector<Vec3>& points) {
     Vec3 normal;
     for (std::size_t i = 0; i < points.size(); ++i) {
         normal = normal + cross(points[i], points[(i + 1) % points.size()]);
     }
     const Vec3 size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    std::vector<Point2> projected;
+    std::vector<Vec2> projected;
     projected.reserve(points.size());
     for (const Vec3& p : points) {
         if (size.z >= size.x && size.z >= size.y) {
-            projected.push_back(normal.z < 0 ? Point2{p.y, p.x} : Point2{p.x, p.y});
+            projected.push_back(normal.z < 0 ? Vec2{p.y, p.x} : Vec2{p.x, p.y});
         } else if (size.x >= size.y) {
-            projected.push_back(normal.x < 0 ? Point2{p.z, p.y} : Point2{p.y, p.z});
+            projected.push_back(normal.x < 0 ? Vec2{p.z, p.y} : Vec2{p.y, p.z});
         } else {
-            projected.push_back(normal.y < 0 ? Point2{p.x, p.z} : Point2{p.z, p.x});
+            projected.push_back(normal.y < 0 ? Vec2{p.x, p.z} : Vec2{p.z, p.x});
         }
     }
     return projected;
 }
 
-bool is_fan(const std::vector<Point2>& points) {
+bool is_fan(const std::vector<Vec2>& points) {
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
         if (turn(points[0], points[i], points[i + 1]) <= kStraight) {
             return false;
@@ -94,7 +88,7 @@ bool is_fan(const std::vector<Point2>& points) {
 /// them not convex, take O(n r) steps.
 class EarClipper {
   public:
-    explicit EarClipper(const std::vector<Point2>& points)
+    explicit EarClipper(const std::vector<Vec2>& points)
         : points_(points), count_(points.size()), previous_(count_), next_(count_),
           is_convex_(count_), is_ear_(count_) {
         for (std::size_t i = 0; i < count_; ++i) {
@@ -186,11 +180,11 @@ class EarClipper {
         if (!is_convex_[i]) {
             return false;
         }
-        const Point2 a = points_[previous_[i]];
-        const Point2 b = points_[i];
-        const Point2 c = points_[next_[i]];
+        const Vec2 a = points_[previous_[i]];
+        const Vec2 b = points_[i];
+        const Vec2 c = points_[next_[i]];
         for (std::size_t other = next_[i]; other != i; other = next_[other]) {
-            const Point2 p = points_[other];
+            const Vec2 p = points_[other];
             if (!is_convex_[other] && p != a && p != b && p != c && turn(a, b, p) >= 0 &&
                 turn(b, c, p) >= 0 && turn(c, a, p) >= 0) {
                 return false;
@@ -199,7 +193,7 @@ class EarClipper {
         return true;
     }
 
-    const std::vector<Point2>& points_;
+    const std::vector<Vec2>& points_;
     std::size_t count_; ///< Corners left, linked by previous_ and next_.
     std::vector<std::size_t> previous_;
     std::vector<std::size_t> next_;
@@ -222,7 +216,7 @@ void triangulate_polygon(std::span<const double> positions, std::span<const std:
     if (corners.size() < 3) {
         return;
     }
-    const std::vector<Point2> points = project(normalized_corners(positions, corners));
+    const std::vector<Vec2> points = project(normalized_corners(positions, corners));
     if (is_fan(points)) {
         for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
             emit(0, i, i + 1);
