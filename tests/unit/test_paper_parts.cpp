@@ -13,9 +13,3 @@ TEST_CASE("a table is aligned for people and quoted for programs") {
                           "c           -\n");
     CHECK(table.csv() == "mesh,value\n\"a, \"\"b\"\"\",1.5\nc,\n");
 }
-
-TEST_CASE("decimals are as many as asked for") {
-    CHECK(fixed(0.77912, 4) == "0.7791");
-    CHECK(fixed(3, 0) == "3");
-    CHECK(fixed(1e300, 0).size() == 301);
-}

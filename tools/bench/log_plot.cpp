@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <string_view>
+
+#include "common/number_text.hpp"
 
 namespace geodisk::bench {
 namespace {
@@ -31,9 +32,7 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kColours{{{"#0068a8
                                                                        {"#5a5f66", "#b4bac2"}}};
 
 std::string number(double value) {
-    char digits[64];
-    const auto end = std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, 1);
-    return {digits, end.ptr};
+    return tools::fixed(value, 1);
 }
 
 std::string escaped(std::string_view text) {
@@ -308,29 +307,22 @@ std::string tick_text(double value, const std::string& unit) {
     };
     constexpr Prefix kPrefixes[] = {{1e12, "T"}, {1e9, "G"},  {1e6, "M"},         {1e3, "k"},
                                     {1, ""},     {1e-3, "m"}, {1e-6, "\xC2\xB5"}, {1e-9, "n"}};
-    char digits[32];
     // A thousandth of no unit would read "50m".
     if (unit.empty() && value < 1 && value >= 0.0009) {
-        const auto end =
-            std::to_chars(digits, std::end(digits), value, std::chars_format::general, 3);
-        return {digits, end.ptr};
+        return tools::rounded(value, 3);
     }
     const Prefix* prefix = kPrefixes;
     while (prefix + 1 != std::end(kPrefixes) && value < prefix->factor * 0.9999) {
         ++prefix;
     }
-    const auto end = std::to_chars(digits, std::end(digits), value / prefix->factor,
-                                   std::chars_format::general, 3);
-    return std::string(digits, end.ptr) + (unit.empty() ? "" : " ") + prefix->name + unit;
+    return tools::rounded(value / prefix->factor, 3) + (unit.empty() ? "" : " ") + prefix->name +
+           unit;
 }
 
 std::string linear_tick_text(double value, double step, const std::string& unit) {
     constexpr double kSame = 1e-9; // Powers of ten are not exact.
     const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - kSame)));
-    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
-    const auto end =
-        std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, decimals);
-    return std::string(digits, end.ptr) + (unit.empty() ? "" : " ") + unit;
+    return tools::fixed(value, decimals) + (unit.empty() ? "" : " ") + unit;
 }
 
 } // namespace geodisk::bench

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/fields.hpp"
+#include "common/number_text.hpp"
 #include "common/text.hpp"
 #include "program/human_text.hpp"
 
@@ -20,15 +21,13 @@ void add_fields(Json& object, const Record& record) {
 
 template <class Value>
 std::string value_text(const Value& value) {
-    std::string text;
     if constexpr (std::is_same_v<Value, std::string>) {
-        text = tools::one_line(value);
+        return tools::one_line(value);
     } else if constexpr (std::is_same_v<Value, bool>) {
-        text = value ? "true" : "false";
+        return value ? "true" : "false";
     } else {
-        tools::append_number(text, value);
+        return tools::exact_text(value);
     }
-    return text;
 }
 
 Json growth_json(const Series& series, const Growth& growth) {

@@ -1,11 +1,10 @@
 #include "bench/table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
-#include <iterator>
 #include <string>
 
+#include "common/number_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::bench {
@@ -18,24 +17,17 @@ struct Column {
     std::string (*text)(const Measurement& row);
 };
 
-std::string fixed(double value, int decimals) {
-    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
-    const auto end =
-        std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, decimals);
-    return {digits, end.ptr};
-}
-
 std::string whole(double value) {
-    return fixed(value, 0);
+    return tools::fixed(value, 0);
 }
 
 std::string seconds(double value) {
-    return fixed(value, value < 100 ? 4 : 1);
+    return tools::fixed(value, value < 100 ? 4 : 1);
 }
 
 /// Three significant digits, but never fewer than those before the point.
 std::string three_digits(double value) {
-    return fixed(value, value < 1 ? 3 : value < 10 ? 2 : value < 100 ? 1 : 0);
+    return tools::fixed(value, value < 1 ? 3 : value < 10 ? 2 : value < 100 ? 1 : 0);
 }
 
 constexpr std::size_t kNameWidth = 20;
@@ -70,7 +62,7 @@ constexpr Column kColumns[] = {
     {"", "grown", 5, [](const Measurement& r) { return std::to_string(r.run.regrown); }},
     {"device", "MiB", 7,
      [](const Measurement& r) {
-         return fixed(static_cast<double>(r.run.device_bytes) / 1048576.0, 1);
+         return tools::fixed(static_cast<double>(r.run.device_bytes) / 1048576.0, 1);
      }},
     {"byte/", "candid.", 7, [](const Measurement& r) {
          return three_digits(static_cast<double>(r.run.device_bytes) / r.run.candidates);
@@ -135,7 +127,7 @@ void print_row(const Measurement& row) {
         }
         const double waited =
             1 - static_cast<double>(row.run.trips) / static_cast<double>(row.run.lane_trips);
-        std::cout << "  lanes waiting " << fixed(100 * waited, 0) << " %\n";
+        std::cout << "  lanes waiting " << tools::fixed(100 * waited, 0) << " %\n";
     }
     std::cout << std::flush;
 }
@@ -144,10 +136,11 @@ void print_growth(const Series& series) {
     for (const Growth& growth : series.growth) {
         std::cout << "  " << growth.quantity << " time of " << tools::one_line(series.mesh);
         if (growth.law) {
-            std::cout << " ~ " << to_string(series.sweep) << "^" << fixed(growth.law->exponent, 3)
-                      << " from " << tools::grouped(static_cast<std::uint64_t>(growth.law->from))
-                      << " on  (R2 " << fixed(growth.law->r_squared, 3) << ", "
-                      << growth.law->points << " points)\n";
+            std::cout << " ~ " << to_string(series.sweep) << "^"
+                      << tools::fixed(growth.law->exponent, 3) << " from "
+                      << tools::grouped(static_cast<std::uint64_t>(growth.law->from)) << " on  (R2 "
+                      << tools::fixed(growth.law->r_squared, 3) << ", " << growth.law->points
+                      << " points)\n";
         } else {
             std::cout << ": too few steps to fit an exponent\n";
         }
@@ -165,7 +158,7 @@ void print_tune_heading(const Circumstances& run) {
 void print_trial(const Trial& trial) {
     std::string line;
     append_left(line, trial.setting, kNameWidth);
-    append_right(line, fixed(trial.ratio, 3), 8);
+    append_right(line, tools::fixed(trial.ratio, 3), 8);
     std::cout << line << (trial.is_kept ? "  kept\n" : "\n") << std::flush;
 }
 

@@ -1,6 +1,7 @@
 #include "common/ply_reader.hpp"
 
 #include "common/file_input.hpp"
+#include "common/number_text.hpp"
 #include "common/ply_file.hpp"
 #include "common/sidecar_files.hpp"
 #include "common/text.hpp"
@@ -124,9 +125,9 @@ void read_faces(const std::filesystem::path& path, PlyFile& file, const PlyEleme
             const bool in_range = value >= 0 && value <= std::numeric_limits<std::uint32_t>::max();
             const std::uint32_t corner = in_range ? static_cast<std::uint32_t>(value) : 0;
             if (!in_range || static_cast<double>(corner) != value) {
-                std::string message = "vertex index ";
-                append_number(message, value);
-                file.fail(element, index, message + " is out of range or not a whole number");
+                file.fail(element, index,
+                          "vertex index " + exact_text(value) +
+                              " is out of range or not a whole number");
             }
             mesh.corners.push_back(corner);
         }

@@ -3,8 +3,8 @@
 #include "common/atomic_file.hpp"
 #include "common/file_input.hpp"
 #include "common/little_endian.hpp"
+#include "common/number_text.hpp"
 #include "common/sample_columns.hpp"
-#include "common/text.hpp"
 #include "common/user_error.hpp"
 
 #include <algorithm>

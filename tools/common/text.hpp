@@ -32,14 +32,6 @@ std::optional<Integer> parse_integer(std::string_view text) {
     return value;
 }
 
-/// Appends the shortest decimal form that reads back as the same number.
-template <typename Number>
-void append_number(std::string& text, Number value) {
-    char digits[32];
-    const std::to_chars_result result = std::to_chars(digits, digits + sizeof digits, value);
-    text.append(digits, result.ptr);
-}
-
 /// `text` in quotes for a one-line message: long text is cut, unprintable bytes become '?'.
 std::string in_quotes(std::string_view text);
 

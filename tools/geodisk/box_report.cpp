@@ -4,6 +4,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "common/number_text.hpp"
 #include "geodisk/box_text.hpp"
 #include "geodisk/report_parts.hpp"
 #include "program/human_text.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "program/human_text.hpp"
+#include "common/number_text.hpp"
 
 namespace geodisk::tools {
 

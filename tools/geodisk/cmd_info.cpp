@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -17,6 +16,7 @@
 #include <geodisk/context.hpp>
 #include <geodisk/version.hpp>
 
+#include "common/number_text.hpp"
 #include "common/user_error.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -35,10 +35,8 @@ std::string version_text(std::uint32_t version) {
 std::string timestamp_text(const DeviceReport& report) {
     if (report.timestamp_valid_bits == 0)
         return "none";
-    char text[64];
-    std::snprintf(text, sizeof text, "%u bits, %g ns per tick", report.timestamp_valid_bits,
-                  static_cast<double>(report.limits.timestamp_period));
-    return text;
+    return std::to_string(report.timestamp_valid_bits) + " bits, " +
+           rounded(report.limits.timestamp_period, 6) + " ns per tick";
 }
 
 void print_device(std::ostream& out, std::size_t index, const DeviceReport& report,

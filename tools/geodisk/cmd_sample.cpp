@@ -16,6 +16,7 @@
 #include <geodisk/space.hpp>
 
 #include "common/atomic_file.hpp"
+#include "common/number_text.hpp"
 #include "common/sample_file.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"

@@ -13,8 +13,8 @@
 
 #include "common/atomic_file.hpp"
 #include "common/file_input.hpp"
+#include "common/number_text.hpp"
 #include "common/sample_file.hpp"
-#include "common/text.hpp"
 #include "common/user_error.hpp"
 #include "geodisk/json_text.hpp"
 #include "geodisk/mesh_input.hpp"
@@ -98,9 +98,7 @@ SampleHeader transferred_header(const TransferOptions& options, const SampleHead
         header.entries.push_back(entry);
     }
     if (closest) {
-        std::string distance;
-        append_number(distance, closest->distance);
-        header.entries.emplace_back("min_distance", distance);
+        header.entries.emplace_back("min_distance", exact_text(closest->distance));
     }
     header.entries.emplace_back("transferred_from", options.samples);
     for (const auto& [key, value] : source.entries) {

@@ -14,8 +14,8 @@
 #include <geodisk/version.hpp>
 
 #include "common/file_input.hpp"
+#include "common/number_text.hpp"
 #include "common/sample_file.hpp"
-#include "common/text.hpp"
 #include "common/user_error.hpp"
 #include "geodisk/json_text.hpp"
 #include "geodisk/mesh_input.hpp"

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/file_input.hpp"
+#include "common/number_text.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
 #include "geodisk/spacing_result.hpp"

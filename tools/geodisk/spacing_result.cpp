@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "common/number_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {

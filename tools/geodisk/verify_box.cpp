@@ -10,6 +10,7 @@
 #include <geodisk/version.hpp>
 
 #include "common/file_input.hpp"
+#include "common/number_text.hpp"
 #include "common/sample_file.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"

@@ -1,4 +1,5 @@
 // Sections 5.9 and 6: speed in boxes of one to six dimensions, beside sequential methods.
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <chrono>
@@ -96,9 +97,9 @@ void add_dimension(const Options& options, const Context& context, std::uint32_t
         });
     }
     table.add({std::to_string(dimension), tools::rounded(box.min_distance, 6),
-               fixed(device.samples, 0), fixed(device.per_second() / 1e6, 3),
-               fixed(reference.per_second() / 1e6, 3), fixed(around.samples, 0),
-               fixed(around.per_second() / 1e6, 3), kPrintedSpeeds[dimension]});
+               tools::fixed(device.samples, 0), tools::fixed(device.per_second() / 1e6, 3),
+               tools::fixed(reference.per_second() / 1e6, 3), tools::fixed(around.samples, 0),
+               tools::fixed(around.per_second() / 1e6, 3), kPrintedSpeeds[dimension]});
 }
 
 void run(const Options& options) {

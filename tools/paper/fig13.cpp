@@ -1,5 +1,6 @@
 // Fig. 13: what the closed form of Bowers et al. 2010 saves against exact distances, and priorities
 // beside phase groups with the same closed form (section 6.1).
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <algorithm>
@@ -111,13 +112,13 @@ struct Figure {
         const double per_disk = 100 * of([](const Comparison& c) { return c.samples / c.disks; });
         const double close =
             100 * of([](const Comparison& c) { return c.close_samples / c.samples; });
-        table.add({mesh, fixed(samples, 0),
-                   fixed(of([](const Comparison& c) { return c.exact_seconds; }), 4),
-                   fixed(of([](const Comparison& c) { return c.curve_seconds; }), 4),
-                   fixed(gain, 2),
-                   fixed(of([](const Comparison& c) { return c.phase_seconds; }), 4),
-                   fixed(of([](const Comparison& c) { return c.phase_samples; }), 0),
-                   fixed(part, 1), fixed(per_disk, 1), fixed(close, 2)});
+        table.add({mesh, tools::fixed(samples, 0),
+                   tools::fixed(of([](const Comparison& c) { return c.exact_seconds; }), 4),
+                   tools::fixed(of([](const Comparison& c) { return c.curve_seconds; }), 4),
+                   tools::fixed(gain, 2),
+                   tools::fixed(of([](const Comparison& c) { return c.phase_seconds; }), 4),
+                   tools::fixed(of([](const Comparison& c) { return c.phase_samples; }), 0),
+                   tools::fixed(part, 1), tools::fixed(per_disk, 1), tools::fixed(close, 2)});
         speed_up.lines.back().points.push_back({samples, gain});
         (relative.lines.end() - 2)->points.push_back({samples, part});
         relative.lines.back().points.push_back({samples, per_disk});

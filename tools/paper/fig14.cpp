@@ -1,5 +1,6 @@
 // Fig. 14: packing density against |P|/|S| in the unit square, beside that of maximal sampling
 // (section 6.4).
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <algorithm>
@@ -59,9 +60,10 @@ Densities measured(const Options& options, const ref::Box& box, double min_dista
 
 void add_row(Table& table, const std::string& method, const std::string& domain,
              const std::string& candidates, double pool, const Densities& densities) {
-    table.add({method, domain, candidates, pool > 0 ? fixed(pool / densities.samples, 1) : "",
-               fixed(densities.samples, 0), fixed(densities.mean, 4), fixed(densities.least, 4),
-               fixed(densities.most, 4)});
+    table.add({method, domain, candidates,
+               pool > 0 ? tools::fixed(pool / densities.samples, 1) : "",
+               tools::fixed(densities.samples, 0), tools::fixed(densities.mean, 4),
+               tools::fixed(densities.least, 4), tools::fixed(densities.most, 4)});
 }
 
 void add_level(bench::LogPlot& plot, const std::string& label, double rho,

@@ -1,4 +1,5 @@
 // Fig. 5: speed against N, speed and packing density against |P|/|S| (sections 5.1 and 5.2).
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <iostream>
@@ -51,9 +52,9 @@ struct Figure {
     void add(const std::string& mesh, bool by_ratio, const DeviceRun& run) {
         const double ratio = run.candidates / run.samples;
         const double speed = run.samples / run.seconds;
-        table.add({mesh, by_ratio ? "candidates" : "samples", fixed(ratio, 1),
-                   fixed(run.samples, 0), fixed(run.seconds, 4), fixed(speed, 0),
-                   fixed(run.rho, 4)});
+        table.add({mesh, by_ratio ? "candidates" : "samples", tools::fixed(ratio, 1),
+                   tools::fixed(run.samples, 0), tools::fixed(run.seconds, 4),
+                   tools::fixed(speed, 0), tools::fixed(run.rho, 4)});
         if (by_ratio) {
             speed_by_ratio.lines.back().points.push_back({ratio, speed});
             rho_by_ratio.lines.back().points.push_back({ratio, run.rho});

@@ -1,5 +1,6 @@
 // Fig. 7: samples that distances through space lose where parts of a surface lie close together or
 // cross, and exact distances do not (section 6.1).
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <array>
@@ -11,7 +12,6 @@
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
 #include "program/arguments.hpp"
-#include "program/human_text.hpp"
 
 namespace geodisk::paper {
 namespace {
@@ -89,8 +89,10 @@ struct Figure {
             const bool is_exact = metric == Metric::exact;
             const char* const as_flat = result.equals_flat ? "same set" : "another set";
             table.add({name, tools::rounded(distance, 4), name_of(metric),
-                       fixed(tally.samples / repeats, 1), fixed(result.lost_percent(metric), 1),
-                       fixed(tally.pairs / repeats, 1), fixed(tally.close_percent(), 2),
+                       tools::fixed(tally.samples / repeats, 1),
+                       tools::fixed(result.lost_percent(metric), 1),
+                       tools::fixed(tally.pairs / repeats, 1),
+                       tools::fixed(tally.close_percent(), 2),
                        is_exact && has_flat ? as_flat : ""});
         }
         (plot.lines.end() - 2)->points.push_back({distance, result.lost_percent(Metric::straight)});

@@ -1,4 +1,5 @@
 // Fig. 8: as many samples on a surface at several resolutions (section 5.7).
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <iostream>
@@ -40,10 +41,10 @@ void run(const Options& options) {
         const SampleParams params = params_for(mesh, count, kDefaultPoolRatio, options.common.seed);
         const DeviceRun result = device.sample(mesh, params, options.common.repeats);
         const auto triangles = static_cast<double>(mesh.prepared.statistics().triangles);
-        table.add({mesh.name, fixed(triangles, 0), tools::rounded(mesh.area(), 6),
-                   tools::rounded(params.min_distance / 2, 6), fixed(result.samples, 1),
-                   fixed(result.rho, 4), fixed(result.least_rho, 4), fixed(result.most_rho, 4),
-                   fixed(result.seconds, 4)});
+        table.add({mesh.name, tools::fixed(triangles, 0), tools::rounded(mesh.area(), 6),
+                   tools::rounded(params.min_distance / 2, 6), tools::fixed(result.samples, 1),
+                   tools::fixed(result.rho, 4), tools::fixed(result.least_rho, 4),
+                   tools::fixed(result.most_rho, 4), tools::fixed(result.seconds, 4)});
         plot.lines[0].points.push_back({triangles, result.rho});
         plot.lines[1].points.push_back({triangles, result.least_rho});
         plot.lines[2].points.push_back({triangles, result.most_rho});

@@ -1,5 +1,6 @@
 // Fig. 9: samples that the closed form of Bowers et al. 2010 places too close together, by exact
 // distances (section 5.2).
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <iostream>
@@ -9,7 +10,6 @@
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
 #include "program/arguments.hpp"
-#include "program/human_text.hpp"
 
 namespace geodisk::paper {
 namespace {
@@ -48,9 +48,10 @@ void run(const Options& options) {
         for (const double count : counts) {
             for (const Metric metric : kMetrics) {
                 const Tally tally = measure(mesh, count, metric, options.common);
-                table.add({mesh.name, name_of(metric), fixed(tally.samples / repeats, 1),
-                           fixed(tally.pairs / repeats, 1), fixed(tally.close / repeats, 1),
-                           fixed(tally.close_percent(), 2)});
+                table.add({mesh.name, name_of(metric), tools::fixed(tally.samples / repeats, 1),
+                           tools::fixed(tally.pairs / repeats, 1),
+                           tools::fixed(tally.close / repeats, 1),
+                           tools::fixed(tally.close_percent(), 2)});
                 if (metric == Metric::curve) {
                     plot.lines.back().points.push_back(
                         {tally.samples / repeats, tally.close_percent()});

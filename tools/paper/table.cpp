@@ -1,8 +1,6 @@
 #include "paper/table.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <iterator>
 
 #include "common/text.hpp"
 
@@ -62,13 +60,6 @@ std::string Table::csv() const {
         text += csv_line(row);
     }
     return text;
-}
-
-std::string fixed(double value, int decimals) {
-    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
-    const auto end =
-        std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, decimals);
-    return {digits, end.ptr};
 }
 
 } // namespace geodisk::paper

@@ -27,7 +27,4 @@ class Table {
     std::vector<std::vector<std::string>> rows_;
 };
 
-/// `value` in decimals, whatever the locale.
-std::string fixed(double value, int decimals);
-
 } // namespace geodisk::paper

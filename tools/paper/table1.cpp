@@ -1,4 +1,5 @@
 // Table 1: how often CheckStatus calls itself (section 5.4), in the reference and on a device.
+#include "common/number_text.hpp"
 #include "paper/commands.hpp"
 
 #include <algorithm>
@@ -66,10 +67,10 @@ void add_printed(Table& table, bench::LogPlot& plot, double ratio, std::size_t g
         std::vector<std::string> cells{tools::rounded(ratio, 4), "paper", ""};
         double mean = 0;
         for (std::size_t i = 0; i < printed.percent.size(); ++i) {
-            cells.push_back(fixed(printed.percent[i], 2));
+            cells.push_back(tools::fixed(printed.percent[i], 2));
             mean += printed.percent[i] / 100 * static_cast<double>(i + 1);
         }
-        cells.insert(cells.end(), {fixed(mean, 3), ""});
+        cells.insert(cells.end(), {tools::fixed(mean, 3), ""});
         table.add(std::move(cells));
         add_line(plot, "N/T = " + tools::rounded(ratio, 4) + ", paper", group, true,
                  printed.percent);
@@ -129,11 +130,11 @@ std::array<double, 10> add_measured(Table& table, const Setup& setup, const std:
     std::array<double, 10> percent{};
     for (std::size_t i = 0; i < percent.size(); ++i) {
         percent[i] = 100 * measured.calls.share(i);
-        cells.push_back(fixed(percent[i], 2));
+        cells.push_back(tools::fixed(percent[i], 2));
     }
     const auto active = static_cast<double>(measured.calls.total());
-    cells.insert(cells.end(),
-                 {fixed(measured.calls.mean(), 3), fixed(active / measured.samples, 3)});
+    cells.insert(cells.end(), {tools::fixed(measured.calls.mean(), 3),
+                               tools::fixed(active / measured.samples, 3)});
     table.add(std::move(cells));
     return percent;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "common/number_text.hpp"
 #include "common/text.hpp"
 #include "common/user_error.hpp"
 
@@ -49,11 +50,7 @@ double parse_count(const std::string& option, const std::string& text) {
 double parse_ratio(const std::string& option, const std::string& text, double low, double high) {
     const std::optional<double> value = parse_real(trimmed(text));
     if (!value || !(*value >= low && *value <= high)) {
-        std::string range;
-        append_number(range, low);
-        range += " to ";
-        append_number(range, high);
-        fail(option, text, "is not a number of " + range);
+        fail(option, text, "is not a number of " + exact_text(low) + " to " + exact_text(high));
     }
     return *value;
 }

@@ -1,19 +1,11 @@
 #include "program/human_text.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
+#include "common/number_text.hpp"
+
 namespace geodisk::tools {
-namespace {
-
-std::string in_format(double value, std::chars_format format, int precision) {
-    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
-    const auto result = std::to_chars(digits, digits + sizeof digits, value, format, precision);
-    return {digits, result.ptr};
-}
-
-} // namespace
 
 std::string grouped(std::uint64_t value) {
     std::string text = std::to_string(value);
@@ -27,17 +19,12 @@ std::string counted(std::uint64_t value, std::string_view one, std::string_view 
     return grouped(value) + ' ' + std::string(value == 1 ? one : many);
 }
 
-std::string rounded(double value, int digits) {
-    return in_format(value, std::chars_format::general, digits);
-}
-
 std::string seconds_text(double seconds) {
     if (seconds < 0.9995) {
-        return in_format(1000 * seconds, std::chars_format::fixed, seconds < 0.00995 ? 1 : 0) +
-               " ms";
+        return fixed(1000 * seconds, seconds < 0.00995 ? 1 : 0) + " ms";
     }
     if (seconds < 60) {
-        return in_format(seconds, std::chars_format::fixed, seconds < 9.995 ? 2 : 1) + " s";
+        return fixed(seconds, seconds < 9.995 ? 2 : 1) + " s";
     }
     const auto whole = static_cast<std::uint64_t>(seconds);
     return grouped(whole / 60) + " min " + std::to_string(whole % 60) + " s";
@@ -52,7 +39,7 @@ std::string size_text(std::uint64_t bytes) {
         ++unit;
     }
     const int decimals = value == std::floor(value) ? 0 : 1;
-    return in_format(value, std::chars_format::fixed, decimals) + ' ' + kUnits[unit];
+    return fixed(value, decimals) + ' ' + kUnits[unit];
 }
 
 const char* type_name(VkPhysicalDeviceType type) {

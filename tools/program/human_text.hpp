@@ -16,9 +16,6 @@ std::string grouped(std::uint64_t value);
 /// "1 vertex" or "1,234 vertices".
 std::string counted(std::uint64_t value, std::string_view one, std::string_view many);
 
-/// Rounded to `digits` significant digits, without trailing zeros.
-std::string rounded(double value, int digits);
-
 /// "12 ms", "1.23 s" or "4 min 5 s".
 std::string seconds_text(double seconds);
 
