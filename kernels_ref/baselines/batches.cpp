@@ -5,9 +5,23 @@
 #include "constants.h"
 #include "kernels/count_calls.hpp"
 #include "kernels/resolve.hpp"
-#include "kernels/select.hpp"
 
 namespace geodisk::ref {
+namespace {
+
+/// Up to `slots` idle ranks from `first` on, ascending.
+std::vector<std::uint32_t> select_idle(const std::vector<std::uint8_t>& states, std::uint32_t first,
+                                       std::uint32_t slots) {
+    std::vector<std::uint32_t> ranks;
+    for (std::uint32_t rank = first; rank < states.size() && ranks.size() < slots; ++rank) {
+        if (states[rank] == gpu::kIdle) {
+            ranks.push_back(rank);
+        }
+    }
+    return ranks;
+}
+
+} // namespace
 
 BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls) {
     constexpr std::uint32_t kNotActive = ~0u;

@@ -16,7 +16,7 @@ class RandomStream {
 
     std::uint32_t word() {
         if (used_ == block_.size()) {
-            block_ = philox(seed_, index_++);
+            block_ = philox(seed_, {index_++, 0, 0, 0});
             used_ = 0;
         }
         return block_[used_++];

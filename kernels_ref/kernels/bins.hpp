@@ -1,10 +1,12 @@
-// Twin of shaders/kernels/scan_*.comp and bin_fill.comp: candidates sorted by face and cell.
+// Points sorted by face and cell, as detect finds them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "geodisk/uninitialized.hpp"
 #include "lib/surface.hpp"
 
 namespace geodisk::ref {
@@ -27,18 +29,45 @@ struct Position {
     Real x, y;
 };
 template <class Real>
-Position<Real> position_in(const Surface<Real>& surface, std::uint32_t h, FacePoint<Real> point);
+Position<Real> position_in(const Surface<Real>& surface, std::uint32_t h, FacePoint<Real> point) {
+    const Edge<Real>& edge = surface.edges[h];
+    const Real weights[3] = {Real{1} - point.weight1 - point.weight2, point.weight1, point.weight2};
+    const std::uint32_t k = h % 3;
+    const Real end = weights[(k + 1) % 3];
+    const Real apex = weights[(k + 2) % 3];
+    return {end * edge.length + apex * edge.apex_x, apex * edge.apex_y};
+}
 
-/// Points sorted by cell. `order[starts[c] .. starts[c + 1])` are the points of cell c, in rank
-/// order; the cells of face f begin at `first_cell[f]`, row by row.
+/// Which cell of its face's grid a point lies in.
+template <class Real>
+std::uint32_t cell_of(const Surface<Real>& surface, const Grid& grid, FacePoint<Real> point) {
+    if (grid.single()) {
+        return 0;
+    }
+    const auto at = position_in(surface, grid.base, point);
+    const Real per_unit = surface.cells_per_unit(point.face);
+    const auto index = [per_unit](Real x, std::uint32_t count) {
+        const Real scaled = x * per_unit;
+        return scaled <= 0 ? 0 : std::min(static_cast<std::uint32_t>(scaled), count - 1);
+    };
+    return index(at.y, grid.rows) * grid.columns + index(at.x, grid.columns);
+}
+
+/// Points sorted by cell. `order[starts[c] .. starts[c + 1])` are the points of cell c; the cells
+/// of face f begin at `first_cell[f]`, row by row.
 template <class Real>
 struct Bins {
-    std::vector<std::uint32_t> first_cell; ///< One more than faces.
-    std::vector<std::uint32_t> starts;     ///< One more than cells.
-    std::vector<std::uint32_t> order;
-    std::vector<FacePoint<Real>> points; ///< In the order of `order`.
+    std::vector<std::uint32_t> first_cell;       ///< One more than faces.
+    std::vector<std::uint32_t> starts;           ///< One more than cells.
+    std::vector<std::uint32_t> order;            ///< Empty in a Pool, which lists its places.
+    UninitializedVector<FacePoint<Real>> points; ///< By place, so in the order of `order`.
 
-    Bins(const Surface<Real>& surface, std::span<const FacePoint<Real>> by_rank);
+    Bins() = default;
+    /// Points in any order, which those of a cell keep.
+    Bins(const Surface<Real>& surface, std::span<const FacePoint<Real>> given);
+
+    /// Numbers the cells, and returns the grids of the faces.
+    std::vector<Grid> lay_out(const Surface<Real>& surface);
 };
 
 } // namespace geodisk::ref

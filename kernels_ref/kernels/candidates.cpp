@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "constants.h"
+#include "kernels/poisson.hpp"
 #include "lib/rng.hpp"
 #include "lib/scalar.hpp"
 
@@ -12,6 +13,10 @@ namespace geodisk::ref {
 namespace {
 
 constexpr std::uint32_t kOneWeight = 1u << 24;
+/// Where a candidate's counter has its attempt, that of a face's count has this.
+constexpr std::uint32_t kCountCounter = 0xffffffff;
+/// Priorities are the high 28 bits of a word.
+constexpr std::uint32_t kPriorityShift = 4;
 
 /// In float and integers whatever Real is: how a candidate is drawn is part of its definition.
 struct Draw {
@@ -25,13 +30,7 @@ struct Draw {
     }
 };
 
-Draw draw_uniform(std::span<const AliasColumn> alias, const std::array<std::uint32_t, 4>& random) {
-    // A 64-bit fraction times the number of faces: the integer part is the column.
-    const std::uint64_t low = std::uint64_t{random[0]} * alias.size();
-    const std::uint64_t scaled = low + (std::uint64_t{random[1]} * alias.size() >> 32);
-    const auto column = static_cast<std::uint32_t>(scaled >> 32);
-    const auto fraction = static_cast<std::uint32_t>(scaled);
-    const std::uint32_t face = fraction < alias[column].threshold ? column : alias[column].alias;
+Draw draw_uniform(std::uint32_t face, const std::array<std::uint32_t, 4>& random) {
     // Odd multiples of 2^-24 keep clear of 0 and 1.
     const std::uint32_t alpha = random[2] >> 9 << 1 | 1;
     const std::uint32_t beta = random[3] >> 9 << 1 | 1;
@@ -67,62 +66,72 @@ bool propose(Draw& draw, const FaceRadii<Real>& radii, const std::array<std::uin
     return fraction * (g * g) < spread * spread * spread;
 }
 
-template <class Points, class Draw>
-Points draw_pool(std::uint32_t count, const Draw& draw) {
-    Points points(count);
-    for (std::uint32_t rank = 0; rank < count; ++rank) {
-        points[rank] = draw(rank);
+template <class Real>
+Draw draw_in_face(const Surface<Real>& surface, std::uint64_t seed,
+                  std::array<std::uint32_t, 4> counter, std::uint32_t face,
+                  std::array<std::uint32_t, 4> random) {
+    Draw draw = draw_uniform(face, random);
+    if (!surface.is_adaptive()) {
+        return draw;
     }
-    return points;
+    while (!propose(draw, surface.radii[face], random) && counter[3] + 1 < gpu::kMostProposals) {
+        ++counter[3];
+        random = philox(seed, counter);
+        draw = draw_uniform(face, random);
+    }
+    return draw;
+}
+
+std::uint32_t key_of(const SampleParams& params, std::uint32_t face) {
+    return params.face_keys.empty() ? face : params.face_keys[face];
+}
+
+template <class Real>
+float area_of(const Surface<Real>& surface, std::uint32_t face) {
+    const Edge<Real>& edge = surface.edges[std::size_t{3} * face];
+    const Edge<Real>& previous = surface.edges[std::size_t{3} * face + 2];
+    const float apex_y = static_cast<float>(previous.length) * static_cast<float>(edge.sine);
+    return 0.5f * (static_cast<float>(edge.length) * apex_y);
 }
 
 } // namespace
 
 template <class Real>
-FacePoint<Real> draw_candidate(std::span<const AliasColumn> alias, std::uint64_t seed,
-                               std::uint32_t rank) {
-    return draw_uniform(alias, philox(seed, rank)).template point<Real>();
-}
-
-template <class Real>
-FacePoint<Real> draw_candidate(const Surface<Real>& surface, std::uint64_t seed,
-                               std::uint32_t rank) {
-    if (!surface.is_adaptive()) {
-        return draw_candidate<Real>(surface.alias, seed, rank);
-    }
-    Draw draw{};
-    for (std::uint32_t proposal = 0; proposal < gpu::kMostProposals; ++proposal) {
-        const auto random = philox(seed, rank, proposal);
-        draw = draw_uniform(surface.alias, random);
-        if (propose(draw, surface.radii[draw.face], random)) {
-            break;
+std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface, const PreparedMesh& mesh,
+                                            const SampleParams& params, std::uint32_t stage) {
+    const float intensity = stage_intensity(mesh, params, stage);
+    std::vector<std::uint32_t> counts(surface.face_count());
+    for (std::uint32_t face = 0; face < surface.face_count(); ++face) {
+        float mean = intensity * area_of(surface, face);
+        if (params.radii != nullptr) {
+            mean = mean * params.radii->densities()[face];
         }
+        const auto random = philox(params.seed, {key_of(params, face), 0, stage, kCountCounter});
+        counts[face] = poisson(mean, random[0], random[1]);
     }
-    return draw.template point<Real>();
+    return counts;
 }
 
 template <class Real>
-std::vector<FacePoint<Real>> draw_candidates(std::span<const AliasColumn> alias, std::uint64_t seed,
-                                             std::uint32_t count, std::uint32_t first) {
-    return draw_pool<std::vector<FacePoint<Real>>>(
-        count, [&](std::uint32_t i) { return draw_candidate<Real>(alias, seed, first + i); });
-}
-
-template <class Real>
-std::vector<FacePoint<Real>> draw_candidates(const Surface<Real>& surface, std::uint64_t seed,
-                                             std::uint32_t count, std::uint32_t first) {
-    return draw_pool<std::vector<FacePoint<Real>>>(
-        count, [&](std::uint32_t i) { return draw_candidate(surface, seed, first + i); });
+void draw_candidates(const Surface<Real>& surface, const SampleParams& params, std::uint32_t face,
+                     std::uint32_t stage, std::span<FacePoint<Real>> points,
+                     std::span<std::uint32_t> priorities) {
+    const std::uint32_t key = key_of(params, face);
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+        const std::array<std::uint32_t, 4> counter{key, k, stage, 0};
+        const auto random = philox(params.seed, counter);
+        priorities[k] = random[0] >> kPriorityShift;
+        points[k] =
+            draw_in_face(surface, params.seed, counter, face, random).template point<Real>();
+    }
 }
 
 #define GEODISK_CANDIDATES_OF(Real)                                                                \
-    template FacePoint<Real> draw_candidate(std::span<const AliasColumn>, std::uint64_t,           \
-                                            std::uint32_t);                                        \
-    template FacePoint<Real> draw_candidate(const Surface<Real>&, std::uint64_t, std::uint32_t);   \
-    template std::vector<FacePoint<Real>> draw_candidates(                                         \
-        std::span<const AliasColumn>, std::uint64_t, std::uint32_t, std::uint32_t);                \
-    template std::vector<FacePoint<Real>> draw_candidates(const Surface<Real>&, std::uint64_t,     \
-                                                          std::uint32_t, std::uint32_t);
+    template std::vector<std::uint32_t> count_candidates(                                          \
+        const Surface<Real>&, const PreparedMesh&, const SampleParams&, std::uint32_t);            \
+    template void draw_candidates(const Surface<Real>&, const SampleParams&, std::uint32_t,        \
+                                  std::uint32_t, std::span<FacePoint<Real>>,                       \
+                                  std::span<std::uint32_t>);
 GEODISK_CANDIDATES_OF(float)
 GEODISK_CANDIDATES_OF(double)
 #undef GEODISK_CANDIDATES_OF

@@ -1,32 +1,27 @@
-// Twin of shaders/kernels/candidates.comp: the pool of candidates (paper sections 3.3, 4.2
-// and 5.8).
+// Twin of the shaders that draw candidates: how many each face has, and which (paper sections 3.3,
+// 4.2 and 5.8, face by face).
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "geodisk/params.hpp"
 #include "lib/surface.hpp"
 
 namespace geodisk::ref {
 
-/// Candidate `rank` of the stream of `seed`: an area-proportional face and the square-root
-/// barycentric map. Weights are multiples of 2^-24, so they are the same numbers in float and
-/// double.
+/// How many candidates each face has in a stage of a job on `mesh`, whose surface is `surface`.
 template <class Real>
-FacePoint<Real> draw_candidate(std::span<const AliasColumn> alias, std::uint64_t seed,
-                               std::uint32_t rank);
+std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface, const PreparedMesh& mesh,
+                                            const SampleParams& params, std::uint32_t stage);
 
-/// The same on the surface of a run: where radii vary, as dense as 1 / r^2.
+/// Candidates 0, 1, ... of a face in a stage, and their priorities of 28 bits: uniform by the
+/// square-root barycentric map, or where radii vary as dense as 1 / r^2. Weights are multiples of
+/// 2^-24, so they are the same numbers in float and double.
 template <class Real>
-FacePoint<Real> draw_candidate(const Surface<Real>& surface, std::uint64_t seed,
-                               std::uint32_t rank);
-
-/// Candidates `first` to `first + count - 1`.
-template <class Real>
-std::vector<FacePoint<Real>> draw_candidates(std::span<const AliasColumn> alias, std::uint64_t seed,
-                                             std::uint32_t count, std::uint32_t first = 0);
-template <class Real>
-std::vector<FacePoint<Real>> draw_candidates(const Surface<Real>& surface, std::uint64_t seed,
-                                             std::uint32_t count, std::uint32_t first = 0);
+void draw_candidates(const Surface<Real>& surface, const SampleParams& params, std::uint32_t face,
+                     std::uint32_t stage, std::span<FacePoint<Real>> points,
+                     std::span<std::uint32_t> priorities);
 
 } // namespace geodisk::ref

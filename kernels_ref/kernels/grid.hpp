@@ -1,29 +1,33 @@
-// Twin of shaders/kernels/box_candidates.comp, box_fill.comp and grid_detect.comp: boxes of R^n.
+// Twin of shaders/kernels/grid_detect.comp: disks in boxes of R^n by a grid of cells.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "constants.h"
 #include "geodisk/box.hpp"
+#include "kernels/box_candidates.hpp"
 #include "kernels/curve.hpp"
 
 namespace geodisk::ref {
 
-/// Coordinates in multiples of 2^-32 of the sides.
-using BoxPoint = std::array<std::uint32_t, gpu::kMostAxes>;
-
-BoxPoint draw_in_box(std::uint64_t seed, std::uint32_t rank, std::size_t dimension);
-
-/// All candidates in a box, by rank.
-std::vector<BoxPoint> draw_pool(const BoxParams& box, std::uint32_t candidates);
-
 template <class Real>
 struct GridAxis {
     std::uint32_t cells, stride;
-    Real unit, width; ///< Of a coordinate and of a cell, in minimum distances.
+    Real unit, width;       ///< Of a coordinate and of a cell, in minimum distances.
+    std::uint32_t per_step; ///< Cells to a step of the lattice, in units of 2^-32.
+
+    std::uint32_t cell_of(std::uint32_t coordinate) const {
+        return static_cast<std::uint32_t>(std::uint64_t{coordinate} * per_step >> 32);
+    }
+    /// Where in its cell a coordinate is, as part of the width, rounded down.
+    Real inside_of(std::uint32_t coordinate) const {
+        const auto part = static_cast<std::uint32_t>(std::uint64_t{coordinate} * per_step);
+        return static_cast<Real>(part >> 8) * static_cast<Real>(0x1p-24);
+    }
 };
 
 /// Cells of half the minimum distance and a little more over a box, in a table of heads.
@@ -34,39 +38,44 @@ struct BoxCellTable {
     std::uint32_t heads;
     Real limit2;
 
-    BoxCellTable(const BoxParams& box, std::uint32_t candidates, double guard = kBoxGuard);
+    BoxCellTable(const BoxLattice& lattice, std::size_t candidates, double guard);
     std::uint32_t head_of(const BoxPoint& point) const;
 };
 
-/// The pool, sorted by head: `order[starts[h] .. starts[h + 1])` are the ranks of head h,
-/// ascending.
+/// Candidates sorted by head: those of head h are in the places from starts[h] to starts[h + 1].
 template <class Real>
 struct BoxPool {
     BoxCellTable<Real> table;
-    std::vector<BoxPoint> points; ///< By rank.
-    /// The same; with normals, distances are lengths of curves.
-    std::vector<std::array<Real, 3>> normals;
     std::vector<std::uint32_t> starts;
-    std::vector<std::uint32_t> order;
+    std::vector<BoxPoint> points;      ///< By place.
+    std::vector<std::uint32_t> order;  ///< Ranks, by place.
+    std::vector<std::uint32_t> places; ///< By rank.
+    /// By place; with normals, distances are lengths of curves.
+    std::vector<std::array<Real, 3>> normals;
 
-    BoxPool(const BoxParams& box, std::uint32_t candidates);
-    /// Points that lie in the box somehow.
-    BoxPool(const BoxParams& box, std::vector<BoxPoint> by_rank, double guard);
+    /// The candidates of a job.
+    explicit BoxPool(const BoxParams& box);
+    /// Points of a lattice. The table is as large as so many candidates ask, or if 0 as the points.
+    BoxPool(const BoxLattice& lattice, std::span<const BoxPoint> by_rank, double guard,
+            std::size_t capacity = 0);
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(places.size()); }
+    void set_normals(std::span<const std::array<float, 3>> by_rank);
 };
 
 struct BoxDiskCount {
     std::uint32_t rows = 0, tested = 0;
 };
 
-/// Calls `hit(rank)` for each candidate in the disk of another whose `wanted(rank)` holds: once, or
-/// more often where cells share a head.
+/// Calls `hit(place)` for each candidate in the disk of another whose `wanted(place)` holds: once,
+/// or more often where cells share a head.
 template <class Real>
 class BoxDetector {
   public:
     explicit BoxDetector(const BoxPool<Real>& pool) : pool_(pool) {}
 
     template <class Wanted, class Hit>
-    BoxDiskCount run(std::uint32_t rank, Wanted&& wanted, Hit&& hit);
+    BoxDiskCount run(std::uint32_t place, Wanted&& wanted, Hit&& hit);
 
   private:
     static constexpr Real kFar = 0x1p30;
@@ -83,7 +92,7 @@ class BoxDetector {
     void visit_rows(std::size_t axis, Real sum, std::uint32_t head, Visit& visit) const;
 
     const BoxPool<Real>& pool_;
-    std::uint32_t own_rank_ = 0;
+    std::uint32_t own_place_ = 0;
     BoxPoint own_{};
     std::array<std::uint32_t, gpu::kMostAxes> own_cell_{};
     std::array<Real, gpu::kMostAxes> own_inside_{};
@@ -152,7 +161,7 @@ bool BoxDetector<Real>::conflicts_with(std::uint32_t other) const {
                            pool_.table.axes[i].unit;
         way[i] = is_back ? -along : along;
     }
-    return is_short_curve(way, square, pool_.normals[own_rank_], pool_.normals[other],
+    return is_short_curve(way, square, pool_.normals[own_place_], pool_.normals[other],
                           pool_.table.limit2);
 }
 
@@ -179,14 +188,13 @@ void BoxDetector<Real>::visit_rows(std::size_t axis, Real sum, std::uint32_t hea
 
 template <class Real>
 template <class Wanted, class Hit>
-BoxDiskCount BoxDetector<Real>::run(std::uint32_t rank, Wanted&& wanted, Hit&& hit) {
-    own_rank_ = rank;
-    own_ = pool_.points[rank];
+BoxDiskCount BoxDetector<Real>::run(std::uint32_t place, Wanted&& wanted, Hit&& hit) {
+    own_place_ = place;
+    own_ = pool_.points[place];
     for (std::size_t i = 0; i < pool_.table.axes.size(); ++i) {
-        const std::uint64_t product = std::uint64_t{own_[i]} * pool_.table.axes[i].cells;
-        own_cell_[i] = static_cast<std::uint32_t>(product >> 32);
-        own_inside_[i] = static_cast<Real>(static_cast<std::uint32_t>(product) >> 8) *
-                         static_cast<Real>(0x1p-24);
+        const GridAxis<Real>& axis = pool_.table.axes[i];
+        own_cell_[i] = axis.cell_of(own_[i]);
+        own_inside_[i] = axis.inside_of(own_[i]);
     }
     BoxDiskCount count;
     std::uint32_t next_cell = 0;
@@ -197,9 +205,9 @@ BoxDiskCount BoxDetector<Real>::run(std::uint32_t rank, Wanted&& wanted, Hit&& h
         count.rows += goes_on ? 0 : 1;
         next_cell = cell + 1;
         next_head = head + 1;
-        for (std::uint32_t p = pool_.starts[head]; p < pool_.starts[std::size_t{head} + 1]; ++p) {
-            const std::uint32_t other = pool_.order[p];
-            if (other == rank || !wanted(other)) {
+        const std::uint32_t end = pool_.starts[std::size_t{head} + 1];
+        for (std::uint32_t other = pool_.starts[head]; other < end; ++other) {
+            if (other == place || !wanted(other)) {
                 continue;
             }
             ++count.tested;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/candidates.hpp"
 #include "kernels/curve.hpp"
+#include "kernels/pool.hpp"
 
 namespace geodisk::ref {
 
@@ -50,8 +50,8 @@ SpacePoints draw_in_space(const MeshView& view, const PreparedMesh& mesh,
     points.box.extents.clear();
     points.box.min_distance = params.min_distance;
     points.box.seed = params.seed;
-    const auto candidates =
-        draw_candidates<double>(mesh.alias_columns(), params.seed, pool_size(mesh, params).value());
+    const Surface<double> surface(mesh, params);
+    const auto candidates = draw_pool(surface, mesh, params).by_rank();
     points.by_rank.resize(candidates.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto coordinate = [&](std::uint32_t vertex) {
@@ -97,5 +97,17 @@ SpacePoints draw_in_space(const MeshView& view, const PreparedMesh& mesh,
         kBoxGuard + 0x1p-30 * *std::max_element(sides.begin(), sides.end()) / params.min_distance;
     return points;
 }
+
+template <class Real>
+BoxPool<Real> space_pool(const SpacePoints& points, bool is_curved) {
+    BoxPool<Real> pool(BoxLattice::finest(points.box), points.by_rank, points.guard);
+    if (is_curved) {
+        pool.set_normals(points.normals);
+    }
+    return pool;
+}
+
+template BoxPool<float> space_pool(const SpacePoints&, bool);
+template BoxPool<double> space_pool(const SpacePoints&, bool);
 
 } // namespace geodisk::ref

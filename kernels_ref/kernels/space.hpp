@@ -12,7 +12,7 @@ namespace geodisk::ref {
 
 struct SpacePoints {
     BoxParams box;                             ///< The bounding box of the mesh, as a job.
-    std::vector<BoxPoint> by_rank;             ///< In multiples of 2^-32 of its sides.
+    std::vector<BoxPoint> by_rank;             ///< In dart order, on BoxLattice::finest().
     std::vector<std::array<float, 3>> normals; ///< Likewise, of unit length or zero.
     double guard;                              ///< Conflicts are tested against 1 + guard.
 };
@@ -20,5 +20,9 @@ struct SpacePoints {
 /// `mesh` was prepared from `view`, of three coordinates per vertex.
 SpacePoints draw_in_space(const MeshView& view, const PreparedMesh& mesh,
                           const SampleParams& params);
+
+/// The points in cells. Distances are straight, or those of curves.
+template <class Real>
+BoxPool<Real> space_pool(const SpacePoints& points, bool is_curved);
 
 } // namespace geodisk::ref

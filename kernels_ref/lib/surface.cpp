@@ -9,14 +9,13 @@ namespace geodisk::ref {
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
     : unit(working_distance(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()),
-      alias(mesh.alias_columns()), splits_once(mesh.statistics().nonmanifold_edges == 0) {
+      splits_once(mesh.statistics().nonmanifold_edges == 0) {
     place_edges(mesh);
 }
 
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params)
     : unit(working_distance(mesh, params)), fans(mesh.fans()), corners(mesh.corners()),
-      alias(params.radii != nullptr ? params.radii->alias_columns() : mesh.alias_columns()),
       splits_once(mesh.statistics().nonmanifold_edges == 0) {
     place_edges(mesh);
     if (params.radii == nullptr) {

@@ -37,14 +37,13 @@ struct FacePoint {
     Real weight1, weight2;
 };
 
-/// Owns the scaled half-edges; borrows fans, corners and alias table from the PreparedMesh.
+/// Owns the scaled half-edges; borrows fans and corners from the PreparedMesh.
 template <class Real>
 struct Surface {
     double unit; ///< In which lengths are measured: working_distance() of the minimum distance.
     std::vector<Edge<Real>> edges;
     std::span<const VertexFan> fans;
     std::span<const std::uint32_t> corners;
-    std::span<const AliasColumn> alias;
     /// No edge has three faces. Only then a vertex lies between any two ways into an edge, and the
     /// order of their rays tells which window serves which side ("one angle, one split").
     bool splits_once;
@@ -52,7 +51,7 @@ struct Surface {
     std::vector<FaceRadii<Real>> radii;
 
     Surface(const PreparedMesh& mesh, double min_distance);
-    /// The surface of a run: with its radii, and the alias table that goes with them.
+    /// The surface of a run, with its radii.
     Surface(const PreparedMesh& mesh, const SampleParams& params);
 
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(edges.size() / 3); }

@@ -2,84 +2,106 @@
 #extension GL_GOOGLE_include_directive : require
 // Counts how often the paper's CheckStatus would call itself for each candidate of a batch that is
 // decided (paper section 5.4): once for the candidate, and as often as for itself for every active
-// conflict of lower rank it comes to, upwards until one is accepted. One invocation per slot, which
-// goes once through its list for each of those; resumable, since lists may be long and what the
+// conflict before it that it comes to, in dart order until one is accepted. One invocation per slot,
+// which goes once through its list for each of those; resumable, since lists may be long and what the
 // others count not be known yet.
-// reads: states, pool lists, marks   writes: slots, control, blockers   spec: local size, pool block
+// reads: states, pool lists   writes: orders, slots, control   spec: slot local size, pool block
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
 
 GEODISK_WORDS(kBindStates, states);
-GEODISK_WORDS(kBindMarks, marks);
-GEODISK_BUFFER(kBindSlots, , uvec4, slots);
+GEODISK_BUFFER(kBindOrders, , uint, orders);
 GEODISK_ROWS(kBindPool, pool);
 GEODISK_CONTROL;
 
+#include "../lib/schedule.glsl"
 #include "../lib/slice.glsl"
 #include "../lib/conflicts.glsl"
+#include "../lib/slots.glsl"
 
 void add_to_histogram(uint calls) {
     atomicAdd(control.call_bins[min(calls, kCallBins) - 1u], 1u);
-    uint low = atomicAdd(control.calls_low, calls);
-    if (low + calls < low) {
-        atomicAdd(control.calls_high, 1u);
+    GEODISK_ADD_WIDE(control.calls_low, control.calls_high, calls)
+}
+
+// While calls are counted, active candidates keep their slots in place of their orders.
+void restore_orders() {
+    for (uint slot = 0u; slot < control.slots_used; ++slot) {
+        uint place = slots[slot].place;
+        if (place != kNoPlace) {
+            orders[place] = slots[slot].order;
+        }
     }
 }
 
-void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    uint row = slot * kSlotRows;
-    // Others count theirs in this very dispatch, so `undecided` stays at or below slots_used. Samples
-    // of earlier chunks have conflicts with no active candidate to count.
-    if (slot >= control.slots_used || control.undecided > control.slots_used ||
-        slots[row].x == kNoPlace || slots[row].y == kSlotCounted) {
-        return;
+// Whether the slot's calls are known in the end.
+bool count(uint slot) {
+    if (is_void(slot)) {
+        return true;
     }
-    // Slots ascend with rank. The conflict looked for is the lowest from `from` on, of those below
-    // this slot; `nearest` is the lowest that the list shows up to the cursor, `slot` for none.
-    uint count = slots[row].w;
+    uint listed = slots[slot].active_conflicts;
     uint cursor = 0u;
-    uint nearest = slot;
-    uint from = 0u;
+    uint last = slot;    // counted last; the slot itself stands for none
+    uint nearest = slot; // the first behind that, of those the list shows up to the cursor
     uint calls = 1u;
-    if (slots[row].y == kSlotCounting) {
-        uvec4 left = slots[row + 3u];
-        cursor = left.y;
-        nearest = left.z;
-        from = left.w;
-        calls = blockers[slot];
+    if (slots[slot].phase == kSlotCounting) {
+        cursor = slots[slot].cursor;
+        last = slots[slot].turn;
+        nearest = slots[slot].scan_place;
+        calls = atomic_load(slots[slot].calls);
     }
     bool is_known = false;
     for (uint entry = 0u; entry < kListPerDispatch; ++entry) {
-        if (cursor < count) {
-            uint other = word_at(marks, active_conflict(slot, cursor));
-            nearest = other >= from ? min(nearest, other) : nearest;
+        if (cursor < listed) {
+            uint place = active_conflict(slot, cursor);
+            uint other = orders[place];
             ++cursor;
+            if (is_slot_of(other, place) && is_before(sample_of(other), sample_of(nearest)) &&
+                (last == slot || is_before(sample_of(last), sample_of(other)))) {
+                nearest = other;
+            }
             continue;
         }
         is_known = nearest == slot;
-        uint others = is_known ? 0u : atomicOr(blockers[nearest], 0u);
+        uint others = is_known ? 0u : atomic_load(slots[nearest].calls);
         if ((others & kCallsKnown) == 0u) {
             break;
         }
         calls = min(calls + (others & kMostCalls), kMostCalls);
-        is_known = (word_at(states, slots[nearest * kSlotRows].x) & kStateMask) == kAccepted;
+        is_known = (word_at(states, slots[nearest].place) & kStateMask) == kAccepted;
         if (is_known) {
             break;
         }
-        from = nearest + 1u;
+        last = nearest;
         nearest = slot;
         cursor = 0u;
     }
     if (is_known) {
-        slots[row].y = kSlotCounted;
         add_to_histogram(calls);
-        atomicAdd(control.undecided, 0xffffffffu);
+        atomicExchange(slots[slot].calls, calls | kCallsKnown);
     } else {
-        slots[row].y = kSlotCounting;
-        slots[row + 3u].yzw = uvec3(cursor, nearest, from);
+        slots[slot].phase = kSlotCounting;
+        slots[slot].cursor = cursor;
+        slots[slot].turn = last;
+        slots[slot].scan_place = nearest;
+        atomicExchange(slots[slot].calls, calls);
     }
-    atomicExchange(blockers[slot], is_known ? calls | kCallsKnown : calls);
+    return is_known;
+}
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    bool is_counted = slot < control.slots_used && slots[slot].phase != kSlotCounted && count(slot);
+    if (is_counted) {
+        slots[slot].phase = kSlotCounted;
+    }
+    memoryBarrierBuffer();
+    bool is_last = is_counted && atomicAdd(control.uncounted, 0xffffffffu) == 1u;
+    memoryBarrierBuffer();
+    if (is_last) {
+        restore_orders();
+        end_batch();
+    }
 }

@@ -5,7 +5,7 @@
 // so that a large disk holds up no small ones. It stops after push.step_budget steps and goes on in
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
-// reads: faces, fans, radii, cells, states, weights   writes: pool, slots, control
+// reads: faces, fans, radii, cells, states, weights, orders   writes: pool, slots, control
 // spec: local size, rounding, pool block, counted lanes, adaptive
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
@@ -24,7 +24,7 @@ layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 GEODISK_WORDS(kBindCells, cells);
 GEODISK_WORDS(kBindStates, states);
 GEODISK_WORDS(kBindWeights, weights);
-GEODISK_BUFFER(kBindSlots, , uvec4, slots);
+GEODISK_WORDS(kBindOrders, orders);
 GEODISK_OWN_ROWS(kBindPool, kBindPoolTexels, pool);
 GEODISK_CONTROL;
 
@@ -37,7 +37,8 @@ Push P;
 #include "../lib/vertex_table.glsl"
 #include "../lib/propagate.glsl"
 #include "../lib/scan.glsl"
-#include "../lib/wide.glsl"
+#include "../lib/slots.glsl"
+#include "../lib/disk_totals.glsl"
 
 uint slot;
 uint trips;         // in this dispatch
@@ -54,11 +55,9 @@ uint fan_angle;
 uint fan_flags;
 
 void load_candidate() {
-    uint row = slot * kSlotRows;
-    uvec4 candidate = slots[row + 1u];
-    own_place = slots[row].x;
-    own_face = candidate.y;
-    own_weights = uintBitsToFloat(candidate.zw);
+    own_place = slots[slot].place;
+    own_face = slots[slot].face;
+    own_weights = uintBitsToFloat(uvec2(slots[slot].weight1, slots[slot].weight2));
     list_first = list_row(slot);
     if (kAdaptive) {
         own_radius = radius_at(face_radii(own_face), own_weights.x, own_weights.y);
@@ -105,21 +104,52 @@ void save_lane() {
     pool[own_row(8u)] = uvec4(entered_by, entry_angles, fan_angle, fan_flags);
 }
 
-void hand_in_slot() {
-    uint row = slot * kSlotRows;
-    slots[row] = uvec4(own_place, kSlotListed, idle_conflicts, active_conflicts);
-    slots[row + 2u] = uvec4(tested, pushed, most_waiting, vertices);
-    slots[row + 3u].x = longest_chain;
-    phase = kPhaseIdle;
-    // Whoever completes the last disk spares the batch further dispatches.
+// Whoever completes the last disk spares the batch further dispatches.
+void complete_one() {
     if (atomicAdd(control.incomplete, 0xffffffffu) == 1u) {
         control.detect_x = 0u;
     }
 }
 
+void hand_in_slot() {
+    slots[slot].phase = kSlotListed;
+    slots[slot].idle_conflicts = idle_conflicts;
+    slots[slot].active_conflicts = active_conflicts;
+    slots[slot].longest_chain = longest_chain;
+    phase = kPhaseIdle;
+    ++own_disks.disks;
+    own_disks.windows += pushed;
+    own_disks.tested += tested;
+    own_disks.most_waiting = max(own_disks.most_waiting, most_waiting);
+    own_disks.most_vertices = max(own_disks.most_vertices, vertices);
+    own_disks.most_conflicts = max(own_disks.most_conflicts, idle_conflicts + active_conflicts);
+    complete_one();
+}
+
+// Counts the candidate among the blocks of the active ones behind it in its disk.
+void block_conflicts() {
+    uvec4 own = sample_of(slot);
+    uint end = min(cursor + kBlocksPerStep, active_conflicts);
+    for (; cursor < end; ++cursor) {
+        uint at = active_entry(P.list_capacity, cursor);
+        uint place = own_row_at(pool, list_first + (at >> 2))[at & 3u];
+        uint other = word_at(orders, place);
+        if (is_slot_of(other, place) && is_before(own, sample_of(other))) {
+            atomicAdd(slots[other].blocks, 1u);
+        }
+    }
+    phase = cursor == active_conflicts ? kPhaseComplete : kPhaseBlock;
+}
+
+bool slots_left() { return atomic_load(control.next_slot) < control.slots_used; }
+
 void take_slot() {
     uint next = atomicAdd(control.next_slot, 1u);
     if (next >= control.slots_used) {
+        return;
+    }
+    if (is_void(next)) {
+        complete_one();
         return;
     }
     slot = next;
@@ -256,7 +286,8 @@ bool next_operation() {
         } else if (event_head != event_tail) {
             take_event();
         } else {
-            phase = kPhaseComplete;
+            phase = kPhaseBlock;
+            cursor = 0u;
         }
     }
     if (phase == kPhaseFan) {
@@ -321,11 +352,11 @@ void trip() {
     }
 }
 
-bool running() { return phase > kPhaseClear && phase < kPhaseComplete && overflow == 0u; }
+bool running() { return phase > kPhaseClear && phase < kPhaseBlock && overflow == 0u; }
 
 // Takes a slot if the lane has none, works on it, and hands it in if it is done.
 void step() {
-    if (phase == kPhaseIdle && control.next_slot < control.slots_used) {
+    if (phase == kPhaseIdle && slots_left()) {
         take_slot();
     }
     if (phase == kPhaseClear) {
@@ -334,6 +365,9 @@ void step() {
     for (uint i = 0u; i < kTripsPerStep && running(); ++i) {
         trip();
         ++trips;
+    }
+    if (phase == kPhaseBlock) {
+        block_conflicts();
     }
     if (phase == kPhaseComplete) {
         hand_in_slot();
@@ -344,7 +378,7 @@ void work_on(uint lane) {
     load_lane(lane);
     for (uint i = 0u; i < P.step_budget && overflow == 0u; ++i) {
         step();
-        if (phase == kPhaseIdle && control.next_slot >= control.slots_used) {
+        if (phase == kPhaseIdle && !slots_left()) {
             break;
         }
     }
@@ -373,9 +407,12 @@ void main() {
     uint lane = gl_GlobalInvocationID.x;
     P = push;
     trips = 0u;
-    if (lane < P.lanes && control.unfinished > 0u && control.overflow == 0u) {
+    own_disks = kNoDisks;
+    if (lane < P.lanes && atomic_load(control.incomplete) > 0u &&
+        atomic_load(control.overflow) == 0u) {
         work_on(lane);
     }
+    sum_disks();
     if (kCountedLanes > 0u) {
         count_trips();
     }

@@ -4,7 +4,7 @@
 // candidates in it (paper DetectCollision, section 5.9). One invocation per slot; resumable. It
 // visits the cells of the grid that the disk reaches, a row along the first axis at a time, in
 // trips of a bounded number of iterations, push.step_budget of them to a dispatch.
-// reads: axes, cells, states, points   writes: pool, slots, control
+// reads: axes, cells, states, points, orders   writes: pool, slots, control
 // spec: local size, rounding, pool block, dimension, curved
 
 #include "../lib/prelude.glsl"
@@ -20,8 +20,8 @@ layout(constant_id = kSpecCurved) const bool kCurved = false;
 GEODISK_WORDS(kBindCells, cells);
 GEODISK_WORDS(kBindStates, states);
 GEODISK_WORDS(kBindPoints, points);
-GEODISK_BUFFER(kBindSlots, , uvec4, slots);
-GEODISK_BUFFER(kBindPool, writeonly, uvec4, pool);
+GEODISK_WORDS(kBindOrders, orders);
+GEODISK_BUFFER(kBindPool, , uvec4, pool);
 GEODISK_CONTROL;
 
 // A copy that stays in registers; reading push constants in a branch is a gather on lavapipe.
@@ -29,6 +29,8 @@ Push P;
 
 #include "../lib/slice.glsl"
 #include "../lib/list.glsl"
+#include "../lib/slots.glsl"
+#include "../lib/disk_totals.glsl"
 
 Axis grid[kMostAxes];
 uint own[kMostAxes];       // coordinates
@@ -50,7 +52,7 @@ vec3 normal_at(PointWords words) {
 
 void load_own(uint slot) {
     PointWords words = own_place == kNoPlace ? words_of_settled(slot, kCurved ? 6u : kDimension)
-                                             : PointWords(own_place, P.candidates);
+                                             : PointWords(own_place, P.capacity);
     for (uint i = 0u; i < kDimension; ++i) {
         grid[i] = load_axis(i);
         own[i] = word_at(points, words.first + i * words.stride);
@@ -148,7 +150,7 @@ float along_axis(uint i, uint steps) {
 float square_to(uint place) {
     float sum = 0.0;
     for (uint i = 0u; i < kDimension; ++i) {
-        uint other = word_at(points, i * P.candidates + place);
+        uint other = word_at(points, i * P.capacity + place);
         uint ahead = other - own[i];
         uint back = own[i] - other;
         uint steps = grid[i].is_periodic ? min(ahead, back) : (other < own[i] ? back : ahead);
@@ -161,7 +163,7 @@ float square_to(uint place) {
 vec3 way_to(uint place) {
     vec3 way = vec3(0.0);
     for (uint i = 0u; i < 3u; ++i) {
-        uint other = word_at(points, i * P.candidates + place);
+        uint other = word_at(points, i * P.capacity + place);
         float along = along_axis(i, other < own[i] ? own[i] - other : other - own[i]);
         way[i] = other < own[i] ? -along : along;
     }
@@ -176,7 +178,7 @@ bool conflicts_with(uint place) {
     // No curve is shorter than the straight way.
     return square < P.limit &&
            is_short_curve(way_to(place), square, own_normal,
-                          normal_at(PointWords(place, P.candidates)), P.limit);
+                          normal_at(PointWords(place, P.capacity)), P.limit);
 }
 
 void trip() {
@@ -199,32 +201,73 @@ void trip() {
 
 bool running() { return (turns_left() || scan_place < scan_end) && overflow == 0u; }
 
-void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    uint row = slot * kSlotRows;
-    P = push;
-    if (slot >= control.slots_used || control.unfinished == 0u || control.overflow != 0u ||
-        slots[row].y != kSlotReady) {
-        return;
+// Counts the candidate among the blocks of the active ones behind it in its disk. Resumable.
+bool block_conflicts(uint slot) {
+    uvec4 own = sample_of(slot);
+    uint cursor = slots[slot].cursor;
+    uint end = min(cursor + kListPerDispatch, active_conflicts);
+    for (; cursor < end; ++cursor) {
+        uint at = active_entry(P.list_capacity, cursor);
+        uint place = pool[list_first + (at >> 2)][at & 3u];
+        uint other = word_at(orders, place);
+        if (is_slot_of(other, place) && is_before(own, sample_of(other))) {
+            atomicAdd(slots[other].blocks, 1u);
+        }
     }
-    uvec4 head = slots[row];
-    uvec4 cursor = slots[row + 1u];
-    own_place = head.x, idle_conflicts = head.z, active_conflicts = head.w;
-    turn = cursor.y, scan_place = cursor.z, scan_end = cursor.w;
-    tested = slots[row + 2u].x;
-    rows_visited = slots[row + 2u].y;
+    slots[slot].cursor = cursor;
+    return cursor == active_conflicts;
+}
+
+void complete(uint slot) {
+    slots[slot].phase = kSlotListed;
+    slots[slot].cursor = 0u;
+    slots[slot].calls = 0u;
+    if (atomicAdd(control.incomplete, 0xffffffffu) == 1u) {
+        control.detect_x = 0u;
+    }
+}
+
+void find_conflicts(uint slot) {
+    own_place = slots[slot].place;
+    idle_conflicts = slots[slot].idle_conflicts;
+    active_conflicts = slots[slot].active_conflicts;
+    turn = slots[slot].turn;
+    scan_place = slots[slot].scan_place;
+    scan_end = slots[slot].scan_end;
+    tested = slots[slot].calls;
+    rows_visited = slots[slot].rows_visited;
     overflow = 0u;
     list_first = list_row(slot);
     load_own(slot);
     for (uint i = 0u; i < P.step_budget && running(); ++i) {
         trip();
     }
+    slots[slot].idle_conflicts = idle_conflicts;
+    slots[slot].active_conflicts = active_conflicts;
+    slots[slot].turn = turn;
+    slots[slot].scan_place = scan_place;
+    slots[slot].scan_end = scan_end;
+    slots[slot].calls = tested;
+    slots[slot].rows_visited = rows_visited;
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
+    } else if (!running() && block_conflicts(slot)) {
+        own_disks = DiskTotals(1u, rows_visited, tested, 0u, 0u, idle_conflicts + active_conflicts);
+        complete(slot);
     }
-    bool is_complete = !turns_left() && scan_place >= scan_end;
-    slots[row] =
-        uvec4(own_place, is_complete ? kSlotListed : kSlotReady, idle_conflicts, active_conflicts);
-    slots[row + 1u] = uvec4(cursor.x, turn, scan_place, scan_end);
-    slots[row + 2u] = uvec4(tested, rows_visited, 0u, 0u);
+}
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    P = push;
+    own_disks = kNoDisks;
+    if (slot < control.slots_used && atomic_load(control.overflow) == 0u &&
+        slots[slot].phase == kSlotReady) {
+        if (is_void(slot)) {
+            complete(slot);
+        } else {
+            find_conflicts(slot);
+        }
+    }
+    sum_disks();
 }

@@ -1,90 +1,185 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Decides the active batch (paper CheckStatus, without recursion): a candidate that no undecided
-// one of lower rank blocks is accepted and rejects what its disk holds; a rejected one lifts its
-// blocks. Blocks only fall and rejections only come, so every order of events ends the same. A sample
-// of an earlier chunk has been accepted; nothing blocks it, and it only rejects.
+// Decides the active batch (paper CheckStatus, without recursion): a candidate that no undecided one
+// before it blocks is accepted and rejects what its disk holds; a rejected one lifts its blocks. Who
+// lifts the last block of another, or is the first to be accepted of those that block it, goes on
+// with that one. Blocks only fall and rejections only come, so every order of events ends the same. A
+// sample of an earlier chunk has been accepted; nothing blocks it, and it only rejects.
 // One invocation per slot; resumable, since lists may be long.
-// reads: pool lists, slots, marks   writes: states, slots, control, blockers
-// spec: local size, pool block
+// reads: pool lists   writes: states, orders, accepted, control, slots   spec: local size, pool block
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
+layout(constant_id = kSpecCountCalls) const bool kCountCalls = false;
 
 GEODISK_BUFFER(kBindStates, coherent, uint, states);
-GEODISK_WORDS(kBindMarks, marks);
-GEODISK_BUFFER(kBindSlots, , uvec4, slots);
+GEODISK_BUFFER(kBindOrders, coherent, uint, orders);
 GEODISK_ROWS(kBindPool, pool);
+GEODISK_BUFFER(kBindAccepted, writeonly, uvec4, accepted);
 GEODISK_CONTROL;
 
+#include "../lib/schedule.glsl"
 #include "../lib/slice.glsl"
 #include "../lib/conflicts.glsl"
+#include "../lib/slots.glsl"
 
+// Candidates that this invocation is to decide.
+uint at_hand[kMostAtHand];
+uint hands;
+uint decided; // by this invocation
+
+// One that nothing blocks any more, or for good. Without room it waits for its own invocation.
+void take_up(uint slot) {
+    if (hands < kMostAtHand) {
+        at_hand[hands] = slot;
+        ++hands;
+    }
+}
+
+// True for one invocation alone: the first that finds it ready, or finds what another left of it. All
+// that passes between them is in the word that is claimed.
+bool claim(uint slot, out uint cursor) {
+    cursor = 0u;
+    uint blocks = atomic_load(slots[slot].blocks);
+    if ((blocks & kBlockedForGood) == 0u && (blocks & kBlocksMask) != 0u) {
+        return false;
+    }
+    if ((atomicOr(slots[slot].blocks, kClaimed) & kClaimed) == 0u) {
+        return true;
+    }
+    uint left = atomicAnd(slots[slot].cursor, ~kSuspended);
+    cursor = left & ~kSuspended;
+    return (left & kSuspended) != 0u;
+}
+
+// What a decision does to an active conflict behind it in dart order.
+void tell(uint other, bool is_rejected) {
+    if (is_rejected) {
+        uint before = atomicAdd(slots[other].blocks, 0xffffffffu);
+        if ((before & kBlocksMask) == 1u && (before & kBlockedForGood) == 0u) {
+            take_up(other);
+        }
+    } else if ((atomicOr(slots[other].blocks, kBlockedForGood) & kBlockedForGood) == 0u) {
+        take_up(other);
+    }
+}
+
+// An idle candidate in the disk of an accepted one.
+void reject(uint place) { atomicOr(states[place], kRejected); }
+
+// One that was active when it was listed. Its order word is its slot; or its order again, once it is
+// decided, or was found to be void, which is idle.
+void meet(uvec4 own, uint place, bool is_rejected) {
+    uint word = orders[place];
+    bool is_slot = word < control.slots_used && slots[word].place == place;
+    uint order = is_slot ? slots[word].order : word;
+    if (order >= control.first_left) {
+        if (!is_rejected) {
+            reject(place);
+        }
+    } else if (is_slot && is_before(own, sample_of(word))) {
+        tell(word, is_rejected);
+    }
+}
+
+void finish(uint slot, bool is_rejected) {
+    uint place = slots[slot].place;
+    slots[slot].phase = kSlotDecided;
+    ++decided;
+    if (place == kNoPlace) {
+        return;
+    }
+    atomicXor(states[place], kActive ^ (is_rejected ? kRejected : kAccepted));
+    if (!kCountCalls) {
+        orders[place] = slots[slot].order;
+    }
+    if (!is_rejected) {
+        // Room is made before a batch begins.
+        accepted[atomicAdd(control.accepted, 1u)] = sample_of(slot);
+        // Of accepted candidates alone: which others get a disk depends on the slots, and the guard
+        // must not.
+        if (slots[slot].longest_chain > control.longest_chain) {
+            atomicMax(control.longest_chain, slots[slot].longest_chain);
+        }
+    }
+}
+
+// Goes on with a slot for at most `budget` list entries; returns what is left of it. To decide one
+// takes at least one entry.
+uint decide(uint slot, uint cursor, uint budget) {
+    bool is_rejected = (atomic_load(slots[slot].blocks) & kBlockedForGood) != 0u;
+    uint active_count = slots[slot].active_conflicts;
+    uint total = active_count + (is_rejected ? 0u : slots[slot].idle_conflicts);
+    uint end = min(total, cursor + budget);
+    uint left = budget - max(end - cursor, 1u);
+    uvec4 own = sample_of(slot);
+    for (; cursor < min(end, active_count); ++cursor) {
+        meet(own, active_conflict(slot, cursor), is_rejected);
+    }
+    // A row of the list at a time.
+    while (cursor < end) {
+        uint at = cursor - active_count;
+        uvec4 row = list_row_at(slot, at);
+        uint next = min(end, cursor + 4u - (at & 3u));
+        for (; cursor < next; ++cursor) {
+            reject(row[(cursor - active_count) & 3u]);
+        }
+    }
+    if (cursor == total) {
+        finish(slot, is_rejected);
+    } else {
+        atomicExchange(slots[slot].cursor, cursor | kSuspended);
+    }
+    return left;
+}
+
+// Not active after all: idle again, unless an accepted one has rejected it meanwhile.
+void release(uint slot) {
+    uint place = slots[slot].place;
+    uint weight = states[place] & ~kStateMask;
+    atomicCompSwap(states[place], weight | kActive, weight | kIdle);
+    orders[place] = slots[slot].order;
+    slots[slot].phase = kSlotDecided;
+    ++decided;
+}
+
+void decide_from(uint slot) {
+    if (is_void(slot)) {
+        if (slots[slot].phase != kSlotDecided) {
+            release(slot);
+        }
+        return;
+    }
+    take_up(slot);
+    for (uint budget = kListPerDispatch; hands > 0u && budget > 0u;) {
+        --hands;
+        uint next = at_hand[hands];
+        uint cursor;
+        if (claim(next, cursor)) {
+            budget = decide(next, cursor, budget);
+        }
+    }
+}
+
+// Memory barriers stand where all invocations come: lavapipe loses atomics around others.
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= control.slots_used || control.unfinished > 0u) {
-        return;
+    hands = 0u;
+    decided = 0u;
+    if (slot < control.slots_used && control.incomplete == 0u) {
+        decide_from(slot);
     }
-    uvec4 head = slots[slot * kSlotRows];
-    uint place = head.x;
-    if (head.y != kSlotBlocked) {
-        return;
-    }
-    uint blocks = atomicOr(blockers[slot], 0u);
-    bool rejected = (blocks & kBlockedForGood) != 0u;
-    if (!rejected && blocks != 0u) {
-        return;
-    }
-    // Active conflicts first; only an accepted candidate goes on to the idle ones.
-    uint resolved = slots[slot * kSlotRows + 3u].z;
-    uint end = min(head.w, resolved + kListPerDispatch);
-    for (; resolved < end; ++resolved) {
-        uint other_slot = word_at(marks, active_conflict(slot, resolved));
-        if (other_slot > slot) {
-            if (rejected) {
-                atomicAdd(blockers[other_slot], 0xffffffffu);
-            } else {
-                atomicOr(blockers[other_slot], kBlockedForGood);
-            }
-        }
-    }
-    uint total = head.w + (rejected ? 0u : head.z);
-    if (resolved >= head.w) {
-        // Four at a time: a budget in between is a multiple of four.
-        end = min(total, resolved + kListPerDispatch);
-        for (; resolved < end; resolved += 4u) {
-            uint at = resolved - head.w;
-            uvec4 others = four_conflicts(slot, at);
-            uint left = end - resolved;
-            atomicOr(states[others.x], kRejected);
-            if (left > 1u) {
-                atomicOr(states[others.y], kRejected);
-            }
-            if (left > 2u) {
-                atomicOr(states[others.z], kRejected);
-            }
-            if (left > 3u) {
-                atomicOr(states[others.w], kRejected);
-            }
-        }
-        resolved = min(resolved, total);
-    }
-    slots[slot * kSlotRows + 3u].z = resolved;
-    if (resolved == total) {
-        slots[slot * kSlotRows].y = kSlotDecided;
-        if (atomicAdd(control.undecided, 0xffffffffu) == 1u) {
+    memoryBarrierBuffer();
+    // Whoever decides the last one sets out the next batch.
+    bool is_last = decided > 0u && atomicAdd(control.undecided, 0u - decided) == decided;
+    memoryBarrierBuffer();
+    if (is_last) {
+        if (kCountCalls && control.mode != kSelectSettled) {
             control.groups_x = 0u;
-        }
-        if (place == kNoPlace) {
-            return;
-        }
-        atomicXor(states[place], kActive ^ (rejected ? kRejected : kAccepted));
-        if (!rejected) {
-            atomicAdd(control.accepted, 1u);
-            // Of accepted candidates alone: which others get a disk depends on the slots, and the
-            // guard must not.
-            atomicMax(control.longest_chain, slots[slot * kSlotRows + 3u].x);
+            control.count_x = groups_of_slots(control.slots_used);
+        } else {
+            end_batch();
         }
     }
 }

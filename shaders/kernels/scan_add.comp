@@ -1,13 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Third step: every word gains the sum of the blocks before its own.
-// reads: sums   writes: marks (any buffer bound there)
+// reads: sums   writes: cells (or what is bound in their place)
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x = 128) in;
 
-GEODISK_BUFFER(kBindMarks, , uint, words);
+GEODISK_BUFFER(kBindCells, , uint, words);
 GEODISK_WORDS(kBindSums, sums);
 
 void main() {

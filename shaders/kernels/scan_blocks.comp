@@ -2,33 +2,29 @@
 #extension GL_GOOGLE_include_directive : require
 // First step of an exclusive scan in place: each work group scans one block of kScanBlock words and
 // leaves its sum.
-// reads, writes: marks (any buffer bound there), sums
+// reads, writes: cells (or what is bound in their place), sums
 
 #include "../lib/prelude.glsl"
-#include "../lib/group_scan.glsl"
+#include "../lib/block_scan.glsl"
 
 layout(local_size_x = 128) in;
 
-GEODISK_BUFFER(kBindMarks, , uint, words);
+GEODISK_BUFFER(kBindCells, , uint, words);
 GEODISK_BUFFER(kBindSums, writeonly, uint, sums);
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint begin = min(block * kScanBlock + lane * kScanPerLane, push.scan_count);
-    uint end = min(begin + kScanPerLane, push.scan_count);
-    uint own = 0u;
-    for (uint i = begin; i < end; ++i) {
-        own += words[i];
+    uint begin = min(block * kScanBlock, push.scan_count);
+    uint count = min(push.scan_count - begin, kScanBlock);
+    for (uint i = lane; i < kScanBlock; i += kScanLanes) {
+        block_words[block_index(i)] = i < count ? words[begin + i] : 0u;
     }
-    uint total;
-    uint before = group_exclusive_scan(lane, own, total);
-    for (uint i = begin; i < end; ++i) {
-        uint word = words[i];
-        words[i] = before;
-        before += word;
+    uint total = block_exclusive_scan(lane, 0u);
+    for (uint i = lane; i < count; i += kScanLanes) {
+        words[begin + i] = block_words[block_index(i)];
     }
-    if (lane == 0u && block * kScanBlock < push.scan_count) {
+    if (lane == 0u && count > 0u) {
         sums[block] = total;
     }
 }

@@ -4,7 +4,7 @@
 // reads, writes: sums
 
 #include "../lib/prelude.glsl"
-#include "../lib/group_scan.glsl"
+#include "../lib/block_scan.glsl"
 
 layout(local_size_x = 128) in;
 
@@ -14,20 +14,15 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     uint count = (push.scan_count + kScanBlock - 1u) / kScanBlock;
     uint carry = 0u;
-    for (uint first = 0u; first < count; first += kScanBlock) {
-        uint begin = min(first + lane * kScanPerLane, count);
-        uint end = min(begin + kScanPerLane, count);
-        uint own = 0u;
-        for (uint i = begin; i < end; ++i) {
-            own += sums[i];
+    for (uint begin = 0u; begin < count; begin += kScanBlock) {
+        uint here = min(count - begin, kScanBlock);
+        for (uint i = lane; i < kScanBlock; i += kScanLanes) {
+            block_words[block_index(i)] = i < here ? sums[begin + i] : 0u;
         }
-        uint total;
-        uint before = carry + group_exclusive_scan(lane, own, total);
-        for (uint i = begin; i < end; ++i) {
-            uint sum = sums[i];
-            sums[i] = before;
-            before += sum;
+        carry += block_exclusive_scan(lane, carry);
+        for (uint i = lane; i < here; i += kScanLanes) {
+            sums[begin + i] = block_words[block_index(i)];
         }
-        carry += total;
+        barrier();
     }
 }

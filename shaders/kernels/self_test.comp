@@ -14,7 +14,7 @@ GEODISK_BUFFER(kBindSums, , uvec4, vectors);
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= push.candidates) {
+    if (i >= push.scan_count) {
         return;
     }
     vec4 operands = uintBitsToFloat(vectors[i]);

@@ -1,18 +1,82 @@
-// Candidate `rank` in a box as a pure function of seed and rank: a word for each coordinate, a
-// multiple of 2^-32 of the side.
+// Candidates in a box (paper section 5.9), drawn by cells about as wide as the minimum distance: each a
+// pure function of the seed, its cell, its stage and its number there. A larger box keeps those of the
+// cells that a smaller one has. A word for each coordinate, in steps of its axis.
 #ifndef GEODISK_BOX_CANDIDATE_GLSL
 #define GEODISK_BOX_CANDIDATE_GLSL
 
-#include "rng.glsl"
 #include "grid.glsl"
+#include "poisson.glsl"
+#include "rng.glsl"
 
 uint words_per_point() { return kDimension; }
 
-uint[kMostAxes] draw_point(uint rank) {
-    uvec2 key = uvec2(push.seed_low, push.seed_high);
-    uvec4 first = philox(key, uvec2(push.first_rank + rank, 0u));
-    uvec4 second = kDimension > 4u ? philox(key, uvec2(push.first_rank + rank, 1u)) : uvec4(0u);
-    return uint[kMostAxes](first.x, first.y, first.z, first.w, second.x, second.y);
+// A cell, along each axis, and how many steps wide it is there; 0 for 2^32.
+struct DrawCell {
+    uint first[kMostAxes];
+    uint width[kMostAxes];
+    uvec2 seed;
+};
+
+DrawCell load_draw_cell(uint cell) {
+    DrawCell c;
+    uint at[kMostAxes] = uint[kMostAxes](0u, 0u, 0u, 0u, 0u, 0u);
+    for (uint i = 0u; i < kDimension; ++i) {
+        uvec4 row = row_at(axes, kAxisRows * i + 1u);
+        at[i] = cell % row.x;
+        cell /= row.x;
+        c.first[i] = at[i] * row.y;
+        c.width[i] = at[i] + 1u == row.x ? row.z : row.y;
+    }
+    c.seed = philox(uvec2(push.seed_low, push.seed_high), uvec4(at[0], at[1], at[2], kCellSeed)).xy;
+    if (kDimension > 3u) {
+        c.seed = philox(c.seed, uvec4(at[3], at[4], at[5], kCellSeed)).xy;
+    }
+    return c;
+}
+
+uint count_in_cell(uint cell, uint stage) {
+    DrawCell c = load_draw_cell(cell);
+    float mean = push.intensity;
+    for (uint i = 0u; i < kDimension; ++i) {
+        uint width = c.width[i];
+        precise float steps = float(width >> 16) * 65536.0 + float(width & 0xffffu);
+        steps = width == 0u ? 4294967296.0 : steps;
+        precise float less = mean * (steps * load_axis(i).unit);
+        mean = less;
+    }
+    uvec4 random = philox(c.seed, uvec4(kCountNumber, push.first_stage + stage, 0u, 0u));
+    return poisson(mean, random.x, random.y);
+}
+
+// `stage` is that of the job.
+uint[kMostAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priority) {
+    DrawCell c = load_draw_cell(cell);
+    uvec4 a = philox(c.seed, uvec4(number, stage, 0u, 0u));
+    uvec4 b = kDimension > 3u ? philox(c.seed, uvec4(number, stage, 1u, 0u)) : uvec4(0u);
+    uint words[kMostAxes] = uint[kMostAxes](a.y, a.z, a.w, b.x, b.y, b.z);
+    for (uint i = 0u; i < kDimension; ++i) {
+        uint high, low;
+        umulExtended(words[i], c.width[i], high, low);
+        words[i] = c.first[i] + (c.width[i] == 0u ? words[i] : high);
+    }
+    priority = a.x >> (32u - kPriorityBits);
+    return words;
+}
+
+// The candidate with this number, and the words of its sample: its order, its cell, its number there,
+// its stage.
+uint[kMostAxes] draw_point(uint unit, uint number, out uvec4 record) {
+    uint cell = unit / push.stages;
+    uint stage = unit - cell * push.stages;
+    uint priority;
+    uint point[kMostAxes] = draw_in_cell(cell, push.first_stage + stage, number, priority);
+    record = uvec4(stage << kPriorityBits | priority, cell, number, push.first_stage + stage);
+    return point;
+}
+
+uint[kMostAxes] point_of(uvec4 record) {
+    uint priority;
+    return draw_in_cell(record.y, record.w, record.z, priority);
 }
 
 #endif

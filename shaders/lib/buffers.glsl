@@ -8,20 +8,16 @@
 #define GEODISK_BUFFER(number, access, type, name)                                                 \
     layout(set = 0, binding = number, std430) restrict access buffer name##_buffer { type name[]; }
 
-// What is only read: words, pairs and rows of four words, by word_at, pair_at and row_at.
+// What is only read: words and rows of four words, by word_at and row_at.
 #ifdef GEODISK_TEXELS
 #define GEODISK_WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name
-#define GEODISK_PAIRS(number, name) GEODISK_WORDS(number, name)
 #define GEODISK_ROWS(number, name) GEODISK_WORDS(number, name)
 #define word_at(name, i) texelFetch(name, int(i)).x
-#define pair_at(name, i) texelFetch(name, int(i)).xy
 #define row_at(name, i) texelFetch(name, int(i))
 #else
 #define GEODISK_WORDS(number, name) GEODISK_BUFFER(number, readonly, uint, name)
-#define GEODISK_PAIRS(number, name) GEODISK_BUFFER(number, readonly, uvec2, name)
 #define GEODISK_ROWS(number, name) GEODISK_BUFFER(number, readonly, uvec4, name)
 #define word_at(name, i) name[i]
-#define pair_at(name, i) name[i]
 #define row_at(name, i) name[i]
 #endif
 
@@ -38,12 +34,24 @@
 #define own_row_at(name, i) name[i]
 #endif
 
-// The run's record with the blocker words behind it; shared by all work groups of a dispatch, so
-// only atomics touch what another invocation may write.
+// The run's record with the slots behind it; shared by all work groups of a dispatch, so only atomics
+// touch what another invocation may write.
 #define GEODISK_CONTROL                                                                            \
-    layout(set = 0, binding = kBindControl, std430) restrict coherent buffer control_buffer {      \
+    layout(set = 0, binding = kBindControl, std430) coherent buffer control_buffer {               \
         ControlRec control;                                                                        \
-        uint blockers[];                                                                           \
+        SlotRec slots[];                                                                           \
+    }
+
+// A word that other invocations of the dispatch may be changing.
+#define atomic_load(word) atomicOr(word, 0u)
+
+// Adds to a sum of 64 bits in two words.
+#define GEODISK_ADD_WIDE(low, high, summand)                                                       \
+    {                                                                                              \
+        uint before = atomicAdd(low, summand);                                                     \
+        if (before + (summand) < before) {                                                         \
+            atomicAdd(high, 1u);                                                                   \
+        }                                                                                          \
     }
 
 #define GEODISK_PUSH                                                                               \

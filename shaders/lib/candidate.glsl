@@ -1,11 +1,14 @@
-// A candidate as a pure function of seed and rank (paper section 3.3), in integers but for one
-// correctly rounded root, and where radii vary for correctly rounded quotients.
+// Candidates on a surface as its disks are large: as face_candidate.glsl has them, and where radii vary
+// with correctly rounded quotients.
 #ifndef GEODISK_CANDIDATE_GLSL
 #define GEODISK_CANDIDATE_GLSL
 
+#include "face_candidate.glsl"
 #include "radii.glsl"
-#include "rng.glsl"
-#include "uniform_candidate.glsl"
+
+GEODISK_WORDS(kBindKeys, keys);
+
+uint key_of(uint face) { return push.has_keys != 0u ? word_at(keys, face) : face; }
 
 // Where radii vary, candidates are as dense as 1 / r^2, so that every disk holds as many. Uniform
 // weights u of the corners are turned into u_k / s_k over their sum, which makes points as dense as
@@ -13,7 +16,7 @@
 // g_k^(2/3) s is nowhere more than g^(2/3), so that is no more than 1, and at least 0.059 however much
 // g varies. Returns whether this one is kept.
 bool propose(inout Candidate c, uvec4 random) {
-    vec3 spreads = face_spreads(c.face);
+    vec3 spreads = face_spreads(c.face).xyz;
     // 1 / s_k but for a factor.
     precise float inverse0 = spreads.y * spreads.z;
     precise float inverse1 = spreads.x * spreads.z;
@@ -36,21 +39,27 @@ bool propose(inout Candidate c, uvec4 random) {
     return threshold < cube;
 }
 
-// `rank` counts from the first of the chunk.
-Candidate draw_candidate(uint rank) {
-    uvec2 seed = uvec2(push.seed_low, push.seed_high);
-    uint index = push.first_rank + rank;
-    uvec4 random = philox(seed, uvec2(index, 0u));
-    Candidate c = draw_uniform(random);
+Candidate draw_candidate(uint face, uint stage, uint number) {
+    Candidate c = draw_evenly(face, stage, number);
     if (kAdaptive) {
-        bool kept = propose(c, random);
+        bool kept = propose(c, random_of(face, number, stage, 0u));
         for (uint proposal = 1u; proposal < kMostProposals && !kept; ++proposal) {
-            random = philox(seed, uvec2(index, proposal));
-            c = draw_uniform(random);
+            uvec4 random = random_of(face, number, stage, proposal);
+            weigh_evenly(c, random);
             kept = propose(c, random);
         }
     }
     return c;
+}
+
+// How many candidates a face of this area has.
+uint count_candidates(uint face, uint stage, float area) {
+    precise float mean = push.intensity * area;
+    if (kAdaptive) {
+        precise float denser = mean * face_spreads(face).w;
+        mean = denser;
+    }
+    return count_of(face, stage, mean);
 }
 
 #endif

@@ -2,12 +2,12 @@
 #ifndef GEODISK_CONFLICTS_GLSL
 #define GEODISK_CONFLICTS_GLSL
 
-// Four entries of a slot's list, from a multiple of four on.
-uvec4 four_conflicts(uint slot, uint at) { return row_at(pool, list_row(slot) + (at >> 2)); }
+// The row of a slot's list that holds this entry.
+uvec4 list_row_at(uint slot, uint at) { return row_at(pool, list_row(slot) + (at >> 2)); }
 
 uint active_conflict(uint slot, uint number) {
     uint at = active_entry(push.list_capacity, number);
-    return four_conflicts(slot, at)[at & 3u];
+    return list_row_at(slot, at)[at & 3u];
 }
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef GEODISK_GRID_GLSL
 #define GEODISK_GRID_GLSL
 
-layout(constant_id = kSpecDimension) const uint kDimension = 3u;
+#include "dimension.glsl"
 
 GEODISK_ROWS(kBindAxes, axes);
 
@@ -12,20 +12,22 @@ struct Axis {
     uint cells;
     bool is_periodic;
     uint stride;
-    float unit;  // of a coordinate, in minimum distances
-    float width; // of a cell, in minimum distances
+    float unit;    // a step of a coordinate, in minimum distances
+    float width;   // of a cell, in minimum distances
+    uint per_step; // cells for each step, in units of 2^-32
 };
 
 Axis load_axis(uint axis) {
-    uvec4 row = row_at(axes, axis);
+    uvec4 row = row_at(axes, kAxisRows * axis);
     return Axis(row.x & ~kPeriodicAxis, (row.x & kPeriodicAxis) != 0u, row.y,
-                uintBitsToFloat(row.z), uintBitsToFloat(row.w));
+                uintBitsToFloat(row.z), uintBitsToFloat(row.w),
+                row_at(axes, kAxisRows * axis + 1u).w);
 }
 
 // The cell that holds a coordinate, and where in it, in units of 2^-32 of its width.
 uint cell_on(Axis axis, uint coordinate, out uint inside) {
     uint cell;
-    umulExtended(coordinate, axis.cells, cell, inside);
+    umulExtended(coordinate, axis.per_step, cell, inside);
     return cell;
 }
 

@@ -1,30 +1,29 @@
-// Draws the pool into a grid and counts the candidates of every head of its table of cells. Needs
-// draw_point(rank).
+// Draws the candidates into a grid, sorted by the heads of its table of cells. Needs draw_point(unit,
+// number, record) and words_per_point().
 #ifndef GEODISK_GRID_DRAW_GLSL
 #define GEODISK_GRID_DRAW_GLSL
 
-layout(local_size_x_id = 0) in;
+#include "each_drawn.glsl"
+#include "grid_head.glsl"
+#include "point_words.glsl"
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
-GEODISK_BUFFER(kBindPlaces, writeonly, uint, places);
-GEODISK_BUFFER(kBindMarks, writeonly, uint, marks);
+GEODISK_BUFFER(kBindStates, writeonly, uint, states);
+GEODISK_BUFFER(kBindPoints, writeonly, uint, points);
+GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 
-void main() {
-    uint rank = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
-                gl_GlobalInvocationID.x;
-    if (rank >= push.candidates) {
-        return;
+void visit(uint unit, uint number) {
+    uvec4 record;
+    uint point[kMostAxes] = draw_point(unit, number - word_at(starts, unit), record);
+    uint place = atomicAdd(cells[head_of(point) + 1u], 1u);
+    states[place] = kIdle;
+    orders[place] = record.x;
+    for (uint i = 0u; i < words_per_point(); ++i) {
+        points[i * push.capacity + place] = point[i];
     }
-    uint point[kMostAxes] = draw_point(rank);
-    uint head = 0u;
-    for (uint i = 0u; i < kDimension; ++i) {
-        Axis axis = load_axis(i);
-        uint inside;
-        head += cell_on(axis, point[i], inside) * axis.stride;
-    }
-    head = head_in_table(head);
-    places[rank] = head;
-    marks[rank] = atomicAdd(cells[head], 1u);
+    points[number_word(place, words_per_point())] = number;
 }
+
+void main() { visit_each(); }
 
 #endif

@@ -52,7 +52,7 @@ void load_face() {
     edge_around = corner == 0u ? links.x : (corner == 1u ? links.y : links.z);
     right_around = corner == 0u ? links.y : (corner == 1u ? links.z : links.x);
     left_around = corner == 0u ? links.z : (corner == 1u ? links.x : links.y);
-    cell_word = links.w;
+    cell_word = P.all_single != 0u ? kSingleCell << kFaceCornerShift | face * P.stages : links.w;
     if (kAdaptive) {
         radii = face_radii(face);
     }

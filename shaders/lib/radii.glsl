@@ -17,8 +17,8 @@ vec4 radii_row(uint face, uint row) {
 // Of a face: the radii of its corners, and how far disks reach into it.
 vec4 face_radii(uint face) { return radii_row(face, 0u); }
 
-// And what candidates are proposed by.
-vec3 face_spreads(uint face) { return radii_row(face, 1u).xyz; }
+// And what candidates are proposed by, and how much denser they are.
+vec4 face_spreads(uint face) { return radii_row(face, 1u); }
 
 // What is linear in a face, at the point with these weights of the second and third corner.
 float interpolated(vec3 corners, float weight1, float weight2) {

@@ -1,9 +1,8 @@
-// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011): four words, a pure function of seed and indices.
+// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011): four words, a pure function of seed and counter.
 #ifndef GEODISK_RNG_GLSL
 #define GEODISK_RNG_GLSL
 
-uvec4 philox(uvec2 key, uvec2 index) {
-    uvec4 c = uvec4(index, 0u, 0u);
+uvec4 philox(uvec2 key, uvec4 c) {
     for (int round = 0; round < 10; ++round) {
         uint high0, low0, high1, low1;
         umulExtended(0xD2511F53u, c.x, high0, low0);

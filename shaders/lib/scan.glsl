@@ -43,10 +43,12 @@ void begin_scan(float sx, float sy) {
     uint column = cell_at(low_x, grid.columns, grid.per_unit);
     uint row0 = cell_at(low_y, grid.rows, grid.per_unit);
     uint row1 = cell_at(high_y, grid.rows, grid.per_unit);
-    scan_columns = cell_at(high_x, grid.columns, grid.per_unit) - column + 1u;
-    scan_stride = grid.columns;
+    // Where all faces are of one cell, each has an entry for every stage.
+    uint entries = P.all_single != 0u ? P.stages : 1u;
+    scan_columns = (cell_at(high_x, grid.columns, grid.per_unit) - column + 1u) * entries;
+    scan_stride = grid.columns * entries;
     scan_row = grid.first + row0 * grid.columns + column;
-    scan_row_end = scan_row + (row1 - row0 + 1u) * grid.columns;
+    scan_row_end = scan_row + (row1 - row0 + 1u) * scan_stride;
     scan_place = 0u;
     scan_end = 0u;
     if (kAdaptive && rest <= 0.0) {

@@ -4,11 +4,14 @@
 #define GEODISK_SPACE_CANDIDATE_GLSL
 
 #include "curve.glsl"
-#include "grid.glsl"
-#include "rng.glsl"
-#include "uniform_candidate.glsl"
+#include "face_candidate.glsl"
+#include "dimension.glsl"
 
-GEODISK_ROWS(kBindFaces, corners); // kSpaceRows to a face: a row per corner, then their normals
+// kSpaceRows to a face: a row per corner, then their normals; behind the first corner the area, behind
+// the second the key.
+GEODISK_ROWS(kBindFaces, corners);
+
+uint key_of(uint face) { return row_at(corners, kSpaceRows * face + 1u).w; }
 
 layout(constant_id = kSpecCurved) const bool kCurved = false;
 
@@ -36,9 +39,7 @@ vec3 normal_of(Candidate c) {
 
 uint words_per_point() { return kCurved ? 6u : 3u; }
 
-uint[kMostAxes] draw_point(uint rank) {
-    Candidate c = draw_uniform(
-        philox(uvec2(push.seed_low, push.seed_high), uvec2(push.first_rank + rank, 0u)));
+uint[kMostAxes] point_at(Candidate c) {
     uint weight0 = kOneWeight - c.weight1 - c.weight2;
     uint row = kSpaceRows * c.face;
     uvec4 corner0 = row_at(corners, row);
@@ -58,6 +59,20 @@ uint[kMostAxes] draw_point(uint rank) {
         point[5] = normal.z;
     }
     return point;
+}
+
+// The candidate with this number, and the words of its sample.
+uint[kMostAxes] draw_point(uint unit, uint number, out uvec4 record) {
+    uint face = unit / push.stages;
+    Candidate c = draw_evenly(face, unit - face * push.stages, number);
+    record = uvec4(c.order, face, floatBitsToUint(weight_of(c.weight1)),
+                   floatBitsToUint(weight_of(c.weight2)));
+    return point_at(c);
+}
+
+uint[kMostAxes] point_of(uvec4 record) {
+    return point_at(Candidate(record.y, record.x, steps_of(uintBitsToFloat(record.z)),
+                              steps_of(uintBitsToFloat(record.w))));
 }
 
 #endif

@@ -48,10 +48,35 @@ GEODISK_CONST uint kLongestChain = 65536u;
 // Nor this: the samples' buffer is too small, the set itself is complete.
 GEODISK_CONST uint kOverflowSamples = 16u;
 
-// Set in a blocker word once an accepted candidate of lower rank conflicts.
-GEODISK_CONST uint kBlockedForGood = 0x80000000u;
-// Set in it, once the batch is decided and calls are counted, when the other bits are the calls.
-GEODISK_CONST uint kCallsKnown = 0x40000000u;
+// Nor this: a stage has more candidates than the buffers hold.
+GEODISK_CONST uint kOverflowCandidates = 32u;
+
+// An order: the stage, counted from the first of the chunk, above the bits of the priority.
+GEODISK_CONST uint kPriorityBits = 28u;
+GEODISK_CONST uint kMostStages = 15u;     // of a chunk
+GEODISK_CONST uint kMostDartStages = 4096u; // of a run that throws darts
+GEODISK_CONST uint kNoOrder = 0xffffffffu; // above all orders
+
+// Philox counters of a face: its key, the number of a candidate, the stage, and the proposal. How many
+// there are takes this instead of a proposal.
+GEODISK_CONST uint kCountProposal = 0xffffffffu;
+// Of the seed of a box cell, and of how many candidates it has.
+GEODISK_CONST uint kCellSeed = 0xb0c5u;
+GEODISK_CONST uint kCountNumber = 0xffffffffu;
+
+// What select goes through.
+GEODISK_CONST uint kSelectPool = 0u;    // all candidates, and lists those that come next
+GEODISK_CONST uint kSelectList = 1u;    // that list
+GEODISK_CONST uint kSelectSettled = 2u; // samples of earlier chunks
+
+// A slot's blocks: one for each candidate before it that conflicts and is not decided.
+GEODISK_CONST uint kBlockedForGood = 0x80000000u; // one of them was accepted
+GEODISK_CONST uint kClaimed = 0x40000000u;        // some invocation decides it
+GEODISK_CONST uint kBlocksMask = 0x3fffffffu;
+// Set in its cursor where the rest of its list is left to the next dispatch.
+GEODISK_CONST uint kSuspended = 0x80000000u;
+// Set in its calls once they are known.
+GEODISK_CONST uint kCallsKnown = 0x80000000u;
 GEODISK_CONST uint kMostCalls = 0x3fffffffu;
 
 // Where a lane stands.
@@ -61,16 +86,15 @@ GEODISK_CONST uint kPhaseSource = 2u;   // spreads over the three edges of the c
 GEODISK_CONST uint kPhasePop = 3u;      // takes the next window or event
 GEODISK_CONST uint kPhaseFan = 4u;      // spreads over the corners of a vertex
 GEODISK_CONST uint kPhaseCross = 5u;    // carries a window into the next face of its edge
-GEODISK_CONST uint kPhaseComplete = 6u; // the disk is complete
+GEODISK_CONST uint kPhaseBlock = 6u;    // the disk is complete; blocks the active ones in it
+GEODISK_CONST uint kPhaseComplete = 7u;
 
 // Where a slot stands.
-GEODISK_CONST uint kSlotSelected = 0u;  // has a rank and nothing else
-GEODISK_CONST uint kSlotReady = 1u;     // waits for its disk
-GEODISK_CONST uint kSlotListed = 2u;    // the disk is complete, but not yet in the blockers of others
-GEODISK_CONST uint kSlotBlocked = 3u;   // ready to be resolved
-GEODISK_CONST uint kSlotDecided = 4u;
-GEODISK_CONST uint kSlotCounting = 5u;  // its calls are being counted
-GEODISK_CONST uint kSlotCounted = 6u;   // they are in the histogram
+GEODISK_CONST uint kSlotReady = 0u;     // waits for its disk
+GEODISK_CONST uint kSlotListed = 1u;    // the disk is complete, and those in it are blocked
+GEODISK_CONST uint kSlotDecided = 2u;
+GEODISK_CONST uint kSlotCounting = 3u;  // its calls are being counted
+GEODISK_CONST uint kSlotCounted = 4u;   // they are in the histogram
 
 // The place of a sample of an earlier chunk, whose disk only rejects.
 GEODISK_CONST uint kNoPlace = 0xffffffffu;
@@ -105,8 +129,12 @@ GEODISK_CONST uint kIterationsPerTrip =
 // A step: once every few trips a lane that is done takes its next slot.
 GEODISK_CONST uint kTripsPerStep = 8u;
 GEODISK_CONST uint kClearPerStep = 64u;    // rows of the vertex table
-GEODISK_CONST uint kIterationsPerStep = 1u + kClearPerStep + kTripsPerStep * kIterationsPerTrip;
-// List entries that block and resolve go through in one dispatch.
+GEODISK_CONST uint kBlocksPerStep = 16u;   // active conflicts of a complete disk
+GEODISK_CONST uint kIterationsPerStep =
+    1u + kClearPerStep + kBlocksPerStep + kTripsPerStep * kIterationsPerTrip;
+// Candidates that an invocation of resolve has at hand to decide, and list entries that it goes
+// through in one dispatch.
+GEODISK_CONST uint kMostAtHand = 8u;
 GEODISK_CONST uint kListPerDispatch = 4096u;
 
 // Grids of cells over boxes, at least half a minimum distance wide: a disk reaches kGridReach cells
@@ -126,11 +154,11 @@ GEODISK_CONST uint kIterationsPerGridTrip =
 // Candidates that cause 1, 2, ... calls of the paper's CheckStatus, the last for that many and more.
 GEODISK_CONST uint kCallBins = 10u;
 
-// Rows of a face and of its radii, of a slot record and of a window.
+// Rows of a face and of its radii, of a lane record and of a window.
 GEODISK_CONST uint kFaceRows = 4u;
 GEODISK_CONST uint kSpaceRows = 6u; // of a face, where distances go through space
 GEODISK_CONST uint kRadiiRows = 2u;
-GEODISK_CONST uint kSlotRows = 4u;
+GEODISK_CONST uint kAxisRows = 2u;
 GEODISK_CONST uint kLaneRows = 9u;
 GEODISK_CONST uint kWindowRows = 2u;
 
@@ -144,14 +172,18 @@ GEODISK_CONST uint kSpecDimension = 5u;
 GEODISK_CONST uint kSpecCurved = 6u;
 GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
 
-// Lanes of a work group of find_idle, each with 32 ranks, and the most groups of one dispatch.
-GEODISK_CONST uint kFindLanes = 64u;
-GEODISK_CONST uint kFindMostGroups = 256u;
+// Candidates that a work group of the kernels per candidate draws or looks at: so many lanes, so
+// many each, side by side.
+GEODISK_CONST uint kWideLanes = 128u;
+GEODISK_CONST uint kDrawPerLane = 8u;
+GEODISK_CONST uint kSelectPerLane = 32u;
+GEODISK_CONST uint kDrawBlock = 1024u;
+GEODISK_CONST uint kSelectBlock = 4096u;
 
 // Words that one work group of the scan covers: so many lanes, so many words each.
 GEODISK_CONST uint kScanLanes = 128u;
-GEODISK_CONST uint kScanPerLane = 32u;
-GEODISK_CONST uint kScanBlock = 4096u;
+GEODISK_CONST uint kScanPerLane = 16u;
+GEODISK_CONST uint kScanBlock = 2048u;
 
 GEODISK_END_SHARED
 

@@ -8,8 +8,8 @@
 GEODISK_BEGIN_SHARED
 
 struct Push {
-    uint candidates;      // of the chunk; ranks count from its first candidate
-    uint faces;
+    uint capacity;        // candidates that the buffers hold
+    uint faces;           // or cells that a box is drawn by
     uint vertices;
     uint cells;           // of boxes: heads of the table of cells, a power of two
     uint seed_low;
@@ -29,8 +29,16 @@ struct Push {
     uint step_budget;     // steps of detect per dispatch
     uint scan_count;      // scans: words to scan
     uint sample_capacity; // samples the buffer holds
-    uint first_rank;      // of the chunk, among all candidates
-    uint stop_count;      // most candidates to accept, of all chunks
+    uint first_stage;     // of the chunk
+    uint stages;          // of the chunk
+    float intensity;      // candidates that one stage expects per unit of area
+    uint has_keys;        // 1 where faces are drawn by keys of the caller
+    uint all_single;      // 1 where all faces are of one cell, whose table is then that of starts
+    uint end_order;       // candidates of this order and higher ones do not take part
+    uint stop_count;      // enough samples, of all chunks
+    uint idle_capacity;   // places that the list of idle candidates holds
+    uint buckets;         // ranges of orders by which samples are put in order
+    uint bucket_shift;    // an order's range lies above so many bits
 };
 
 GEODISK_END_SHARED
@@ -38,7 +46,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 88 && offsetof(Push, stop_count) == 84);
+static_assert(sizeof(Push) == 120 && offsetof(Push, bucket_shift) == 116);
 }
 #endif
 

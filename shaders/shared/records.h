@@ -18,45 +18,47 @@ struct FaceLinksRec {
     uint around0; uint around1; uint around2; uint cells;
 };
 
-// The radii at the corners of a face, how far disks reach into it (RadiusField::reach_bounds), and
-// what candidates are proposed by (RadiusField::spreads). Only where radii vary.
+// The radii at the corners of a face, how far disks reach into it (RadiusField::reach_bounds), what
+// candidates are proposed by (RadiusField::spreads), and how many more of them it has
+// (RadiusField::densities). Only where radii vary.
 struct RadiiRec {
     float radius0; float radius1; float radius2; float bound;
-    float spread0; float spread1; float spread2; float spare;
+    float spread0; float spread1; float spread2; float density;
 };
 
 struct FanRec {
     uint first_corner; uint corner_count; uint total_angle; uint flags;
 };
 
-struct AliasRec {
-    uint threshold; uint alias;
-};
-
-// An axis of the grid over a box. Coordinates are multiples of 2^-32 of the side.
+// An axis of a box. A coordinate is a number of steps. The grid that disks are found by, then the
+// cells that candidates are drawn by.
 struct AxisRec {
     uint cells;    // along the axis, and kPeriodicAxis
     uint stride;   // a cell further along the axis, so many heads further in the table
-    float unit;    // 2^-32 of the side, in minimum distances
+    float unit;    // a step, in minimum distances
     float width;   // of a cell, in minimum distances
+    uint draw_cells;
+    uint draw_width; // of a cell, in steps; 0 for all 2^32
+    uint last_width; // of the last one
+    uint per_step;   // cells of the grid for each step, in units of 2^-32
 };
 
-// An accepted candidate, its rank among all. The weights are multiples of 2^-24 and that of the first
-// corner is exactly one minus both.
+// An accepted candidate. The weights are multiples of 2^-24 and that of the first corner is exactly
+// one minus both. In boxes the words behind the order are the cell it was drawn in, its number there
+// and its stage.
 struct SampleRec {
-    uint rank; uint face; float weight1; float weight2;
+    uint order; uint face; float weight1; float weight2;
 };
 
-// One active candidate, and what its disk took and found; or a sample of an earlier chunk, whose rank
-// wraps around from below the chunk's first. While calls are counted, the last three words are the
-// cursor in the list, the nearest conflict and the one to start from. Where distances go through
-// space, the three words behind the rank tell which cells are next, and the candidates left in the
-// last ones.
+// One active candidate; or a sample of an earlier chunk, which has no place. Each has a sample's
+// four words, and the blocks that candidates before it in dart order have put on it.
 struct SlotRec {
     uint place; uint phase; uint idle_conflicts; uint active_conflicts;
-    uint rank; uint face; float weight1; float weight2;
-    uint tested; uint pushed; uint most_waiting; uint vertices;
-    uint longest_chain; uint blocked; uint resolved; uint spare;
+    uint order; uint face; uint weight1; uint weight2;
+    uint blocks; uint cursor; uint longest_chain; uint calls;
+    // Where distances go through space: which cells are next, and the candidates left in the last.
+    // While calls are counted: the slots that were counted last, and that come next so far.
+    uint turn; uint scan_place; uint scan_end; uint rows_visited;
 };
 
 // Where a lane stands with the slot it works on, at the head of its slice, so that detect can stop at
@@ -74,27 +76,41 @@ struct LaneRec {
     uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
 };
 
-// The run as a whole. The leading words are the indirect sizes of the kernels per slot, of find_idle
-// and of detect. Those before `accepted` start from zero with every chunk.
+// The run as a whole. The leading words are the indirect sizes of select, of detect, and of resolve.
+// Those before `accepted` start from zero with every chunk.
 struct ControlRec {
-    uint groups_x; uint groups_y; uint groups_z;
-    uint find_x; uint find_y; uint find_z;
+    uint select_x; uint select_y; uint select_z; // none while a batch is not decided
     uint detect_x; uint detect_y; uint detect_z; // none once the disks of a batch are complete
+    uint groups_x; uint groups_y; uint groups_z;
+    uint count_x; uint count_y; uint count_z;    // of count_calls, once a batch is decided
     uint abi;
-    uint next_rank;        // every lower rank is decided or active
-    uint batch_rank;       // next_rank before the active batch was selected
+    uint drawn;            // candidates of the chunk
+    uint mode;             // kSelect*
+    uint first_order;      // all of lower order are decided or active
+    uint batch_end;        // idle candidates of lower order are due
+    uint list_end;         // the list holds all idle candidates from first_order up to it
+    uint list_count;
+    uint list_left;        // lowest order that the list had no room for
+    uint first_left;       // lowest order that found no slot; slots of no lower one are void
+    uint due;              // candidates that asked for a slot
+    uint waiting;          // idle candidates in the list that are not due
+    uint selected_groups;  // work groups of select that are done
+    float spacing;         // orders for each idle candidate
     uint next_sample;      // every lower one of the settled samples has rejected or is about to
-    uint batch_sample;     // next_sample before the active batch was selected
     uint slots_used;       // slots of the active batch
     uint next_slot;        // the first that no lane has taken yet
-    uint incomplete;       // slots whose disk is not complete, on surfaces
-    uint unfinished;       // slots whose disk is not complete or not yet in the blockers
-    uint undecided;        // slots neither accepted nor rejected; where calls are counted, besides
-                           // those whose calls are not known yet
+    uint incomplete;       // slots whose disk is not complete
+    uint undecided;        // slots neither accepted nor rejected
+    uint uncounted;        // slots whose calls are not known yet, where these are counted
     uint overflow;         // kOverflow* bits
     uint done;             // 1 once no idle candidate is left, or stop_count accepted
+    uint below;            // candidates of lower order than asked for, by count_orders
+    uint first_open;       // while samples are put in order: the lowest order not decided
+    uint ready;            // samples that are in order and final, of all chunks
     uint accepted;         // in all chunks
-    uint settled;          // in the chunks before; their samples are in the buffer
+    uint settled;          // in the chunks before
+    uint ordered;          // accepted ones that need not be put in order any more
+    uint next_ordered;     // what that will be the next time
     uint iterations;       // batches selected
     uint disks;            // disks completed
     uint windows_low;      // windows pushed in completed disks, 64 bits
@@ -121,14 +137,13 @@ GEODISK_END_SHARED
 namespace geodisk::gpu {
 static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, origin) == 12);
 static_assert(sizeof(FaceLinksRec) == 16 && offsetof(FaceLinksRec, cells) == 12);
-static_assert(sizeof(RadiiRec) == 32 && offsetof(RadiiRec, spare) == 28);
+static_assert(sizeof(RadiiRec) == 32 && offsetof(RadiiRec, density) == 28);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
-static_assert(sizeof(AliasRec) == 8 && offsetof(AliasRec, alias) == 4);
-static_assert(sizeof(AxisRec) == 16 && offsetof(AxisRec, width) == 12);
+static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
-static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, spare) == 60);
+static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 196 && offsetof(ControlRec, calls_high) == 192);
+static_assert(sizeof(ControlRec) == 264 && offsetof(ControlRec, calls_high) == 260);
 } // namespace geodisk::gpu
 #endif
 

@@ -71,7 +71,7 @@ TEST_CASE("box: samples keep their distance in every dimension") {
             REQUIRE(rows.size() > 1);
             double smallest = 1e9;
             for (std::size_t i = 0; i < rows.size(); ++i) {
-                REQUIRE(rows[i].size() == n + 1);
+                REQUIRE(rows[i].size() == n);
                 for (std::size_t k = 0; k < i; ++k) {
                     smallest = std::min(smallest, distance(rows[i], rows[k],
                                                            std::vector<double>(n, 1), is_periodic));
@@ -106,23 +106,23 @@ TEST_CASE("box: verify finds samples that are too close, across the sides too, o
     const TemporaryFolder folder;
     const auto file = [&](const std::string& sides, const std::string& rows) {
         folder.write("a.csv", "# box: 1 x 2\n# sides: " + sides + "\n# min_distance: 0.1\n" +
-                                  "x,y,candidate\n" + rows);
+                                  "x,y\n" + rows);
         return run(folder, {"verify", "a.csv"});
     };
-    const std::string corners = "0.01,0.5,0\n0.5,0.02,1\n0.98,0.5,2\n0.5,1.97,3\n";
+    const std::string corners = "0.01,0.5\n0.5,0.02\n0.98,0.5\n0.5,1.97\n";
     CHECK(file("open", corners).status == 0);
     const Outcome around = file("periodic", corners);
     CHECK(around.status == 1);
     CHECK(contains(around.out, "violations    2\n"));
-    CHECK(contains(around.out, "sample 0 (candidate 0) and sample 2 (candidate 2): 0.03\n"));
-    CHECK(contains(around.out, "sample 1 (candidate 1) and sample 3 (candidate 3): 0.05\n"));
+    CHECK(contains(around.out, "samples 0 and 2: 0.03\n"));
+    CHECK(contains(around.out, "samples 1 and 3: 0.05\n"));
     CHECK(contains(around.out, "too close     4 of 4 samples\n"));
     CHECK(contains(around.err, "2 pairs of samples are closer than 0.1"));
     CHECK(run(folder, {"verify", "a.csv", "-d", "0.02"}).status == 0);
-    const Outcome outside = file("open", "0.5,0.5,0\n0.5,2.5,1\n");
+    const Outcome outside = file("open", "0.5,0.5\n0.5,2.5\n");
     CHECK(outside.status == 1);
     CHECK(contains(outside.err, "1 sample lies outside the box"));
-    CHECK(file("open", "0.5,0.5,0\n").status == 0);
+    CHECK(file("open", "0.5,0.5\n").status == 0);
     CHECK(file("open", "").status == 0);
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("box: verify explains what is no file of samples in a box") {
         folder.write("a.csv", text);
         check_fails(folder, status, part, {"verify", "a.csv"});
     };
-    const std::string rows = "x,y,candidate\n0.5,0.5,0\n";
+    const std::string rows = "x,y\n0.5,0.5\n";
     refuse("tells of no box", rows);
     refuse("not 1 to 6 positive sides", "# box: 1 x\n" + rows);
     refuse("not 1 to 6 positive sides", "# box: 1 x -1\n" + rows);
@@ -151,7 +151,7 @@ TEST_CASE("box: all formats hold the same samples") {
     const TemporaryFolder folder;
     const Arguments options{"--extents", "2,0.5", "-d", "0.1"};
     const std::string csv = boxed(folder, "a.csv", options);
-    CHECK(contains(csv, "\nx,y,candidate\n"));
+    CHECK(contains(csv, "\nx,y\n"));
     for (const char* const line : {"# box: 2 x 0.5\n", "# sides: open\n", "# min_distance: 0.1\n",
                                    "# seed: 0\n", "# pool_size: ", "# device: "}) {
         CHECK(contains(csv, line));
@@ -162,19 +162,18 @@ TEST_CASE("box: all formats hold the same samples") {
     as_text.push_back("--ascii");
     const std::string ascii = boxed(folder, "b.ply", as_text);
     CHECK(contains(ascii, "property double x\nproperty double y\nproperty double z\n"
-                          "property uint candidate\nend_header\n"));
+                          "end_header\n"));
     const auto text_rows = rows_of(ascii);
     const std::string binary = boxed(folder, "a.ply", options);
     const std::size_t header = binary.find("end_header\n") + 11;
-    CHECK(binary.size() == header + rows.size() * (3 * 8 + 4));
+    CHECK(binary.size() == header + rows.size() * 3 * 8);
     REQUIRE(lines.size() == rows.size());
     REQUIRE(text_rows.size() == rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         CHECK(lines[i] == std::vector<double>{rows[i][0], rows[i][1], 0});
-        CHECK(text_rows[i] == std::vector<double>{rows[i][0], rows[i][1], 0, rows[i][2]});
+        CHECK(text_rows[i] == lines[i]);
     }
-    CHECK(contains(boxed(folder, "c.csv", {"--dim", "5", "-n", "9"}),
-                   "\nx0,x1,x2,x3,x4,candidate\n"));
+    CHECK(contains(boxed(folder, "c.csv", {"--dim", "5", "-n", "9"}), "\nx0,x1,x2,x3,x4\n"));
     CHECK(contains(boxed(folder, "c.ply", {"--dim", "4", "-n", "9"}),
                    "property double z\nproperty double x0\n"));
 }
@@ -202,7 +201,8 @@ TEST_CASE("box: reports for people and programs") {
     const auto report = nlohmann::json::parse(bytes_of(folder / "a.json"));
     CHECK(report["box"] ==
           nlohmann::json({{"dimension", 2}, {"extents", {1.0, 1.0}}, {"periodic", true}}));
-    CHECK(report["candidates"] == 10000);
+    CHECK(report["candidates"] > 9500);
+    CHECK(report["candidates"] < 10500);
     CHECK(report["samples"] == rows_of(bytes_of(folder / "a.csv")).size());
     CHECK(report["disks"] >= report["samples"]);
     CHECK(report["guard"] == 0x1p-20);

@@ -1,6 +1,11 @@
 // `geodisk sample --method pdts`: when it stops, what it says then, and what it refuses.
 #include <doctest/doctest.h>
 
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
@@ -41,10 +46,13 @@ Throw thrown(const TemporaryFolder& folder, Arguments arguments) {
             outcome.out};
 }
 
-std::vector<std::uint32_t> candidates(const Throw& set) {
-    std::vector<std::uint32_t> result;
+/// Where the samples lie, in dart order.
+using Places = std::vector<std::tuple<std::uint32_t, float, float>>;
+
+Places places(const Throw& set) {
+    Places result;
     for (const tools::SampleRow& row : set.rows) {
-        result.push_back(row.candidate);
+        result.emplace_back(row.face, row.bary[1], row.bary[2]);
     }
     return result;
 }
@@ -63,13 +71,15 @@ bool has_entry(const tools::SampleHeader& header, const std::string& key,
 
 TEST_CASE("darts stop at their number, and are a pool if they are as many") {
     const TemporaryFolder folder;
-    const Throw pool = thrown(folder, sample({"-d", "0.2", "--method", "psdp"}));
+    // The first stage of either expects five darts per sample.
+    const Throw pool =
+        thrown(folder, sample({"-d", "0.2", "--method", "psdp", "--pool-ratio", "5"}));
     CHECK(pool.report["method"] == "psdp");
     CHECK(pool.report["stopped_by"] == "pool");
     CHECK(pool.report["throws"].is_null());
     const auto size = pool.report["candidates"].get<std::uint64_t>();
     const Throw set = thrown(folder, darts({"-d", "0.2", "--throws", std::to_string(size)}));
-    CHECK(candidates(set) == candidates(pool));
+    CHECK(places(set) == places(pool));
     CHECK(set.report["method"] == "pdts");
     CHECK(set.report["throws"] == size);
     CHECK(set.report["stopped_by"] == "throws");
@@ -85,15 +95,21 @@ TEST_CASE("darts stop at their number, and are a pool if they are as many") {
 
 TEST_CASE("darts stop at exactly the count, with the first samples") {
     const TemporaryFolder folder;
-    const auto all = candidates(thrown(folder, darts({"-d", "0.1", "--throws", "20000"})));
+    const auto all = places(thrown(folder, darts({"-d", "0.1", "--throws", "20000"})));
     REQUIRE(all.size() > 300);
     for (const Arguments& more : {Arguments{}, Arguments{"--throws", "20000"}}) {
         Arguments options{"-d", "0.1", "--count", "300"};
         options.insert(options.end(), more.begin(), more.end());
         const Throw set = thrown(folder, darts(options));
-        CHECK(candidates(set) == std::vector<std::uint32_t>(all.begin(), all.begin() + 300));
+        CHECK(places(set) == Places(all.begin(), all.begin() + 300));
         CHECK(set.report["stopped_by"] == "count");
-        CHECK(set.report["throws"] == all[299] + 1);
+        // Just as many darts as that took: without the last there is one sample fewer.
+        const auto throws = set.report["throws"].get<std::uint64_t>();
+        for (const std::uint64_t fewer : {0u, 1u}) {
+            const std::string darts_left = std::to_string(throws - fewer);
+            CHECK(thrown(folder, darts({"-d", "0.1", "--throws", darts_left})).rows.size() ==
+                  300 - fewer);
+        }
         CHECK(set.report["samples"] == 300);
         CHECK(contains(set.summary, "samples       300, rho"));
     }

@@ -155,7 +155,7 @@ TEST_CASE("what is wrong with the radii of a file is found") {
     const Outcome read = run(folder, {"verify", "mesh.ply", "b.csv"});
     CHECK(read.status == 1);
     CHECK(contains(read.err, "pairs of samples are closer than the sum of their radii"));
-    CHECK(contains(read.out, "sample 5 (candidate "));
+    CHECK(contains(read.out, "samples 5 and "));
     CHECK(contains(read.out, " of the sum of their radii\n"));
     // A distance overrides the file's radii: then it must hold for all pairs.
     CHECK(run(folder, {"verify", "mesh.ply", "a.ply", "-d", "1e-4"}).status == 0);
@@ -184,7 +184,7 @@ TEST_CASE("the report tells of radii that vary") {
     const Outcome plain =
         run(folder, {"sample", "mesh.ply", "-o", "b.csv", "-r", "0.05", "--json", "-"});
     CHECK(nlohmann::json::parse(plain.out)["sample_radii"].is_null());
-    CHECK_FALSE(contains(bytes_of(folder / "b.csv"), "candidate,radius"));
+    CHECK_FALSE(contains(bytes_of(folder / "b.csv"), "bary_w,radius"));
 }
 
 TEST_CASE("the smallest radii count as a thousandth of the largest, with a warning") {

@@ -74,13 +74,13 @@ struct Bench {
         if (wanted_.empty()) {
             wanted_ = float_set(mesh, params, set->report.plan.chain);
         }
-        CHECK(ranks_of(*set) == wanted_);
+        CHECK(points_of(*set) == wanted_);
     }
 
     void check_run(Runner& runner) { check_set(runner.sample_and_wait(mesh, params)); }
 
   private:
-    std::vector<std::uint32_t> wanted_;
+    Points wanted_;
 };
 
 void check_error(const Error& error, const char* function, VkResult result) {
@@ -136,11 +136,12 @@ bool frees_what_runs(std::string_view function) {
            function.starts_with("vkFree");
 }
 
-/// A run in chunks, whose buffer of samples grows with each.
+/// A run in chunks, whose buffers of samples grow again and again.
 RunnerOptions growing() {
     RunnerOptions options;
-    options.plan.chunk = 150;
-    options.plan.sample_capacity = 1;
+    options.plan.stages = 1;
+    options.plan.slots = kLeastSlots;
+    options.plan.sample_capacity = kLeastSlots + 1;
     return options;
 }
 
@@ -289,14 +290,14 @@ TEST_SUITE("faults") {
             bench.spy.on_call = [&](std::string_view function) {
                 has_job = has_job || function == "vkCreateDescriptorPool";
                 enlarged += has_job && function == "vkCreateBuffer" ? 1u : 0u;
-                // The first chunk has no samples of earlier ones to copy.
-                bench.spy.never_signal = enlarged == 2;
-                freed += enlarged == 2 && frees_what_runs(function) ? 1u : 0u;
+                // Three buffers, and then what two of them hold is copied.
+                bench.spy.never_signal = enlarged == 3;
+                freed += enlarged == 3 && frees_what_runs(function) ? 1u : 0u;
             };
             const auto set = runner.sample_and_wait(bench.mesh, bench.params);
             REQUIRE_FALSE(set);
             check_given_up(set.error());
-            CHECK(enlarged == 2);
+            CHECK(enlarged == 3);
         }
         CHECK(freed == 0);
         bench.spy.on_call = nullptr;
@@ -351,7 +352,7 @@ TEST_SUITE("faults") {
         FakeDriver driver;
         driver.edit_memory = [](VkPhysicalDeviceMemoryProperties& memory) {
             for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
-                memory.memoryHeaps[i].size = 1 << 13;
+                memory.memoryHeaps[i].size = 1 << 15;
             }
         };
         DeviceRefs refs = context.device();
@@ -360,9 +361,13 @@ TEST_SUITE("faults") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 2));
         const SampleParams params = params_for(mesh, 100);
         const SampleSet set = expect(runner.sample_and_wait(mesh, params));
-        CHECK(set.report.plan.chunk == (1 << 13) / 4 * 3 / 16);
-        CHECK(set.report.chunks > 1);
-        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+        // Of four stages two at a time, of 16 bytes a candidate in three quarters of the memory.
+        CHECK(stages_of(mesh, params).pool_stages() == 4);
+        CHECK(2 * stages_of(mesh, params).expected(0) < (1 << 15) / 4 * 3 / 16);
+        CHECK(3 * stages_of(mesh, params).expected(0) > 0.9 * (1 << 15) / 4 * 3 / 16);
+        CHECK(set.report.plan.stages == 2);
+        CHECK(set.report.chunks == 2);
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
     }
 
     TEST_CASE("more samples than the device can bind are refused with the numbers") {

@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <geodisk/box.hpp>
 #include <geodisk/context.hpp>
 #include <geodisk/sampler.hpp>
 
+#include "engine/box_grid.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"
+#include "kernels/grid.hpp"
 #include "records.h"
 #include "support/meshes.hpp"
 #include "vk/barriers.hpp"
@@ -23,12 +27,12 @@
 namespace geodisk::test {
 namespace {
 
-constexpr BufferRole kUploaded[] = {BufferRole::faces, BufferRole::fans, BufferRole::alias};
+constexpr BufferRole kUploaded[] = {BufferRole::faces, BufferRole::fans, BufferRole::keys};
 
 struct Task {
     PreparedMesh mesh;
     SampleParams params;
-    std::vector<std::uint32_t> wanted;
+    Points wanted;
 };
 
 Task task(const Sampler& sampler, const char* shape, int resolution, double count) {
@@ -39,14 +43,22 @@ Task task(const Sampler& sampler, const char* shape, int resolution, double coun
     return {std::move(mesh), params, std::move(wanted)};
 }
 
+/// A key for each face, other than its index.
+std::vector<std::uint32_t> all_keys(const PreparedMesh& mesh) {
+    std::vector<std::uint32_t> keys(mesh.face_count());
+    std::iota(keys.rbegin(), keys.rend(), 100u);
+    return keys;
+}
+
 /// One job of the engine, a few rounds a frame.
 class EngineJob {
   public:
-    /// With all candidates at once, or chunk by chunk.
-    EngineJob(Workshop& workshop, const Sampler& sampler, const Task& task, std::uint32_t chunk = 0)
+    /// With all candidates at once, or those of so many stages.
+    EngineJob(Workshop& workshop, const Sampler& sampler, const Task& task,
+              std::uint32_t stages = 0)
         : workshop_(workshop), sampler_(sampler), task_(task),
           plan_(expect(sampler.plan_run(task.mesh, task.params, Workshop::kPoolBytes))) {
-        plan_.chunk = chunk != 0 ? chunk : plan_.chunk;
+        plan_.stages = stages != 0 ? stages : plan_.stages;
         const WorkspaceNeeds needs = expect(sampler.workspace_needs(task.mesh, task.params, plan_));
         workspace_ = workshop.cut(needs);
         job_.emplace(expect(sampler.make_job(task.mesh, task.params, plan_, workspace_)));
@@ -56,7 +68,10 @@ class EngineJob {
     void record_first(VkCommandBuffer commands) {
         std::size_t staged = 0;
         for (const BufferRole role : kUploaded) {
-            const std::size_t size = sampler_.mesh_bytes_size(task_.mesh, role);
+            const std::size_t size = sampler_.mesh_bytes_size(task_.mesh, task_.params, role);
+            if (size == 0) {
+                continue;
+            }
             expect(sampler_.mesh_bytes(task_.mesh, task_.params, role,
                                        workshop_.upload_bytes().subspan(staged, size)));
             workshop_.record_upload(commands, range(role), staged, size);
@@ -97,22 +112,22 @@ class EngineJob {
     }
 
     void check_samples(std::uint32_t accepted) const {
-        std::vector<std::uint32_t> ranks(accepted);
+        Points points;
         for (std::uint32_t i = 0; i < accepted; ++i) {
             gpu::SampleRec sample;
             std::memcpy(&sample, workshop_.download_bytes().data() + i * sizeof sample,
                         sizeof sample);
-            ranks[i] = sample.rank;
+            points.push_back({sample.face, sample.weight1, sample.weight2});
         }
-        CHECK(ranks == task_.wanted);
+        CHECK(points == task_.wanted);
     }
 
     /// Frames until the samples are there.
     void run() {
-        const std::uint32_t candidates = expect(pool_size(task_.mesh, task_.params));
+        const std::uint32_t stages = stages_of(task_.mesh, task_.params).pool_stages();
         gpu::ControlRec last{};
-        for (std::uint32_t first = 0; first < candidates; first += plan_.chunk) {
-            expect(job_->set_chunk(first, std::min(plan_.chunk, candidates - first)));
+        for (std::uint32_t first = 0; first < stages; first += plan_.stages) {
+            expect(job_->set_stages(first, std::min(plan_.stages, stages - first)));
             last = run_chunk(first == 0);
             workshop_.frame(0, [&](VkCommandBuffer commands) { record_last(commands); });
         }
@@ -158,6 +173,88 @@ class EngineJob {
     std::optional<Job> job_;
 };
 
+/// Finishes after every round, from the first to the last of all stages. What is ready must stay,
+/// and grow in more than one step; returns all in the end.
+std::vector<gpu::SampleRec> finish_often(DeviceRun& run, std::uint32_t stages) {
+    std::vector<gpu::SampleRec> ready;
+    std::uint32_t steps = 0;
+    std::uint32_t changed = 0;
+    const auto finish = [&] {
+        run.finish();
+        const auto now = run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready);
+        REQUIRE(now.size() >= ready.size());
+        changed += std::memcmp(now.data(), ready.data(), ready.size() * sizeof ready[0]) != 0;
+        steps += now.size() > ready.size();
+        ready = now;
+    };
+    for (std::uint32_t first = 0; first < stages; first += run.plan().stages) {
+        run.set_stages(first, std::min(run.plan().stages, stages - first));
+        run.begin();
+        finish();
+        for (std::uint32_t round = 0; run.control().done == 0; ++round) {
+            REQUIRE(round < 100'000);
+            run.rounds(1);
+            finish();
+            if (run.control().overflow != 0) {
+                run.grow(run.control().overflow);
+                finish();
+            }
+        }
+    }
+    CHECK(changed == 0);
+    CHECK(steps > 1);
+    CHECK(ready.size() == run.control().accepted);
+    return ready;
+}
+
+/// Slices and lists of a few entries, in a pool where they may grow.
+void tighten(DeviceRun& run) {
+    RunPlan tight = run.plan();
+    tight.window_capacity = 2;
+    tight.table_capacity = 4;
+    tight.list_capacity = 4;
+    run.set_plan(tight);
+}
+
+void check_finishes(const RunPlan& plan, bool is_tight = false) {
+    const PreparedMesh mesh = prepared(builtin("torus-knot", 12));
+    CHECK(mesh.face_count() == 2880);
+    const SampleParams params = params_for(mesh, 60);
+    DeviceRun run(mesh, params, plan);
+    if (is_tight) {
+        tighten(run);
+    }
+    Points points;
+    for (const gpu::SampleRec& s : finish_often(run, stages_of(mesh, params).pool_stages())) {
+        points.push_back({s.face, s.weight1, s.weight2});
+    }
+    CHECK(points == float_set(mesh, params, run.plan().chain));
+    CHECK((!is_tight || run.plan().window_capacity > 2));
+}
+
+void check_finishes_in_box(const RunPlan& plan, bool is_tight = false) {
+    BoxParams box{{1, 1, 1}, true};
+    box.min_distance = distance_for_count(box, 60);
+    DeviceRun run(box, plan);
+    if (is_tight) {
+        tighten(run);
+    }
+    std::vector<std::array<double, 3>> points;
+    for (const gpu::SampleRec& s : finish_often(run, ref::pool_stages(box))) {
+        sample_point(box, s, points.emplace_back());
+    }
+    const ref::BoxPool<float> pool(box);
+    const ref::BoxLattice lattice(box);
+    std::vector<std::array<double, 3>> wanted;
+    for (const std::uint32_t rank : ref::throw_darts(pool)) {
+        for (std::size_t i = 0; auto& x : wanted.emplace_back()) {
+            x = lattice.coordinate(i++, pool.points[pool.places[rank]]);
+        }
+    }
+    CHECK(points == wanted);
+    CHECK((!is_tight || run.plan().list_capacity > 4));
+}
+
 Context validated_context() {
     ContextOptions options;
     options.validation = true;
@@ -194,8 +291,14 @@ TEST_SUITE("recording") {
             const Sampler sampler = expect(Sampler::create(context.device()));
             const Task knot = task(sampler, "torus-knot", 8, 200);
             Workshop workshop(context);
-            EngineJob job(workshop, sampler, knot, 900);
-            CHECK(job.workspace()[static_cast<std::size_t>(BufferRole::states)].size == 900 * 4);
+            EngineJob job(workshop, sampler, knot, 1);
+            // Room for some more candidates than one of the four stages expects.
+            const Stages stages = stages_of(knot.mesh, knot.params);
+            REQUIRE(stages.pool_stages() == 4);
+            const auto bytes = static_cast<double>(
+                job.workspace()[static_cast<std::size_t>(BufferRole::states)].size);
+            CHECK(bytes >= 4 * stages.expected(0));
+            CHECK(bytes < 2 * 4 * stages.expected(0));
             job.run();
             CHECK(workshop.damage() == 0);
         }
@@ -238,6 +341,38 @@ TEST_SUITE("recording") {
         CHECK(workshop.contents() == before);
         CHECK(job.control().done == 1);
         CHECK(job.control().accepted == knot.wanted.size());
+    }
+
+    TEST_CASE("finishing early changes nothing, and what is ready stays") {
+        RunPlan plan;
+        check_finishes(plan);
+        check_finishes_in_box(plan);
+        plan.slots = kLeastSlots;
+        check_finishes(plan);
+        check_finishes_in_box(plan);
+        plan.stages = 1;
+        check_finishes(plan);
+        check_finishes_in_box(plan);
+    }
+
+    TEST_CASE("finishing early between the dispatches of a batch") {
+        RunPlan plan;
+        plan.detect_passes = 1;
+        plan.step_budget = 1;
+        check_finishes(plan);
+        check_finishes_in_box(plan);
+        plan.stages = 1;
+        check_finishes(plan);
+        check_finishes_in_box(plan);
+    }
+
+    TEST_CASE("finishing early where slices and lists overflow") {
+        RunPlan plan;
+        check_finishes(plan, true);
+        check_finishes_in_box(plan, true);
+        plan.stages = 1;
+        check_finishes(plan, true);
+        check_finishes_in_box(plan, true);
     }
 
     TEST_CASE("slices that overflow grow within the engine's pool") {
@@ -321,20 +456,23 @@ TEST_SUITE("workspaces") {
         const Context context = validated_context();
         {
             const Sampler sampler = expect(Sampler::create(context.device()));
-            const Task knot = task(sampler, "torus-knot", 8, 60);
+            // One that needs all buffers.
+            Task cube = task(sampler, "cube", 1, 300);
+            const std::vector<std::uint32_t> keys = all_keys(cube.mesh);
+            cube.params.face_keys = keys;
             Workshop workshop(context);
-            const EngineJob good(workshop, sampler, knot);
+            const EngineJob good(workshop, sampler, cube);
             const WorkspaceNeeds needs =
-                expect(sampler.workspace_needs(knot.mesh, knot.params, good.plan()));
-            const char* names[] = {"faces",   "fans",   "alias",  "cells", "states",
-                                   "weights", "places", "slots",  "pool",  "control",
-                                   "marks",   "sums",   "samples"};
+                expect(sampler.workspace_needs(cube.mesh, cube.params, good.plan()));
+            const char* names[] = {"faces",   "fans",   "keys",    "cells",    "states",
+                                   "weights", "orders", "starts",  "pool",     "control",
+                                   "list",    "sums",   "samples", "accepted", "buckets"};
             for (std::size_t i = 0; i < kBufferRoles; ++i) {
                 CAPTURE(names[i]);
                 const auto check = [&](const BufferRange& range, Status status, const char* part) {
                     Workspace wrong = good.workspace();
                     wrong[i] = range;
-                    const Error error = refused(sampler, knot, good.plan(), wrong);
+                    const Error error = refused(sampler, cube, good.plan(), wrong);
                     CHECK(error.status == status);
                     CHECK(error.message.find(names[i]) != std::string::npos);
                     CHECK(error.message.find(part) != std::string::npos);
@@ -385,8 +523,12 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::lanes, 0);
         check(&RunPlan::detect_passes, 0);
         check(&RunPlan::detect_passes, 5000);
+        check(&RunPlan::slots, kLeastSlots - 1);
         check(&RunPlan::sample_capacity, 0);
-        check(&RunPlan::chunk, 0);
+        check(&RunPlan::sample_capacity, good.plan().slots);
+        check(&RunPlan::stages, 0);
+        check(&RunPlan::stages, 16);
+        check(&RunPlan::idle_capacity, 0);
 
         RunPlan larger = good.plan();
         larger.window_capacity *= 2;
@@ -409,9 +551,11 @@ TEST_SUITE("workspaces") {
     TEST_CASE("mesh bytes go to mesh buffers of the right size only") {
         const Context context = expect(Context::create());
         const Sampler sampler = expect(Sampler::create(context.device()));
-        const Task knot = task(sampler, "torus-knot", 8, 60);
+        Task knot = task(sampler, "torus-knot", 8, 60);
+        const std::vector<std::uint32_t> keys = all_keys(knot.mesh);
+        knot.params.face_keys = keys;
         for (const BufferRole role : kUploaded) {
-            std::vector<std::byte> bytes(sampler.mesh_bytes_size(knot.mesh, role));
+            std::vector<std::byte> bytes(sampler.mesh_bytes_size(knot.mesh, knot.params, role));
             CHECK(sampler.mesh_bytes(knot.mesh, knot.params, role, bytes));
             bytes.pop_back();
             CHECK_FALSE(sampler.mesh_bytes(knot.mesh, knot.params, role, bytes));

@@ -42,13 +42,13 @@ const std::vector<Work>& all_work() {
     return list;
 }
 
-std::vector<std::uint32_t> wanted(const Work& work, const SampleSet& set) {
+Points wanted(const Work& work, const SampleSet& set) {
     return float_set(work.mesh, work.params, set.report.plan.chain);
 }
 
 void check_run(Runner& runner, const Work& work) {
     const SampleSet set = expect(runner.sample_and_wait(work.mesh, work.params));
-    CHECK(ranks_of(set) == wanted(work, set));
+    CHECK(points_of(set) == wanted(work, set));
 }
 
 Runner runner_on(const Context& context) {
@@ -75,7 +75,7 @@ void check_in_threads(std::array<Runner*, 2> runners) {
         for (std::size_t i = 0; i < all_work().size(); ++i) {
             const Work& done = all_work()[t == 0 ? i : all_work().size() - 1 - i];
             const SampleSet set = expect(std::move(results[t][i]));
-            CHECK(ranks_of(set) == wanted(done, set));
+            CHECK(points_of(set) == wanted(done, set));
         }
     }
 }

@@ -53,6 +53,9 @@ Workspace Workshop::cut(const WorkspaceNeeds& needs) {
     before_.offset = used_;
     used_ += alignment_;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs.bytes[i] == 0) {
+            continue;
+        }
         workspace[i] = {large_.handle(), used_, needs.bytes[i]};
         ranges_.push_back(workspace[i]);
         used_ = up(used_ + needs.bytes[i] + 16, alignment_);

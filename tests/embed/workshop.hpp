@@ -27,8 +27,8 @@ class Workshop {
     /// Fills the large buffer with a pattern.
     explicit Workshop(const Context& context);
 
-    /// Ranges of just the bytes needed, as close to each other as alignment allows with a gap
-    /// between them.
+    /// Ranges of just the bytes needed, none where that is none, as close to each other as
+    /// alignment allows with a gap between them.
     Workspace cut(const WorkspaceNeeds& needs);
     /// Takes all ranges back.
     void start_over();

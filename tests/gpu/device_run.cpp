@@ -51,9 +51,8 @@ DeviceRun::DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOpt
                                                  static_cast<std::uint32_t>(box.extents.size()),
                                                  context.device(), options)),
                 context) {
-    open(
-        BoxSource(Sampler::Impl::of(*sampler_), box, expect(pool_size(box)), VkDeviceSize{1} << 40),
-        plan);
+    expect(pool_size(box));
+    open(BoxSource(Sampler::Impl::of(*sampler_), box, VkDeviceSize{1} << 40), plan);
 }
 
 void DeviceRun::open(const RunSource& source, const RunPlan& plan) {
@@ -90,17 +89,29 @@ void DeviceRun::rounds(std::uint32_t count) {
 void DeviceRun::grow(std::uint32_t overflow) {
     const std::uint64_t pool = buffers_[static_cast<std::size_t>(BufferRole::pool)].size();
     expect(job_->set_plan(expect(sampler_->grow_plan(job_->plan(), overflow, pool))));
+    rewind();
+}
+
+void DeviceRun::rewind() {
     expect(submitter_->run([&](VkCommandBuffer commands) {
         sampler_->record_rewind(commands, *job_);
         barrier_to_host(vk_, commands);
     }));
 }
 
-void DeviceRun::enlarge_samples(std::uint32_t count) {
-    DeviceBuffer& samples = buffers_[static_cast<std::size_t>(BufferRole::samples)];
-    samples = expect(DeviceBuffer::create(device_, vk_, memory_, count * sizeof(gpu::SampleRec),
-                                          kWorkspaceUsage, MemoryKind::host));
-    expect(job_->set_samples({samples.handle(), 0, samples.size()}));
+void DeviceRun::enlarge_samples(std::uint32_t capacity) {
+    const auto bytes = job_->sample_bytes(capacity);
+    std::array<BufferRange, 3> ranges;
+    constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
+    for (std::size_t i = 0; i < kRoles.size(); ++i) {
+        DeviceBuffer& buffer = buffers_[static_cast<std::size_t>(kRoles[i])];
+        DeviceBuffer larger = expect(DeviceBuffer::create(device_, vk_, memory_, bytes[i],
+                                                          kWorkspaceUsage, MemoryKind::host));
+        std::copy(buffer.bytes().begin(), buffer.bytes().end(), larger.bytes().begin());
+        buffer = std::move(larger);
+        ranges[i] = {buffer.handle(), 0, buffer.size()};
+    }
+    expect(job_->set_samples(capacity, ranges[0], ranges[1], ranges[2]));
 }
 
 void DeviceRun::finish() {
@@ -110,9 +121,14 @@ void DeviceRun::finish() {
     }));
 }
 
-std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
+std::vector<gpu::SlotRec> slots_of(const DeviceRun& run) {
+    return run.read<gpu::SlotRec>(BufferRole::control, run.plan().slots, sizeof(gpu::ControlRec));
+}
+
+std::vector<std::uint32_t> listed(const DeviceRun& run, std::size_t index, std::uint32_t rank,
                                   const std::vector<std::uint32_t>& by_place) {
     const RunPlan& plan = run.plan();
+    const gpu::SlotRec slot = slots_of(run)[index];
     const std::size_t lists = plan.first_list_row() * 16;
     const auto list = run.read<std::uint32_t>(BufferRole::pool, plan.list_capacity,
                                               lists + index * plan.list_capacity * 4);
@@ -121,9 +137,9 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot
         ranks.push_back(by_place[list[i]]);
     }
     for (std::uint32_t i = 0; i < slot.active_conflicts; ++i) {
-        const std::uint32_t rank = by_place[list[plan.list_capacity - 1 - i]];
-        if (rank > slot.rank) {
-            ranks.push_back(rank);
+        const std::uint32_t other = by_place[list[plan.list_capacity - 1 - i]];
+        if (rank == kNoRank || other > rank) {
+            ranks.push_back(other);
         }
     }
     std::sort(ranks.begin(), ranks.end());
@@ -131,31 +147,21 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot
 }
 
 bool decide_batch(DeviceRun& run) {
-    run.rounds(1);
     gpu::ControlRec control = run.control();
-    REQUIRE(control.overflow == 0);
     if (control.done != 0) {
         return false;
     }
-    while (control.undecided > 0) {
+    do {
         run.rounds(1);
         control = run.control();
-    }
+        REQUIRE(control.overflow == 0);
+    } while (control.undecided > 0 || control.slots_used > 0);
     return true;
-}
-
-std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run) {
-    const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
-    std::vector<std::uint32_t> ranks(places.size());
-    for (std::uint32_t rank = 0; rank < places.size(); ++rank) {
-        ranks[places[rank]] = rank;
-    }
-    return ranks;
 }
 
 std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
                            const std::vector<std::uint32_t>& by_place) {
-    const auto on_device = run.read<std::uint32_t>(BufferRole::states, run.candidates());
+    const auto on_device = run.read<std::uint32_t>(BufferRole::states, by_place.size());
     std::uint32_t wrong = 0;
     for (std::uint32_t place = 0; place < on_device.size(); ++place) {
         wrong += (on_device[place] & gpu::kStateMask) != states[by_place[place]];

@@ -40,18 +40,22 @@ class DeviceRun {
     DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOptions& options = {},
               const Context& context = shared_context());
 
-    void set_chunk(std::uint32_t first, std::uint32_t count) {
-        expect(job_->set_chunk(first, count));
+    void set_stages(std::uint32_t first, std::uint32_t count) {
+        expect(job_->set_stages(first, count));
     }
+    /// Within the pool there is.
+    void set_plan(const RunPlan& plan) { expect(job_->set_plan(plan)); }
     void begin();
     void rounds(std::uint32_t count);
     void grow(std::uint32_t overflow);
     void finish();
-    void enlarge_samples(std::uint32_t count);
+    /// Room for so many, and what there is copied.
+    void enlarge_samples(std::uint32_t capacity);
+    void rewind();
 
     gpu::ControlRec control() const { return read<gpu::ControlRec>(BufferRole::control, 1)[0]; }
     const RunPlan& plan() const { return job_->plan(); }
-    std::uint32_t candidates() const { return job_->candidates(); }
+    const gpu::Push& push() const { return Job::Impl::of(*job_).push; }
     const Sampler& sampler() const { return *sampler_; }
 
     /// The first `count` records of a buffer, after `skip` bytes.
@@ -79,20 +83,23 @@ class DeviceRun {
     std::optional<Job> job_;
 };
 
-/// Selects the next batch and goes on until it is decided; false if no candidate is left. Requires
-/// that nothing overflows.
+/// Selects the next batch, or lists those that come next, and goes on until it is decided; false if
+/// no candidate is left. Requires that nothing overflows.
 bool decide_batch(DeviceRun& run);
-
-/// The rank at each place.
-std::vector<std::uint32_t> ranks_by_place(const DeviceRun& run);
 
 /// How many candidates have another state on the device than in `states`, which are by rank.
 std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
                            const std::vector<std::uint32_t>& by_place);
 
-/// The ranks of the conflicts of higher rank that slot `index` lists, ascending; `by_place` is
-/// ranks_by_place().
-std::vector<std::uint32_t> listed(const DeviceRun& run, const gpu::SlotRec& slot, std::size_t index,
+/// Of a sample of earlier stages.
+inline constexpr std::uint32_t kNoRank = 0xffffffff;
+
+/// The ranks of the conflicts above `rank` that slot `index` lists, ascending; `by_place` has the
+/// ranks of all places.
+std::vector<std::uint32_t> listed(const DeviceRun& run, std::size_t index, std::uint32_t rank,
                                   const std::vector<std::uint32_t>& by_place);
+
+/// All slots as they were left.
+std::vector<gpu::SlotRec> slots_of(const DeviceRun& run);
 
 } // namespace geodisk::test

@@ -1,41 +1,45 @@
 #include "sets.hpp"
 
 #include "device_run.hpp"
-#include "kernels/candidates.hpp"
+#include "kernels/pool.hpp"
 #include "run.hpp"
 
 namespace geodisk::test {
 namespace {
 
 template <class Real>
-std::vector<std::uint32_t> sequential_set(const PreparedMesh& mesh, const SampleParams& params,
-                                          std::uint32_t chain) {
+Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
+    expect(pool_size(mesh, params));
     const ref::Surface<Real> surface(mesh, params);
-    const auto points = ref::draw_candidates(surface, params.seed, expect(pool_size(mesh, params)));
-    const ref::Bins<Real> bins(surface, points);
-    return ref::throw_darts(surface, bins, tolerances_for(mesh, params, chain),
-                            params.stop_count != 0 ? params.stop_count : kMostCandidates)
-        .ranks;
+    const ref::Pool<Real> pool = ref::draw_pool(surface, mesh, params);
+    const ref::RunResult result =
+        ref::throw_darts(surface, pool, tolerances_for(mesh, params, chain),
+                         params.stop_count != 0 ? params.stop_count : kMostCandidates);
+    Points points;
+    for (const std::uint32_t rank : result.ranks) {
+        const ref::FacePoint<Real> point = pool.candidate(rank);
+        points.push_back(
+            {point.face, static_cast<float>(point.weight1), static_cast<float>(point.weight2)});
+    }
+    return points;
 }
 
 } // namespace
 
-std::vector<std::uint32_t> float_set(const PreparedMesh& mesh, const SampleParams& params,
-                                     std::uint32_t chain) {
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
     return sequential_set<float>(mesh, params, chain);
 }
 
-std::vector<std::uint32_t> double_set(const PreparedMesh& mesh, const SampleParams& params,
-                                      std::uint32_t chain) {
+Points double_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
     return sequential_set<double>(mesh, params, chain);
 }
 
-std::vector<std::uint32_t> ranks_of(const SampleSet& set) {
-    std::vector<std::uint32_t> ranks;
+Points points_of(const SampleSet& set) {
+    Points points;
     for (const Sample& s : set.samples) {
-        ranks.push_back(s.candidate);
+        points.push_back({s.face, s.weights[1], s.weights[2]});
     }
-    return ranks;
+    return points;
 }
 
 SampleSet sample(const PreparedMesh& mesh, const SampleParams& params, RunnerOptions options) {

@@ -1,6 +1,7 @@
 // The sets that runs must return: sequential dart throwing in both precisions.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -8,14 +9,22 @@
 
 namespace geodisk::test {
 
-/// Ranks that sequential dart throwing accepts, as the float twin decides.
-std::vector<std::uint32_t> float_set(const PreparedMesh& mesh, const SampleParams& params,
-                                     std::uint32_t chain);
-/// The same in double precision.
-std::vector<std::uint32_t> double_set(const PreparedMesh& mesh, const SampleParams& params,
-                                      std::uint32_t chain);
+/// Where a sample lies.
+struct SamplePoint {
+    std::uint32_t face;
+    float weight1, weight2;
+    friend auto operator<=>(const SamplePoint&, const SamplePoint&) = default;
+};
 
-std::vector<std::uint32_t> ranks_of(const SampleSet& set);
+/// In dart order.
+using Points = std::vector<SamplePoint>;
+
+/// What sequential dart throwing accepts, as the float twin decides.
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain);
+/// The same in double precision.
+Points double_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain);
+
+Points points_of(const SampleSet& set);
 
 /// Runs on the shared device, by a sampler for the radii of `params`.
 SampleSet sample(const PreparedMesh& mesh, const SampleParams& params, RunnerOptions options = {});

@@ -3,15 +3,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "baselines/box_darts.hpp"
 #include "constants.h"
 #include "device_run.hpp"
+#include "engine/box_grid.hpp"
 #include "kernels/grid.hpp"
 #include "kernels/resolve.hpp"
-#include "kernels/select.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -38,20 +40,32 @@ BoxSampleSet sample(const BoxParams& box, const RunnerOptions& options = {},
     return expect(runner.sample_and_wait(box));
 }
 
+std::vector<double> coordinates(const BoxParams& box, std::span<const ref::BoxPoint> points) {
+    const ref::BoxLattice lattice(box);
+    std::vector<double> all;
+    for (const ref::BoxPoint& point : points) {
+        for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
+            all.push_back(lattice.coordinate(axis, point));
+        }
+    }
+    return all;
+}
+
+/// What sequential dart throwing accepts, by the twin's grid.
 template <class Real>
-std::vector<std::uint32_t> sequential_set(const BoxParams& box) {
-    return ref::throw_darts(ref::BoxPool<Real>(box, expect(pool_size(box))));
+std::vector<double> sequential_set(const BoxParams& box) {
+    const ref::BoxPool<Real> pool(box);
+    std::vector<ref::BoxPoint> points;
+    for (const std::uint32_t rank : ref::throw_darts(pool)) {
+        points.push_back(pool.points[pool.places[rank]]);
+    }
+    return coordinates(box, points);
 }
 
 /// By distances of double coordinates, without the grid of the kernels.
 std::vector<double> plain_set(const BoxParams& box) {
-    const std::size_t n = box.extents.size();
-    std::vector<double> pool(n * expect(pool_size(box)));
-    for (std::size_t i = 0; i < pool.size() / n; ++i) {
-        candidate_point(box, static_cast<std::uint32_t>(i), std::span(pool).subspan(i * n, n));
-    }
     return ref::throw_in_order({box.extents, box.is_periodic}, box.min_distance * (1 + kBoxGuard),
-                               pool);
+                               coordinates(box, ref::draw_in_box(box).points));
 }
 
 double smallest_distance2(const BoxParams& box, const BoxSampleSet& set) {
@@ -59,7 +73,7 @@ double smallest_distance2(const BoxParams& box, const BoxSampleSet& set) {
     const std::size_t n = set.dimension;
     const auto point = [&](std::size_t i) { return std::span(set.points).subspan(i * n, n); };
     double smallest = 1e300;
-    for (std::size_t i = 0; i < set.candidates.size(); ++i) {
+    for (std::size_t i = 0; i < set.points.size() / n; ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             smallest = std::min(smallest, plain.distance2(point(i), point(k)));
         }
@@ -67,66 +81,150 @@ double smallest_distance2(const BoxParams& box, const BoxSampleSet& set) {
     return smallest;
 }
 
+/// What the disks of a batch took.
+struct DiskTotals {
+    std::uint64_t disks = 0, rows = 0, tested = 0;
+    std::uint32_t most_conflicts = 0;
+};
+
+DiskTotals totals_of(const gpu::ControlRec& control) {
+    const auto wide = [](std::uint32_t low, std::uint32_t high) {
+        return std::uint64_t{high} << 32 | low;
+    };
+    return {control.disks, wide(control.windows_low, control.windows_high),
+            wide(control.tested_low, control.tested_high), control.most_conflicts};
+}
+
 /// The twin's side of a run.
 struct Twin {
+    BoxParams box;
+    ref::BoxCandidates candidates;
     ref::BoxPool<float> pool;
     ref::BoxDetector<float> detector;
-    std::vector<std::uint8_t> states;
+    std::vector<std::uint8_t> states; ///< By rank, as the words of the candidates.
+    DiskTotals totals;
 
-    explicit Twin(const BoxParams& box)
-        : pool(box, expect(pool_size(box))), detector(pool),
-          states(pool.points.size(), gpu::kIdle) {}
+    /// `capacity` candidates have room on the device.
+    Twin(const BoxParams& of, std::uint32_t capacity)
+        : box(of), candidates(ref::draw_in_box(of)),
+          pool(ref::BoxLattice(of), candidates.points, kBoxGuard, capacity), detector(pool),
+          states(candidates.words.size(), gpu::kIdle) {}
 
-    ref::BoxDiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts) {
-        const auto count = detector.run(
-            rank, [&](std::uint32_t q) { return states[q] <= gpu::kActive; },
-            [&](std::uint32_t q) {
-                if (q > rank) {
-                    conflicts.push_back(q);
+    /// The conflicts of higher rank.
+    std::vector<std::uint32_t> disk(std::uint32_t rank) {
+        std::vector<std::uint32_t> conflicts;
+        std::uint32_t all = 0;
+        const ref::BoxDiskCount count = detector.run(
+            pool.places[rank],
+            [&](std::uint32_t place) { return states[pool.order[place]] <= gpu::kActive; },
+            [&](std::uint32_t place) {
+                ++all;
+                if (pool.order[place] > rank) {
+                    conflicts.push_back(pool.order[place]);
                 }
             });
         std::sort(conflicts.begin(), conflicts.end());
-        return count;
+        ++totals.disks;
+        totals.rows += count.rows;
+        totals.tested += count.tested;
+        totals.most_conflicts = std::max(totals.most_conflicts, all);
+        return conflicts;
+    }
+
+    /// Idle candidates with words from `first` on and before `end`.
+    std::vector<std::uint32_t> idle_between(std::uint32_t first, std::uint32_t end) const {
+        std::vector<std::uint32_t> ranks;
+        for (std::uint32_t rank = 0; rank < states.size(); ++rank) {
+            const std::uint32_t word = candidates.words[rank];
+            if (states[rank] == gpu::kIdle && word >= first && word < end) {
+                ranks.push_back(rank);
+            }
+        }
+        return ranks;
+    }
+
+    /// Whether these are the words of the sample that a candidate becomes.
+    bool is_sample(std::uint32_t rank, const gpu::SampleRec& record) const {
+        std::vector<double> point(box.extents.size());
+        sample_point(box, record, point);
+        const auto stage = std::bit_cast<std::uint32_t>(record.weight2);
+        return record.order == candidates.words[rank] &&
+               stage == record.order >> gpu::kPriorityBits &&
+               point == coordinates(box, std::span(&candidates.points[rank], 1));
     }
 };
 
-void compare_pool(const DeviceRun& run, const Twin& twin, const BoxParams& box,
-                  const std::vector<std::uint32_t>& places) {
-    const std::size_t count = twin.pool.points.size();
-    REQUIRE(run.candidates() == count);
-    CHECK(run.read<std::uint32_t>(BufferRole::cells, twin.pool.starts.size()) == twin.pool.starts);
-    const auto points = run.read<std::uint32_t>(BufferRole::weights, count * box.extents.size());
-    const auto states = run.read<std::uint32_t>(BufferRole::states, count);
-    std::uint32_t wrong = 0;
+/// The ranks of all places, by words and coordinates.
+std::vector<std::uint32_t> compare_pool(const DeviceRun& run, const Twin& twin) {
+    const std::uint32_t count = run.control().drawn;
+    REQUIRE(count == twin.states.size());
+    std::map<std::pair<std::uint32_t, ref::BoxPoint>, std::uint32_t> ranks;
     for (std::uint32_t rank = 0; rank < count; ++rank) {
-        const ref::BoxPoint& want = twin.pool.points[rank];
-        const std::uint32_t head = twin.pool.table.head_of(want);
-        for (std::size_t i = 0; i < box.extents.size(); ++i) {
-            wrong += points[i * count + places[rank]] != want[i];
+        ranks[{twin.candidates.words[rank], twin.candidates.points[rank]}] = rank;
+    }
+    REQUIRE(ranks.size() == count);
+    const std::vector<std::uint32_t>& starts = twin.pool.starts;
+    CHECK(run.read<std::uint32_t>(BufferRole::cells, starts.size()) == starts);
+    const std::size_t dimension = twin.box.extents.size();
+    const std::size_t capacity = run.push().capacity;
+    const auto points = run.read<std::uint32_t>(BufferRole::weights, capacity * dimension);
+    const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
+    const auto states = run.read<std::uint32_t>(BufferRole::states, count);
+    std::vector<std::uint32_t> by_place(count, kNoRank);
+    std::uint32_t wrong = 0;
+    for (std::uint32_t place = 0; place < count; ++place) {
+        ref::BoxPoint point{};
+        for (std::size_t i = 0; i < dimension; ++i) {
+            point[i] = points[i * capacity + place];
         }
-        wrong += states[places[rank]] != gpu::kIdle;
-        wrong +=
-            places[rank] < twin.pool.starts[head] || places[rank] >= twin.pool.starts[head + 1];
+        const std::uint32_t head = twin.pool.table.head_of(point);
+        wrong += states[place] != gpu::kIdle || place < starts[head] || place >= starts[head + 1];
+        const auto found = ranks.find({orders[place], point});
+        REQUIRE(found != ranks.end());
+        by_place[place] = found->second;
+        ranks.erase(found);
     }
     CHECK(wrong == 0);
+    return by_place;
 }
 
-void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place) {
+/// Compares the batch that was decided last, which began at the order `first`.
+void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
+                   std::uint32_t first) {
     const gpu::ControlRec control = run.control();
-    const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
-    const auto batch = ref::select_idle(twin.states, control.batch_rank, control.slots_used);
+    const auto batch = twin.idle_between(first, control.first_order);
     for (const std::uint32_t rank : batch) {
         twin.states[rank] = gpu::kActive;
     }
-    std::vector<std::vector<std::uint32_t>> conflicts(batch.size());
+    std::vector<std::vector<std::uint32_t>> conflicts;
+    std::map<std::uint32_t, std::size_t> index_of;
+    for (const std::uint32_t rank : batch) {
+        index_of[rank] = conflicts.size();
+        conflicts.push_back(twin.disk(rank));
+    }
+    const auto slots = slots_of(run);
     std::uint32_t wrong = 0;
     for (std::size_t i = 0; i < slots.size(); ++i) {
-        REQUIRE(slots[i].rank == batch[i]);
-        const ref::BoxDiskCount want = twin.disk(batch[i], conflicts[i]);
-        wrong += slots[i].tested != want.tested || slots[i].pushed != want.rows ||
-                 listed(run, slots[i], i, by_place) != conflicts[i];
+        const gpu::SlotRec& slot = slots[i];
+        const auto found =
+            slot.place < by_place.size() ? index_of.find(by_place[slot.place]) : index_of.end();
+        if (found == index_of.end()) {
+            continue; // Of an earlier batch, or cut off.
+        }
+        const std::uint32_t rank = found->first;
+        wrong += listed(run, i, rank, by_place) != conflicts[found->second];
+        wrong += !twin.is_sample(rank, {slot.order, slot.face, std::bit_cast<float>(slot.weight1),
+                                        std::bit_cast<float>(slot.weight2)});
+        // A later slot may have held it when it was cut off an earlier batch.
+        index_of.erase(found);
     }
     CHECK(wrong == 0);
+    CHECK(index_of.empty());
+    const DiskTotals totals = totals_of(control);
+    CHECK(totals.disks == twin.totals.disks);
+    CHECK(totals.rows == twin.totals.rows);
+    CHECK(totals.tested == twin.totals.tested);
+    CHECK(totals.most_conflicts == twin.totals.most_conflicts);
     ref::resolve_batch(batch, conflicts, twin.states);
 }
 
@@ -134,27 +232,29 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     RunPlan plan;
     plan.slots = slots;
     plan.list_capacity = 1024;
+    plan.sample_capacity = 4096;
+    plan.stages = ref::pool_stages(box);
     DeviceRun run(box, plan, options);
-    Twin twin(box);
+    Twin twin(box, run.push().capacity);
     run.begin();
-    const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
-    const auto by_place = ranks_by_place(run);
-    compare_pool(run, twin, box, places);
-    while (decide_batch(run)) {
-        compare_batch(run, twin, by_place);
+    const auto by_place = compare_pool(run, twin);
+    for (std::uint32_t first = 0; decide_batch(run); first = run.control().first_order) {
+        compare_batch(run, twin, by_place, first);
         CHECK(wrong_states(run, twin.states, by_place) == 0);
     }
     run.finish();
     std::vector<std::uint32_t> want;
     for (std::uint32_t rank = 0; rank < twin.states.size(); ++rank) {
+        REQUIRE(twin.states[rank] > gpu::kActive);
         if (twin.states[rank] == gpu::kAccepted) {
             want.push_back(rank);
         }
     }
-    const auto samples = run.read<gpu::SampleRec>(BufferRole::samples, run.control().accepted);
-    REQUIRE(samples.size() == want.size());
+    REQUIRE(run.control().accepted == want.size());
+    REQUIRE(run.control().ready == want.size());
+    const auto samples = run.read<gpu::SampleRec>(BufferRole::samples, want.size());
     for (std::size_t i = 0; i < want.size(); ++i) {
-        CHECK(samples[i].rank == want[i]);
+        CHECK(twin.is_sample(want[i], samples[i]));
     }
 }
 
@@ -180,6 +280,8 @@ TEST_SUITE("boxes") {
             shared.pool_ratio = 2; // A table that cannot hold all cells.
             step_through(shared, kOnCpu, 64);
         }
+        // A side shorter than a step.
+        step_through(box_of({1, 1e-11, 7}, 200, false), kOnCpu, 32);
         // One, two, three and four cells around.
         for (const double distance : {1.0, 0.9, 0.6, 0.45}) {
             BoxParams box = unit_box(2, 10, true);
@@ -197,11 +299,12 @@ TEST_SUITE("boxes") {
                     CAPTURE(count);
                     const BoxParams box = unit_box(n, count, is_periodic, n);
                     const BoxSampleSet set = sample(box);
-                    CHECK(set.candidates == sequential_set<float>(box));
-                    CHECK(set.candidates == sequential_set<double>(box));
+                    CHECK(set.points == sequential_set<float>(box));
+                    CHECK(set.points == sequential_set<double>(box));
                     CHECK(set.points == plain_set(box));
+                    CHECK(set.report.candidates == ref::draw_in_box(box).points.size());
                     CHECK(smallest_distance2(box, set) >= box.min_distance * box.min_distance);
-                    CHECK(std::abs(static_cast<double>(set.candidates.size()) - count) <
+                    CHECK(std::abs(static_cast<double>(set.points.size() / n) - count) <
                           0.1 * count + 6);
                 }
             }
@@ -214,7 +317,7 @@ TEST_SUITE("boxes") {
             CAPTURE(sides[0]);
             const BoxParams box = box_of(sides, 500, sides.back() > sides[0] / 2);
             const BoxSampleSet set = sample(box);
-            CHECK(set.candidates == sequential_set<float>(box));
+            CHECK(set.points == sequential_set<float>(box));
             CHECK(set.points == plain_set(box));
             CHECK(smallest_distance2(box, set) >= box.min_distance * box.min_distance);
         }
@@ -224,7 +327,10 @@ TEST_SUITE("boxes") {
         for (const double distance : {1.8, 1e3, 1e300}) {
             BoxParams box = unit_box(3, 10, false);
             box.min_distance = distance;
-            CHECK(sample(box).candidates == std::vector<std::uint32_t>{0});
+            const std::vector<double> set = sample(box).points;
+            CHECK(set.size() == 3);
+            const auto candidates = ref::draw_in_box(box).points;
+            CHECK(set == coordinates(box, std::span(candidates).first(1)));
         }
     }
 
@@ -233,9 +339,9 @@ TEST_SUITE("boxes") {
             const BoxParams box = unit_box(n, 700, true);
             const auto want = sequential_set<float>(box);
             const auto same = [&](const RunnerOptions& options) {
-                return sample(box, options).candidates == want;
+                return sample(box, options).points == want;
             };
-            for (const std::uint32_t slots : {1u, 7u, 1000u}) {
+            for (const std::uint32_t slots : {kLeastSlots, kLeastSlots + 1, 1000u}) {
                 RunnerOptions options;
                 options.plan.slots = slots;
                 CHECK(same(options));
@@ -266,15 +372,16 @@ TEST_SUITE("boxes") {
             for (const std::size_t n : {1u, 2u, 5u}) {
                 CAPTURE(n);
                 const BoxParams box = unit_box(n, 300, is_periodic);
-                const std::uint32_t candidates = expect(pool_size(box));
+                const std::uint32_t stages = ref::pool_stages(box);
+                CHECK(stages == 4);
                 const auto want = sequential_set<double>(box);
-                for (const std::uint32_t chunk : {97u, 1'000u, candidates - 1, candidates}) {
-                    CAPTURE(chunk);
+                for (std::uint32_t at_once = 1; at_once <= stages; ++at_once) {
+                    CAPTURE(at_once);
                     RunnerOptions options;
-                    options.plan.chunk = chunk;
+                    options.plan.stages = at_once;
                     const BoxSampleSet set = sample(box, options);
-                    CHECK(set.report.chunks == (candidates + chunk - 1) / chunk);
-                    CHECK(set.candidates == want);
+                    CHECK(set.report.chunks == (stages + at_once - 1) / at_once);
+                    CHECK(set.points == want);
                 }
             }
         }
@@ -284,24 +391,27 @@ TEST_SUITE("boxes") {
     TEST_CASE("lists and samples that overflow in later chunks are enlarged") {
         const BoxParams box = unit_box(3, 500, true);
         RunnerOptions tight;
-        tight.plan.chunk = 3'000;
+        tight.plan.stages = 1;
         tight.plan.slots = 30;
         tight.plan.list_capacity = 4;
-        tight.plan.sample_capacity = 10;
+        tight.plan.sample_capacity = 31;
         const BoxSampleSet set = sample(box, tight);
         CHECK(set.report.regrown > 0);
-        CHECK(set.candidates == sequential_set<float>(box));
+        CHECK(set.report.plan.sample_capacity > 31);
+        CHECK(set.points == sequential_set<float>(box));
     }
 
     TEST_CASE("lists and samples that overflow are enlarged") {
         const BoxParams box = unit_box(3, 500, false);
         RunnerOptions tight;
         tight.plan.list_capacity = 4;
-        tight.plan.sample_capacity = 10;
+        tight.plan.slots = 30;
+        tight.plan.sample_capacity = 31;
         tight.pool_bytes = 1u << 16;
         const BoxSampleSet set = sample(box, tight);
         CHECK(set.report.regrown > 0);
-        CHECK(set.candidates == sequential_set<float>(box));
+        CHECK(set.report.plan.sample_capacity > 31);
+        CHECK(set.points == sequential_set<float>(box));
     }
 
     // Some 20,000 candidates in a disk: more iterations than the 65,535 after which lavapipe ends
@@ -312,7 +422,7 @@ TEST_SUITE("boxes") {
         const BoxSampleSet set = sample(box);
         CHECK(set.report.tested / set.report.disks > 2000);
         CHECK(set.report.most_conflicts > 65535 / 6);
-        CHECK(set.candidates == sequential_set<float>(box));
+        CHECK(set.points == sequential_set<float>(box));
     }
 
     TEST_CASE("what a box cannot be is refused") {
@@ -344,11 +454,11 @@ TEST_SUITE("boxes") {
             RunnerOptions tight;
             tight.sampler.tuning.reads = reads;
             tight.plan.list_capacity = 4;
-            tight.plan.chunk = 1'000;
+            tight.plan.stages = 1;
             const BoxParams box = unit_box(3, 200, true);
             const BoxSampleSet set = sample(box, tight, context);
             CHECK(set.report.regrown > 0);
-            CHECK(set.candidates == sequential_set<float>(box));
+            CHECK(set.points == sequential_set<float>(box));
         }
         for (const std::string& message : expect(context.validation_messages())) {
             MESSAGE(message);

@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 #include <utility>
 
 #include "constants.h"
 #include "device_run.hpp"
-#include "kernels/bins.hpp"
-#include "kernels/candidates.hpp"
 #include "kernels/count_calls.hpp"
 #include "kernels/detect.hpp"
+#include "kernels/pool.hpp"
 #include "kernels/resolve.hpp"
-#include "kernels/select.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
@@ -20,35 +19,30 @@
 namespace geodisk::test {
 namespace {
 
-/// The twin's side of a chunk: the same candidates, and states by rank, counted from the first.
+/// The twin's side of some stages: the same candidates, and states by rank.
 struct Twin {
-    std::uint32_t first;
     ref::Surface<float> surface;
-    std::vector<ref::FacePoint<float>> points;
-    ref::Bins<float> bins;
+    ref::Pool<float> pool;
+    std::vector<std::uint32_t> ranks; ///< By place of the twin.
     ref::Detector<float> detector;
     std::vector<std::uint8_t> states;
 
     Twin(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain,
-         std::uint32_t first_rank, std::uint32_t count)
-        : first(first_rank), surface(mesh, params),
-          points(ref::draw_candidates(surface, params.seed, count, first)), bins(surface, points),
-          detector(surface, bins, tolerances_for(mesh, params, chain),
-                   tolerances_for(mesh, params, chain).limit),
-          states(points.size(), gpu::kIdle) {}
+         std::uint32_t first, std::uint32_t count)
+        : surface(mesh, params), pool(ref::draw_stages(surface, mesh, params, first, count)),
+          ranks(pool.ranks()), detector(surface, pool.bins, tolerances_for(mesh, params, chain),
+                                        tolerances_for(mesh, params, chain).limit),
+          states(pool.size(), gpu::kIdle) {}
 
     /// `conflicts` are those of higher rank, `above` the active ones of lower rank.
     ref::DiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts,
                         std::vector<std::uint32_t>& above) {
         const auto count = detector.run(
-            points[rank],
-            [&](std::uint32_t q) {
-                const std::uint32_t other = bins.order[q];
-                return other != rank && states[other] <= gpu::kActive;
-            },
+            pool.candidate(rank),
+            [&](std::uint32_t q) { return ranks[q] != rank && states[ranks[q]] <= gpu::kActive; },
             [&](std::uint32_t q, float) {
                 // What an active one of lower rank decides about this one is for that one to say.
-                (bins.order[q] > rank ? conflicts : above).push_back(bins.order[q]);
+                (ranks[q] > rank ? conflicts : above).push_back(ranks[q]);
             });
         std::sort(conflicts.begin(), conflicts.end());
         std::sort(above.begin(), above.end());
@@ -56,72 +50,110 @@ struct Twin {
         return count;
     }
 
-    /// The idle candidates in the disk of a sample of an earlier chunk.
+    /// The idle candidates in the disk of a sample of earlier stages.
     ref::DiskCount disk(const gpu::SampleRec& sample, std::vector<std::uint32_t>& conflicts) {
         const auto count = detector.run(
             {sample.face, sample.weight1, sample.weight2},
-            [&](std::uint32_t q) { return states[bins.order[q]] == gpu::kIdle; },
-            [&](std::uint32_t q, float) { conflicts.push_back(bins.order[q]); });
+            [&](std::uint32_t q) { return states[ranks[q]] == gpu::kIdle; },
+            [&](std::uint32_t q, float) { conflicts.push_back(ranks[q]); });
         std::sort(conflicts.begin(), conflicts.end());
         return count;
     }
 
     gpu::SampleRec sample(std::uint32_t rank) const {
-        return {first + rank, points[rank].face, points[rank].weight1, points[rank].weight2};
+        const ref::FacePoint<float> point = pool.candidate(rank);
+        return {pool.word(rank), point.face, point.weight1, point.weight2};
+    }
+
+    /// The idle ones from one order up to another, as ranks.
+    std::vector<std::uint32_t> idle(std::uint32_t first_order, std::uint32_t end_order) const {
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t rank = 0; rank < states.size(); ++rank) {
+            const std::uint32_t order = pool.word(rank);
+            if (order >= first_order && order < end_order && states[rank] == gpu::kIdle) {
+                found.push_back(rank);
+            }
+        }
+        return found;
     }
 };
 
 bool same(const gpu::SampleRec& a, const gpu::SampleRec& b) {
-    return a.rank == b.rank && a.face == b.face && a.weight1 == b.weight1 && a.weight2 == b.weight2;
+    return a.order == b.order && a.face == b.face && a.weight1 == b.weight1 &&
+           a.weight2 == b.weight2;
 }
 
-bool same(const gpu::SlotRec& slot, const ref::DiskCount& disk) {
-    return slot.pushed == disk.windows && slot.most_waiting == disk.most_waiting &&
-           slot.longest_chain == disk.chain && slot.vertices == disk.vertices &&
-           slot.tested == disk.tested;
+gpu::SampleRec record_of(const gpu::SlotRec& slot) {
+    return {slot.order, slot.face, std::bit_cast<float>(slot.weight1),
+            std::bit_cast<float>(slot.weight2)};
 }
+
+/// What all disks so far took and found.
+struct Totals {
+    std::uint64_t disks = 0, windows = 0, tested = 0;
+    std::uint32_t most_waiting = 0, most_vertices = 0;
+
+    void add(const ref::DiskCount& disk) {
+        ++disks;
+        windows += disk.windows;
+        tested += disk.tested;
+        most_waiting = std::max(most_waiting, disk.most_waiting);
+        most_vertices = std::max(most_vertices, disk.vertices);
+    }
+    void compare(const gpu::ControlRec& control) const {
+        CHECK(control.disks == disks);
+        CHECK((std::uint64_t{control.windows_high} << 32 | control.windows_low) == windows);
+        CHECK((std::uint64_t{control.tested_high} << 32 | control.tested_low) == tested);
+        CHECK(control.most_waiting == most_waiting);
+        CHECK(control.most_vertices == most_vertices);
+    }
+};
 
 float weight(std::uint32_t steps) {
     return static_cast<float>(steps) * 0x1p-24f;
 }
 
-void compare_candidates(const DeviceRun& run, const Twin& twin) {
-    const auto states = run.read<std::uint32_t>(BufferRole::states, run.candidates());
-    const auto weights = run.read<std::uint32_t>(BufferRole::weights, run.candidates());
-    const auto places = run.read<std::uint32_t>(BufferRole::places, run.candidates());
-    REQUIRE(states.size() == twin.points.size());
-    std::uint32_t wrong = 0;
-    for (std::uint32_t rank = 0; rank < states.size(); ++rank) {
-        const std::uint32_t state = states[places[rank]];
-        const ref::FacePoint<float>& want = twin.points[rank];
-        wrong += weight(state >> gpu::kWeightShift) != want.weight1 ||
-                 weight(weights[places[rank]]) != want.weight2 ||
-                 (state & gpu::kStateMask) != gpu::kIdle;
+/// Compares what was drawn, cell by cell: within one the order is that of atomics. Returns the rank
+/// at each place.
+std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& twin) {
+    const std::uint32_t count = twin.pool.size();
+    REQUIRE(run.control().drawn == count);
+    const auto states = run.read<std::uint32_t>(BufferRole::states, count);
+    const auto weights = run.read<std::uint32_t>(BufferRole::weights, count);
+    const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
+    const std::vector<std::uint32_t>& starts = twin.pool.bins.starts;
+    if (run.push().all_single == 0) {
+        CHECK(run.read<std::uint32_t>(BufferRole::cells, starts.size()) == starts);
     }
-    CHECK(wrong == 0);
-}
-
-void compare_bins(const DeviceRun& run, const Twin& twin) {
-    const auto starts = run.read<std::uint32_t>(BufferRole::cells, twin.bins.starts.size());
-    CHECK(starts == twin.bins.starts);
-    // Within a cell the order is that of atomics, so cells are compared as sets.
-    const auto by_place = ranks_by_place(run);
+    std::vector<std::uint32_t> ranks(count);
     std::uint32_t wrong = 0;
+    using Key = std::tuple<std::uint32_t, float, float, std::uint32_t>;
     for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
-        std::vector<std::uint32_t> ranks;
+        std::vector<Key> here, want;
         for (std::uint32_t place = starts[c]; place < starts[c + 1]; ++place) {
-            ranks.push_back(by_place[place]);
+            wrong += (states[place] & gpu::kStateMask) != gpu::kIdle;
+            here.emplace_back(orders[place], weight(states[place] >> gpu::kWeightShift),
+                              weight(weights[place]), place);
+            const ref::FacePoint<float>& point = twin.pool.bins.points[place];
+            want.emplace_back(twin.pool.words[place], point.weight1, point.weight2, place);
         }
-        std::sort(ranks.begin(), ranks.end());
-        wrong +=
-            !std::equal(ranks.begin(), ranks.end(), twin.bins.order.begin() + twin.bins.starts[c]);
+        std::sort(here.begin(), here.end());
+        std::sort(want.begin(), want.end());
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            wrong += std::get<0>(here[i]) != std::get<0>(want[i]) ||
+                     std::get<1>(here[i]) != std::get<1>(want[i]) ||
+                     std::get<2>(here[i]) != std::get<2>(want[i]);
+            ranks[std::get<3>(here[i])] = twin.ranks[std::get<3>(want[i])];
+        }
     }
     CHECK(wrong == 0);
+    return ranks;
 }
 
-/// The calls of CheckStatus of one batch, slot by slot, and with them `all` so far. `above` has
-/// ranks.
+/// The calls of CheckStatus of one batch, and with them `all` so far. `slots[i]` is where batch[i]
+/// was; `above` has ranks.
 void compare_calls(const DeviceRun& run, const Twin& twin, const std::vector<std::uint32_t>& batch,
+                   const std::vector<gpu::SlotRec>& slots,
                    std::vector<std::vector<std::uint32_t>> above, CallHistogram& all) {
     std::vector<std::uint8_t> accepted;
     for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -133,11 +165,9 @@ void compare_calls(const DeviceRun& run, const Twin& twin, const std::vector<std
     }
     const std::vector<std::uint32_t> want = ref::count_calls(above, accepted);
     ref::add_calls(all, want);
-    const auto words =
-        run.read<std::uint32_t>(BufferRole::control, batch.size(), sizeof(gpu::ControlRec));
     std::uint32_t wrong = 0;
     for (std::size_t i = 0; i < batch.size(); ++i) {
-        wrong += words[i] != (want[i] | gpu::kCallsKnown);
+        wrong += slots[i].calls != (want[i] | gpu::kCallsKnown);
     }
     CHECK(wrong == 0);
     const gpu::ControlRec control = run.control();
@@ -145,41 +175,45 @@ void compare_calls(const DeviceRun& run, const Twin& twin, const std::vector<std
     CHECK((std::uint64_t{control.calls_high} << 32 | control.calls_low) == all.calls);
 }
 
-/// What the disks of one batch took and found, slot by slot; and its calls, unless they are null.
-void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
+/// What the disks of one batch found and took, from `first_order` on; and its calls, unless they
+/// are null.
+void compare_batch(const DeviceRun& run, Twin& twin, std::uint32_t first_order,
+                   const std::vector<std::uint32_t>& by_place, Totals& totals,
                    CallHistogram* calls) {
     const gpu::ControlRec control = run.control();
-    const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
     // A batch may be shorter than there are slots, but never skips a rank.
-    REQUIRE(control.slots_used <= run.plan().slots);
-    const auto batch = ref::select_idle(twin.states, control.batch_rank, control.slots_used);
-    std::vector<std::uint32_t> selected;
-    for (const gpu::SlotRec& slot : slots) {
-        selected.push_back(slot.rank);
-    }
-    std::sort(selected.begin(), selected.end());
-    REQUIRE(selected == batch);
+    const auto batch = twin.idle(first_order, control.first_order);
+    REQUIRE(batch.size() <= run.plan().slots);
+    const std::vector<gpu::SlotRec> slots = slots_of(run);
     for (const std::uint32_t rank : batch) {
         twin.states[rank] = gpu::kActive;
     }
     std::vector<std::vector<std::uint32_t>> conflicts(batch.size());
     std::vector<std::vector<std::uint32_t>> above(batch.size());
+    std::vector<gpu::SlotRec> own(batch.size());
     std::uint32_t wrong = 0;
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-        const auto at = static_cast<std::size_t>(
-            std::lower_bound(batch.begin(), batch.end(), slots[i].rank) - batch.begin());
-        const ref::DiskCount want = twin.disk(batch[at], conflicts[at], above[at]);
-        wrong += !same(slots[i], want);
-        wrong += listed(run, slots[i], i, by_place) != conflicts[at];
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        const gpu::SampleRec want = twin.sample(batch[i]);
+        const auto found = std::find_if(slots.begin(), slots.end(), [&](const gpu::SlotRec& slot) {
+            return same(record_of(slot), want) && by_place[slot.place] == batch[i];
+        });
+        REQUIRE(found != slots.end());
+        own[i] = *found;
+        const ref::DiskCount disk = twin.disk(batch[i], conflicts[i], above[i]);
+        totals.add(disk);
+        const auto index = static_cast<std::size_t>(found - slots.begin());
+        wrong += found->longest_chain != disk.chain;
+        wrong += listed(run, index, batch[i], by_place) != conflicts[i];
     }
     CHECK(wrong == 0);
     ref::resolve_batch(batch, conflicts, twin.states);
+    totals.compare(control);
     if (calls != nullptr) {
-        compare_calls(run, twin, batch, std::move(above), *calls);
+        compare_calls(run, twin, batch, own, std::move(above), *calls);
     }
 }
 
-/// Adds the chunk's samples to those of the chunks before.
+/// Adds the samples of the stages to those before.
 void compare_samples(const DeviceRun& run, const Twin& twin, std::vector<gpu::SampleRec>& want) {
     const gpu::ControlRec control = run.control();
     const auto samples = run.read<gpu::SampleRec>(BufferRole::samples, control.accepted);
@@ -188,6 +222,7 @@ void compare_samples(const DeviceRun& run, const Twin& twin, std::vector<gpu::Sa
             want.push_back(twin.sample(rank));
         }
     }
+    CHECK(control.ready == control.accepted);
     REQUIRE(samples.size() == want.size());
     std::uint32_t wrong = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -196,36 +231,31 @@ void compare_samples(const DeviceRun& run, const Twin& twin, std::vector<gpu::Sa
     CHECK(wrong == 0);
 }
 
-/// The first rounds of a chunk: batches of the samples so far, whose disks reject and do nothing
-/// else.
+/// The first rounds of later stages: batches of the samples so far, whose disks reject and do
+/// nothing else.
 void step_through_samples(DeviceRun& run, Twin& twin, const std::vector<gpu::SampleRec>& settled,
-                          const std::vector<std::uint32_t>& by_place) {
+                          const std::vector<std::uint32_t>& by_place, Totals& totals) {
     for (std::uint32_t next = 0; next < settled.size();) {
-        gpu::ControlRec control{};
-        do {
-            run.rounds(1);
-            control = run.control();
-            REQUIRE(control.overflow == 0);
-        } while (control.undecided > 0);
+        REQUIRE(decide_batch(run));
+        const gpu::ControlRec control = run.control();
         REQUIRE(control.settled == settled.size());
-        REQUIRE(control.batch_sample == next);
-        REQUIRE(control.next_sample == next + control.slots_used);
-        REQUIRE(control.slots_used > 0);
-        CHECK(control.next_rank == 0);
+        REQUIRE(control.next_sample > next);
+        CHECK(control.first_order == 0);
         CHECK(control.accepted == settled.size());
-        const auto slots = run.read<gpu::SlotRec>(BufferRole::slots, control.slots_used);
-        std::vector<std::vector<std::uint32_t>> conflicts(slots.size());
+        const std::vector<gpu::SlotRec> slots = slots_of(run);
+        const std::size_t used = control.next_sample - next;
+        std::vector<std::vector<std::uint32_t>> conflicts(used);
         std::uint32_t wrong = 0;
-        for (std::size_t i = 0; i < slots.size(); ++i) {
+        for (std::size_t i = 0; i < used; ++i) {
             const gpu::SampleRec& sample = settled[next + i];
-            const ref::DiskCount want = twin.disk(sample, conflicts[i]);
-            wrong +=
-                slots[i].place != gpu::kNoPlace || !same({twin.first + slots[i].rank, slots[i].face,
-                                                          slots[i].weight1, slots[i].weight2},
-                                                         sample);
-            wrong += !same(slots[i], want) || listed(run, slots[i], i, by_place) != conflicts[i];
+            const ref::DiskCount disk = twin.disk(sample, conflicts[i]);
+            totals.add(disk);
+            wrong += slots[i].place != gpu::kNoPlace || !same(record_of(slots[i]), sample) ||
+                     slots[i].longest_chain != disk.chain ||
+                     listed(run, i, kNoRank, by_place) != conflicts[i];
         }
         CHECK(wrong == 0);
+        totals.compare(control);
         for (const auto& rejected : conflicts) {
             ref::reject_all(rejected, twin.states);
         }
@@ -234,13 +264,23 @@ void step_through_samples(DeviceRun& run, Twin& twin, const std::vector<gpu::Sam
     }
 }
 
-/// The rounds of a chunk, once the samples before it have rejected.
+/// The rounds of some stages, once the samples before them have rejected.
 void step_through_candidates(DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
-                             CallHistogram* calls) {
+                             Totals& totals, CallHistogram* calls) {
+    std::uint32_t first_order = 0;
     while (decide_batch(run)) {
-        compare_batch(run, twin, by_place, calls);
+        compare_batch(run, twin, first_order, by_place, totals, calls);
         CHECK(wrong_states(run, twin.states, by_place) == 0);
+        first_order = run.control().first_order;
     }
+    CHECK(twin.idle(0, gpu::kNoOrder).empty());
+    // An active one's order was its slot meanwhile.
+    const auto orders = run.read<std::uint32_t>(BufferRole::orders, by_place.size());
+    std::uint32_t wrong = 0;
+    for (std::size_t place = 0; place < orders.size(); ++place) {
+        wrong += orders[place] != twin.pool.word(by_place[place]);
+    }
+    CHECK(wrong == 0);
 }
 
 SamplerOptions counting_calls(SamplerOptions options) {
@@ -264,42 +304,43 @@ RunPlan roomy_plan(std::uint32_t slots) {
     return plan;
 }
 
-struct Chunk {
-    std::uint32_t first, count;
+struct Part {
+    std::uint32_t first, count; ///< Stages.
 };
 
-/// The chunks must fit the plan's; without any, all candidates are one.
+/// Without parts, all stages at once.
 void step_through(const PreparedMesh& mesh, const SampleParams& params,
                   const SamplerOptions& options, const RunPlan& plan,
-                  std::vector<Chunk> chunks = {}) {
-    if (chunks.empty()) {
-        chunks = {{0, expect(pool_size(mesh, params))}};
+                  std::vector<Part> parts = {}) {
+    expect(pool_size(mesh, params));
+    if (parts.empty()) {
+        parts = {{0, stages_of(mesh, params).pool_stages()}};
     }
     DeviceRun run(mesh, params, plan, options);
     std::vector<gpu::SampleRec> samples;
+    Totals totals;
     CallHistogram calls;
-    for (const Chunk& chunk : chunks) {
-        run.set_chunk(chunk.first, chunk.count);
-        Twin twin(mesh, params, run.plan().chain, chunk.first, chunk.count);
+    for (const Part& part : parts) {
+        run.set_stages(part.first, part.count);
+        Twin twin(mesh, params, run.plan().chain, part.first, part.count);
         run.begin();
-        compare_candidates(run, twin);
-        compare_bins(run, twin);
-        const auto by_place = ranks_by_place(run);
-        step_through_samples(run, twin, samples, by_place);
-        step_through_candidates(run, twin, by_place, options.count_calls ? &calls : nullptr);
+        const auto by_place = compare_candidates(run, twin);
+        step_through_samples(run, twin, samples, by_place, totals);
+        step_through_candidates(run, twin, by_place, totals,
+                                options.count_calls ? &calls : nullptr);
         run.finish();
         compare_samples(run, twin, samples);
     }
 }
 
 void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
-                  std::uint32_t slots, const std::vector<Chunk>& chunks = {},
+                  std::uint32_t slots, const std::vector<Part>& parts = {},
                   const RadiusField* radii = nullptr) {
     RunPlan plan = roomy_plan(slots);
     if (radii != nullptr) {
         plan.list_capacity = 65536; // A large disk meets many small ones.
     }
-    step_through(mesh, params_for(mesh, count, 1, radii), options, plan, chunks);
+    step_through(mesh, params_for(mesh, count, 1, radii), options, plan, parts);
 }
 
 } // namespace
@@ -335,28 +376,41 @@ TEST_SUITE("kernels") {
         step_through(prepared(builtin("terrain", 16)), 1e-4, kOnCpu, 64);
     }
 
-    TEST_CASE("step by step through chunks, each begun by the samples before it") {
+    TEST_CASE("step by step through stages, each begun by the samples before it") {
         const PreparedMesh knot = prepared(builtin("torus-knot", 16));
         for (const SamplerOptions& options : {kOnCpu, kOnGpu}) {
-            step_through(knot, 400, options, 64, {{0, 300}, {300, 1000}, {1300, 1}, {1301, 4000}});
+            step_through(knot, 400, options, 64, {{0, 1}, {1, 2}, {3, 1}});
         }
-        step_through(prepared(builtin("folded-sheet", 8)), 300, kPlain, 7, {{0, 2000}, {2000, 99}});
+        step_through(prepared(builtin("folded-sheet", 8)), 300, kPlain, 9, {{0, 3}, {3, 1}});
+        step_through(prepared(builtin("cube", 1)), 2000, kOnCpu, 64, {{0, 1}, {1, 3}});
     }
 
-    TEST_CASE("step by step where candidates' indices end") {
+    TEST_CASE("step by step where the numbers of stages end") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
-        step_through(mesh, 200, kOnCpu, 64, {{0, 150}, {kMostCandidates - 900, 900}});
+        step_through(mesh, 200, kOnCpu, 64, {{0, 1}, {0xfffffff0, 2}});
+    }
+
+    TEST_CASE("step by step with candidates that faces have by keys of the caller") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 12));
+        std::vector<std::uint32_t> keys;
+        for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+            keys.push_back(0xffffffffu - 7 * face);
+        }
+        SampleParams params = params_for(mesh, 400);
+        params.face_keys = keys;
+        step_through(mesh, params, kOnCpu, roomy_plan(64));
+        step_through(mesh, params, kOnGpu, roomy_plan(64));
     }
 
     TEST_CASE("step by step with lists of conflicts longer than a dispatch goes through") {
         const PreparedMesh mesh = prepared(builtin("terrain", 1));
         SampleParams params = params_for(mesh, 1); // A disk covers most of the square.
-        params.pool_ratio = gpu::kListPerDispatch + 204;
-        RunPlan plan = roomy_plan(gpu::kListPerDispatch + 204);
+        params.pool_ratio = gpu::kListPerDispatch + 1500;
+        RunPlan plan = roomy_plan(gpu::kListPerDispatch + 512);
         plan.window_capacity = 256;
         plan.table_capacity = 256;
         plan.lanes = 16;
-        plan.list_capacity = gpu::kListPerDispatch + 256;
+        plan.list_capacity = gpu::kListPerDispatch + 2048;
         step_through(mesh, params, kOnCpu, plan);
     }
 
@@ -369,7 +423,7 @@ TEST_SUITE("kernels") {
             const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.02));
             step_through(mesh, 600, kOnCpu, 64, {}, &wavy);
             step_through(mesh, 600, kOnGpu, 64, {}, &rough);
-            step_through(mesh, 600, kOnCpu, 64, {{0, 500}, {500, 9000}}, &rough);
+            step_through(mesh, 600, kOnCpu, 64, {{0, 1}, {1, 3}}, &rough);
         }
         const TestMesh cube = builtin("cube", 1);
         const PreparedMesh mesh = prepared(cube);
@@ -378,8 +432,8 @@ TEST_SUITE("kernels") {
         step_through(mesh, 40, kPlain, 16, {}, &rough);
     }
 
-    TEST_CASE("step by step with one candidate at a time") {
-        step_through(prepared(builtin("icosphere", 2)), 60, kOnCpu, 1);
+    TEST_CASE("step by step with as few candidates at a time as may be") {
+        step_through(prepared(builtin("icosphere", 2)), 60, kOnCpu, kLeastSlots);
     }
 }
 

@@ -18,7 +18,7 @@ namespace {
 #define GEODISK_OFFSET(type, member)                                                               \
     { #member, static_cast < std::uint32_t>(offsetof(gpu::type, member)) }
 
-const Offsets kPush{GEODISK_OFFSET(Push, candidates),      GEODISK_OFFSET(Push, faces),
+const Offsets kPush{GEODISK_OFFSET(Push, capacity),        GEODISK_OFFSET(Push, faces),
                     GEODISK_OFFSET(Push, vertices),        GEODISK_OFFSET(Push, cells),
                     GEODISK_OFFSET(Push, seed_low),        GEODISK_OFFSET(Push, seed_high),
                     GEODISK_OFFSET(Push, limit),           GEODISK_OFFSET(Push, margin),
@@ -28,31 +28,52 @@ const Offsets kPush{GEODISK_OFFSET(Push, candidates),      GEODISK_OFFSET(Push, 
                     GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, lane_rows),
                     GEODISK_OFFSET(Push, first_list_row),  GEODISK_OFFSET(Push, step_budget),
                     GEODISK_OFFSET(Push, scan_count),      GEODISK_OFFSET(Push, sample_capacity),
-                    GEODISK_OFFSET(Push, first_rank),      GEODISK_OFFSET(Push, stop_count)};
+                    GEODISK_OFFSET(Push, first_stage),     GEODISK_OFFSET(Push, stages),
+                    GEODISK_OFFSET(Push, intensity),       GEODISK_OFFSET(Push, has_keys),
+                    GEODISK_OFFSET(Push, all_single),      GEODISK_OFFSET(Push, end_order),
+                    GEODISK_OFFSET(Push, stop_count),      GEODISK_OFFSET(Push, idle_capacity),
+                    GEODISK_OFFSET(Push, buckets),         GEODISK_OFFSET(Push, bucket_shift)};
 
-const Offsets kControl{GEODISK_OFFSET(ControlRec, groups_x),
-                       GEODISK_OFFSET(ControlRec, groups_y),
-                       GEODISK_OFFSET(ControlRec, groups_z),
-                       GEODISK_OFFSET(ControlRec, find_x),
-                       GEODISK_OFFSET(ControlRec, find_y),
-                       GEODISK_OFFSET(ControlRec, find_z),
+const Offsets kControl{GEODISK_OFFSET(ControlRec, select_x),
+                       GEODISK_OFFSET(ControlRec, select_y),
+                       GEODISK_OFFSET(ControlRec, select_z),
                        GEODISK_OFFSET(ControlRec, detect_x),
                        GEODISK_OFFSET(ControlRec, detect_y),
                        GEODISK_OFFSET(ControlRec, detect_z),
+                       GEODISK_OFFSET(ControlRec, groups_x),
+                       GEODISK_OFFSET(ControlRec, groups_y),
+                       GEODISK_OFFSET(ControlRec, groups_z),
+                       GEODISK_OFFSET(ControlRec, count_x),
+                       GEODISK_OFFSET(ControlRec, count_y),
+                       GEODISK_OFFSET(ControlRec, count_z),
                        GEODISK_OFFSET(ControlRec, abi),
-                       GEODISK_OFFSET(ControlRec, next_rank),
-                       GEODISK_OFFSET(ControlRec, batch_rank),
+                       GEODISK_OFFSET(ControlRec, drawn),
+                       GEODISK_OFFSET(ControlRec, mode),
+                       GEODISK_OFFSET(ControlRec, first_order),
+                       GEODISK_OFFSET(ControlRec, batch_end),
+                       GEODISK_OFFSET(ControlRec, list_end),
+                       GEODISK_OFFSET(ControlRec, list_count),
+                       GEODISK_OFFSET(ControlRec, list_left),
+                       GEODISK_OFFSET(ControlRec, first_left),
+                       GEODISK_OFFSET(ControlRec, due),
+                       GEODISK_OFFSET(ControlRec, waiting),
+                       GEODISK_OFFSET(ControlRec, selected_groups),
+                       GEODISK_OFFSET(ControlRec, spacing),
                        GEODISK_OFFSET(ControlRec, next_sample),
-                       GEODISK_OFFSET(ControlRec, batch_sample),
                        GEODISK_OFFSET(ControlRec, slots_used),
                        GEODISK_OFFSET(ControlRec, next_slot),
                        GEODISK_OFFSET(ControlRec, incomplete),
-                       GEODISK_OFFSET(ControlRec, unfinished),
                        GEODISK_OFFSET(ControlRec, undecided),
+                       GEODISK_OFFSET(ControlRec, uncounted),
                        GEODISK_OFFSET(ControlRec, overflow),
                        GEODISK_OFFSET(ControlRec, done),
+                       GEODISK_OFFSET(ControlRec, below),
+                       GEODISK_OFFSET(ControlRec, first_open),
+                       GEODISK_OFFSET(ControlRec, ready),
                        GEODISK_OFFSET(ControlRec, accepted),
                        GEODISK_OFFSET(ControlRec, settled),
+                       GEODISK_OFFSET(ControlRec, ordered),
+                       GEODISK_OFFSET(ControlRec, next_ordered),
                        GEODISK_OFFSET(ControlRec, iterations),
                        GEODISK_OFFSET(ControlRec, disks),
                        GEODISK_OFFSET(ControlRec, windows_low),
@@ -87,7 +108,7 @@ TEST_SUITE("layout") {
                     ++controls;
                     CHECK(offsets.at("ControlRec") == kControl);
                     // The blocker words follow the record without a gap.
-                    CHECK(offsets.at("control_buffer").at("blockers") == sizeof(gpu::ControlRec));
+                    CHECK(offsets.at("control_buffer").at("slots") == sizeof(gpu::ControlRec));
                 }
             }
         }

@@ -1,6 +1,7 @@
 // Loop limits, overflow, impossible requests: what must end in a correct result or a clear error.
 #include <doctest/doctest.h>
 
+#include <set>
 #include <string>
 
 #include "constants.h"
@@ -18,7 +19,7 @@ TEST_SUITE("limits") {
         const SampleParams params = params_for(mesh, 60);
         const SampleSet set = sample(mesh, params);
         CHECK(set.report.windows / set.report.disks > 65535 / 16);
-        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
     }
 
     TEST_CASE("crowds of candidates in every cell") {
@@ -27,36 +28,83 @@ TEST_SUITE("limits") {
         params.pool_ratio = 2000;
         const SampleSet set = sample(mesh, params);
         CHECK(set.report.tested / set.report.disks > 1000);
-        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
     }
 
-    TEST_CASE("more samples than their buffer holds are told, and fit a larger one") {
+    TEST_CASE("a batch that the buffer of samples has no room for waits for a larger one") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
         const SampleParams params = params_for(mesh, 100);
         RunPlan small;
-        small.sample_capacity = 10;
+        small.slots = 8;
+        small.sample_capacity = 20;
         DeviceRun run(mesh, params, small);
         run.begin();
-        while (run.control().done == 0) {
+        std::uint32_t enlarged = 0;
+        for (gpu::ControlRec control = run.control(); control.done == 0; control = run.control()) {
+            if (control.overflow != 0) {
+                CHECK(control.overflow == gpu::kOverflowSamples);
+                CHECK(control.accepted + 8 > run.plan().sample_capacity);
+                CHECK(control.accepted <= run.plan().sample_capacity);
+                run.rounds(2);
+                CHECK(run.control().accepted == control.accepted);
+                run.enlarge_samples(control.accepted + 20);
+                run.rewind();
+                ++enlarged;
+            }
             run.rounds(1);
         }
-        const gpu::ControlRec before = run.control();
-        REQUIRE(before.overflow == 0);
-        REQUIRE(before.accepted > 10);
+        CHECK(enlarged > 3);
         run.finish();
-        CHECK(run.control().overflow == gpu::kOverflowSamples);
-        run.enlarge_samples(before.accepted);
-        run.finish();
-        CHECK(run.control().overflow == 0);
-        const auto records = run.read<gpu::SampleRec>(BufferRole::samples, before.accepted);
+        const gpu::ControlRec control = run.control();
         RunnerOptions options;
-        options.plan.sample_capacity = 10;
+        options.plan = small;
         const SampleSet set = sample(mesh, params, options);
-        REQUIRE(set.samples.size() == before.accepted);
-        for (std::size_t i = 0; i < records.size(); ++i) {
-            CHECK(records[i].rank == set.samples[i].candidate);
+        REQUIRE(set.samples.size() == control.ready);
+        Points records;
+        for (const auto& record : run.read<gpu::SampleRec>(BufferRole::samples, control.ready)) {
+            records.push_back({record.face, record.weight1, record.weight2});
         }
-        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+        CHECK(records == points_of(set));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
+    }
+
+    TEST_CASE("a finish between any rounds leaves a prefix, and the run as it was") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 12));
+        const SampleParams params = params_for(mesh, 200);
+        RunPlan small;
+        small.slots = 40;
+        small.lanes = 8;
+        small.step_budget = 2;
+        small.detect_passes = 1;
+        small.window_capacity = 8; // And overflows.
+        small.stages = 2;
+        DeviceRun run(mesh, params, small);
+        const Points want = float_set(mesh, params, run.plan().chain);
+        std::uint32_t ready = 0, within_batches = 0;
+        for (const std::uint32_t first : {0u, 2u}) {
+            run.set_stages(first, 2);
+            run.begin();
+            while (run.control().done == 0) {
+                run.rounds(1);
+                if (run.control().overflow != 0) {
+                    run.grow(run.control().overflow);
+                }
+                run.finish();
+                const gpu::ControlRec control = run.control();
+                within_batches += control.undecided > 0 ? 1 : 0;
+                CHECK(control.ready >= ready);
+                ready = control.ready;
+                const auto samples = run.read<gpu::SampleRec>(BufferRole::samples, ready);
+                std::uint32_t wrong = 0;
+                for (std::size_t i = 0; i < ready; ++i) {
+                    wrong += want[i] !=
+                             SamplePoint{samples[i].face, samples[i].weight1, samples[i].weight2};
+                }
+                CHECK(wrong == 0);
+            }
+        }
+        CHECK(ready == want.size());
+        CHECK(within_batches > 0);
     }
 
     TEST_CASE("a guard too narrow for the chains met is widened and the run repeated") {
@@ -67,7 +115,7 @@ TEST_SUITE("limits") {
         const SampleSet set = sample(mesh, params, options);
         CHECK(set.report.plan.chain > 1);
         CHECK(set.report.longest_chain <= set.report.plan.chain);
-        CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
     }
 
     TEST_CASE("an overflow decides nothing until slices are larger") {
@@ -97,17 +145,19 @@ TEST_SUITE("limits") {
         DeviceRun run(mesh, params, small, options);
         run.begin();
         gpu::ControlRec control{};
-        std::uint64_t active = 0; // In all batches that were decided.
+        std::set<std::uint32_t> active; // In all batches that were decided, by their orders.
         std::uint32_t regrown = 0;
-        for (std::uint32_t counted = 0; control.done == 0;) {
+        while (control.done == 0) {
             run.rounds(1);
             control = run.control();
             if (control.overflow != 0) {
                 run.grow(control.overflow);
                 ++regrown;
-            } else if (control.undecided == 0 && control.iterations > counted) {
-                counted = control.iterations;
-                active += control.slots_used;
+            }
+            for (const gpu::SlotRec& slot : slots_of(run)) {
+                if (slot.phase == gpu::kSlotCounted) {
+                    active.insert(slot.order);
+                }
             }
         }
         CHECK(regrown > 2);
@@ -115,7 +165,7 @@ TEST_SUITE("limits") {
         for (const std::uint32_t candidates : control.call_bins) {
             total += candidates;
         }
-        CHECK(total == active);
+        CHECK(total == active.size());
         CHECK(control.calls_high == 0);
         CHECK(control.calls_low > total);
         CHECK(control.call_bins[0] < control.accepted);
@@ -132,7 +182,7 @@ TEST_SUITE("limits") {
         const SampleSet tight = sample(mesh, params, options);
         CHECK(tight.report.plan.slots < plenty.report.plan.slots);
         CHECK(tight.report.plan.pool_bytes() <= options.pool_bytes);
-        CHECK(ranks_of(tight) == ranks_of(plenty));
+        CHECK(points_of(tight) == points_of(plenty));
     }
 
     TEST_CASE("a plan asked for must keep to the pool") {

@@ -21,8 +21,8 @@ void check_against_reference(const PreparedMesh& mesh, double count, std::uint64
     const SampleSet set = sample(mesh, params);
     const std::uint32_t chain = set.report.plan.chain;
     CHECK(set.report.longest_chain <= chain);
-    CHECK(ranks_of(set) == float_set(mesh, params, chain));
-    if (ranks_of(set) != double_set(mesh, params, chain)) {
+    CHECK(points_of(set) == float_set(mesh, params, chain));
+    if (points_of(set) != double_set(mesh, params, chain)) {
         const ReplayReport report = replay(mesh, params, chain);
         CHECK(report.wrong == 0);
         CHECK(report.ties > 0);
@@ -82,9 +82,9 @@ TEST_SUITE("pipeline") {
         const PreparedMesh mesh = prepared(shape);
         const RadiusField ones = radius_field(mesh, std::vector<double>(shape.vertex_count(), 1.0));
         SampleParams params = params_for(mesh, 1000);
-        const auto want = ranks_of(sample(mesh, params));
+        const auto want = points_of(sample(mesh, params));
         params.radii = &ones;
-        CHECK(ranks_of(sample(mesh, params)) == want);
+        CHECK(points_of(sample(mesh, params)) == want);
     }
 
     TEST_CASE("a sampler serves either one radius or varying ones") {
@@ -120,8 +120,8 @@ TEST_SUITE("pipeline") {
         const PreparedMesh surface =
             expect(PreparedMesh::prepare({mesh.triangles, lengths, mesh.vertex_count()}));
         check_against_reference(surface, 1000);
-        CHECK(ranks_of(sample(surface, params_for(model, 1000))) ==
-              ranks_of(sample(model, params_for(model, 1000))));
+        CHECK(points_of(sample(surface, params_for(model, 1000))) ==
+              points_of(sample(model, params_for(model, 1000))));
     }
 
     TEST_CASE("a cube of 12 triangles with 20,000 samples") {
@@ -136,7 +136,7 @@ TEST_SUITE("pipeline") {
             CAPTURE(factor);
             SampleParams params;
             params.min_distance = factor * mesh.statistics().diagonal;
-            CHECK(ranks_of(sample(mesh, params)) == std::vector<std::uint32_t>{0});
+            CHECK(sample(mesh, params).samples.size() == 1);
         }
     }
 
@@ -151,29 +151,26 @@ TEST_SUITE("pipeline") {
             const SampleParams params = params_for(mesh, 2000);
             const auto a = sample(prepared(builtin(bent, resolution)), params);
             const auto b = sample(mesh, params);
-            CHECK(ranks_of(a) == ranks_of(b));
+            CHECK(points_of(a) == points_of(b));
         }
     }
 
-    TEST_CASE("weights sum to one and ranks ascend") {
+    TEST_CASE("weights sum to one") {
         const PreparedMesh mesh = prepared(builtin("terrain", 32));
         const SampleSet set = sample(mesh, params_for(mesh, 2000));
         std::uint32_t wrong = 0;
-        for (std::size_t i = 0; i < set.samples.size(); ++i) {
-            const Sample& s = set.samples[i];
+        for (const Sample& s : set.samples) {
             wrong += s.weights[0] + s.weights[1] + s.weights[2] != 1.0f || s.weights[0] < 0 ||
-                     s.face >= mesh.face_count() ||
-                     (i > 0 && s.candidate <= set.samples[i - 1].candidate);
+                     s.face >= mesh.face_count();
         }
         CHECK(wrong == 0);
-        CHECK(set.samples.front().candidate == 0);
     }
 
     TEST_CASE("seeds differ and repeat") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
-        const auto first = ranks_of(sample(mesh, params_for(mesh, 500, 1)));
-        CHECK(first == ranks_of(sample(mesh, params_for(mesh, 500, 1))));
-        CHECK(first != ranks_of(sample(mesh, params_for(mesh, 500, std::uint64_t{1} << 32 | 1))));
+        const auto first = points_of(sample(mesh, params_for(mesh, 500, 1)));
+        CHECK(first == points_of(sample(mesh, params_for(mesh, 500, 1))));
+        CHECK(first != points_of(sample(mesh, params_for(mesh, 500, std::uint64_t{1} << 32 | 1))));
     }
 }
 
@@ -183,13 +180,13 @@ TEST_SUITE("invariance") {
         const SampleParams params = params_for(mesh, 500);
         const RunnerOptions plain;
         const SampleSet base = sample(mesh, params, plain);
-        const auto want = ranks_of(base);
+        const auto want = points_of(base);
         CHECK(want == float_set(mesh, params, base.report.plan.chain));
 
         const auto same = [&](const RunnerOptions& options) {
-            return ranks_of(sample(mesh, params, options)) == want;
+            return points_of(sample(mesh, params, options)) == want;
         };
-        for (const std::uint32_t slots : {1u, 7u, 64u, 1000u}) {
+        for (const std::uint32_t slots : {8u, 9u, 64u, 1000u}) {
             RunnerOptions options;
             options.plan.slots = slots;
             CAPTURE(slots);
@@ -212,6 +209,18 @@ TEST_SUITE("invariance") {
             RunnerOptions options;
             options.plan.step_budget = steps;
             CAPTURE(steps);
+            CHECK(same(options));
+        }
+        for (const std::uint32_t stages : {1u, 2u, 3u}) {
+            RunnerOptions options;
+            options.plan.stages = stages;
+            CAPTURE(stages);
+            CHECK(same(options));
+        }
+        for (const std::uint32_t idle : {1u, 10u, 300u}) {
+            RunnerOptions options;
+            options.plan.idle_capacity = idle;
+            CAPTURE(idle);
             CHECK(same(options));
         }
         RunnerOptions counting;
@@ -246,7 +255,7 @@ TEST_SUITE("invariance") {
         tight.plan.list_capacity = 4;
         tight.pool_bytes = 1u << 20;
         const SampleSet regrown = sample(mesh, params, tight);
-        CHECK(ranks_of(regrown) == want);
+        CHECK(points_of(regrown) == want);
         CHECK(regrown.report.regrown > 0);
     }
 
@@ -260,7 +269,7 @@ TEST_SUITE("invariance") {
         options.sampler.count_trips = true;
         options.sampler.tuning.slot_local_size = 2; // Less than any subgroup with more than one.
         const SampleSet counted = sample(mesh, params, options);
-        CHECK(ranks_of(counted) == ranks_of(uncounted));
+        CHECK(points_of(counted) == points_of(uncounted));
         CHECK(counted.report.trips >= counted.report.windows);
         CHECK(counted.report.lane_trips > counted.report.trips);
         CHECK(counted.report.lane_trips < 2 * counted.report.trips);
@@ -275,9 +284,9 @@ TEST_SUITE("invariance") {
         const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.05));
         const SampleParams params = params_for(mesh, 500, 1, &rough);
         const SampleSet base = sample(mesh, params);
-        CHECK(ranks_of(base) == float_set(mesh, params, base.report.plan.chain));
+        CHECK(points_of(base) == float_set(mesh, params, base.report.plan.chain));
         RunnerOptions tight;
-        tight.plan.slots = 7;
+        tight.plan.slots = 9;
         tight.plan.lanes = 3;
         tight.plan.step_budget = 7;
         tight.plan.window_capacity = 2;
@@ -291,7 +300,7 @@ TEST_SUITE("invariance") {
         wide.sampler.tuning.reads = Reads::storage;
         wide.sampler.rounding = Rounding::emulated;
         for (const RunnerOptions& options : {tight, wide}) {
-            CHECK(ranks_of(sample(mesh, params, options)) == ranks_of(base));
+            CHECK(points_of(sample(mesh, params, options)) == points_of(base));
         }
     }
 
@@ -301,17 +310,17 @@ TEST_SUITE("invariance") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 4));
         const SampleParams params = params_for(mesh, 60);
         std::vector<std::uint32_t> chains;
-        std::vector<std::vector<std::uint32_t>> sets;
-        for (const std::uint32_t slots : {1u, 16u, 1000u}) {
+        std::vector<Points> sets;
+        for (const std::uint32_t slots : {8u, 16u, 1000u}) {
             RunnerOptions options;
             options.plan.slots = slots;
             options.plan.chain = 1;
             const SampleSet set = sample(mesh, params, options);
             chains.push_back(set.report.plan.chain);
-            sets.push_back(ranks_of(set));
+            sets.push_back(points_of(set));
         }
         CHECK(chains == std::vector<std::uint32_t>(3, chains[0]));
-        CHECK(sets == std::vector<std::vector<std::uint32_t>>(3, sets[0]));
+        CHECK(sets == std::vector<Points>(3, sets[0]));
     }
 }
 

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <geodisk/space.hpp>
 
 #include "baselines/space_disks.hpp"
 #include "device_run.hpp"
-#include "kernels/candidates.hpp"
+#include "kernels/pool.hpp"
 #include "kernels/space.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
@@ -26,22 +27,31 @@ SampleSet sample_space(const TestMesh& mesh, const SampleParams& params, Metric 
     return expect(runner.sample_and_wait(mesh.view(), prepared(mesh), params));
 }
 
-std::vector<std::uint32_t> twin_set(const TestMesh& mesh, const SampleParams& params,
-                                    Metric metric) {
-    const ref::SpacePoints points = ref::draw_in_space(mesh.view(), prepared(mesh), params);
-    ref::BoxPool<float> pool(points.box, points.by_rank, points.guard);
-    if (metric == Metric::approximate) {
-        pool.normals = points.normals;
+/// In dart order.
+std::vector<Point> candidates_of(const PreparedMesh& mesh, const SampleParams& params) {
+    return ref::draw_pool(ref::Surface<double>(mesh, params), mesh, params).by_rank();
+}
+
+Points points_at(const std::vector<Point>& candidates, const std::vector<std::uint32_t>& ranks) {
+    Points points;
+    for (const std::uint32_t rank : ranks) {
+        const Point& c = candidates[rank];
+        points.push_back({c.face, static_cast<float>(c.weight1), static_cast<float>(c.weight2)});
     }
-    return ref::throw_darts(pool);
+    return points;
+}
+
+Points twin_set(const TestMesh& mesh, const SampleParams& params, Metric metric) {
+    const PreparedMesh surface = prepared(mesh);
+    const ref::SpacePoints points = ref::draw_in_space(mesh.view(), surface, params);
+    const bool is_curved = metric == Metric::approximate;
+    return points_at(candidates_of(surface, params),
+                     ref::throw_darts(ref::space_pool<float>(points, is_curved)));
 }
 
 /// Every candidate against all samples before it.
-std::vector<std::uint32_t> plain_set(const TestMesh& mesh, const SampleParams& params,
-                                     double guard) {
-    const PreparedMesh surface = prepared(mesh);
-    const auto candidates = ref::draw_candidates<double>(surface.alias_columns(), params.seed,
-                                                         expect(pool_size(surface, params)));
+Points plain_set(const TestMesh& mesh, const SampleParams& params, double guard) {
+    const auto candidates = candidates_of(prepared(mesh), params);
     const double limit = params.min_distance * (1 + guard);
     std::vector<std::uint32_t> ranks;
     std::vector<Vec3> samples;
@@ -57,16 +67,16 @@ std::vector<std::uint32_t> plain_set(const TestMesh& mesh, const SampleParams& p
             samples.push_back(at);
         }
     }
-    return ranks;
+    return points_at(candidates, ranks);
 }
 
 void check_sets(const TestMesh& mesh, double count) {
     const SampleParams params = params_for(prepared(mesh), count);
     const SampleSet set = sample_space(mesh, params, Metric::euclidean);
-    CHECK(ranks_of(set) == twin_set(mesh, params, Metric::euclidean));
-    CHECK(ranks_of(set) == plain_set(mesh, params, set.report.guard));
+    CHECK(points_of(set) == twin_set(mesh, params, Metric::euclidean));
+    CHECK(points_of(set) == plain_set(mesh, params, set.report.guard));
     const SampleSet curved = sample_space(mesh, params, Metric::approximate);
-    CHECK(ranks_of(curved) == twin_set(mesh, params, Metric::approximate));
+    CHECK(points_of(curved) == twin_set(mesh, params, Metric::approximate));
 }
 
 } // namespace
@@ -102,9 +112,8 @@ TEST_SUITE("space") {
         CHECK(straight.report.candidates == geodesic.report.candidates);
         CHECK(straight.samples.size() < geodesic.samples.size());
         // Faces and weights are those of the same candidates.
-        CHECK(straight.samples[0].candidate == 0);
-        CHECK(straight.samples[0].face == geodesic.samples[0].face);
-        CHECK(straight.samples[0].weights[1] == geodesic.samples[0].weights[1]);
+        CHECK(points_of(straight)[0] == points_of(geodesic)[0]);
+        CHECK(points_of(straight)[0] == points_at(candidates_of(prepared(mesh), params), {0})[0]);
     }
 
     // The reference of the baselines: double precision, and asin of the C library.
@@ -113,10 +122,18 @@ TEST_SUITE("space") {
         const TestMesh mesh = builtin("torus-knot", 16);
         const PreparedMesh surface = prepared(mesh);
         const SampleParams params = params_for(surface, 300);
-        const auto set = ranks_of(sample_space(mesh, params, Metric::approximate));
-        const auto points = ref::oriented_points(
-            mesh.view(), ref::draw_candidates<double>(surface.alias_columns(), params.seed,
-                                                      expect(pool_size(surface, params))));
+        const auto candidates = candidates_of(surface, params);
+        std::map<SamplePoint, std::uint32_t> ranks;
+        for (std::uint32_t rank = 0; rank < candidates.size(); ++rank) {
+            ranks[points_at(candidates, {rank})[0]] = rank;
+        }
+        REQUIRE(ranks.size() == candidates.size());
+        std::vector<std::uint32_t> set;
+        for (const SamplePoint& point :
+             points_of(sample_space(mesh, params, Metric::approximate))) {
+            set.push_back(ranks.at(point));
+        }
+        const auto points = ref::oriented_points(mesh.view(), candidates);
         const auto length = [&](std::uint32_t a, std::uint32_t b) {
             return ref::curve_length(points[a], points[b]) / params.min_distance;
         };
@@ -142,11 +159,11 @@ TEST_SUITE("space") {
             RunnerOptions options;
             options.sampler.tuning.reads = reads;
             options.sampler.rounding = Rounding::emulated;
-            options.plan.slots = 7;
+            options.plan.slots = kLeastSlots;
             options.plan.list_capacity = 4;
             options.plan.step_budget = 5;
             const SampleSet set = sample_space(mesh, params, Metric::approximate, options);
-            CHECK(ranks_of(set) == want);
+            CHECK(points_of(set) == want);
             CHECK(set.report.regrown > 0);
         }
     }
@@ -157,17 +174,21 @@ TEST_SUITE("space") {
         for (const Metric metric : {Metric::euclidean, Metric::approximate}) {
             const auto want = twin_set(mesh, params, metric);
             RunnerOptions options;
-            for (const std::uint32_t chunk : {500u, 4'000u}) {
-                options.plan.chunk = chunk;
+            for (const std::uint32_t stages : {1u, 3u}) {
+                options.plan.stages = stages;
                 const SampleSet set = sample_space(mesh, params, metric, options);
                 CHECK(set.report.chunks > 1);
-                CHECK(ranks_of(set) == want);
+                CHECK(points_of(set) == want);
             }
             SampleParams darts = params;
             darts.stop_count = static_cast<std::uint32_t>(want.size() / 2);
             const SampleSet set = sample_space(mesh, darts, metric);
-            CHECK(ranks_of(set) == std::vector(want.begin(), want.begin() + darts.stop_count));
-            CHECK(set.report.candidates == set.samples.back().candidate + 1);
+            CHECK(points_of(set) == std::vector(want.begin(), want.begin() + darts.stop_count));
+            // All up to the last sample.
+            const auto candidates = candidates_of(prepared(mesh), darts);
+            const std::uint32_t last = set.report.candidates - 1;
+            REQUIRE(last < candidates.size());
+            CHECK(points_at(candidates, {last})[0] == points_of(set).back());
         }
     }
 
@@ -202,7 +223,7 @@ TEST_SUITE("space") {
         const SampleParams params = params_for(mesh, 300);
         const SampleSet set = expect(runner.sample_and_wait(cube.view(), mesh, params));
         const SampleSet plain = sample_space(cube, params, Metric::euclidean);
-        REQUIRE(ranks_of(set) == ranks_of(plain));
+        REQUIRE(points_of(set) == points_of(plain));
         std::uint32_t wrong = 0;
         for (std::size_t i = 0; i < set.samples.size(); ++i) {
             wrong += set.samples[i].face != plain.samples[i].face ||
@@ -221,9 +242,9 @@ TEST_SUITE("space") {
         for (const Reads reads : {Reads::storage, Reads::texels}) {
             RunnerOptions run;
             run.sampler.tuning.reads = reads;
-            run.plan.chunk = 1'000;
+            run.plan.stages = 1;
             for (const Metric metric : {Metric::euclidean, Metric::approximate}) {
-                CHECK(ranks_of(sample_space(mesh, params, metric, run, context)) ==
+                CHECK(points_of(sample_space(mesh, params, metric, run, context)) ==
                       twin_set(mesh, params, metric));
             }
         }

@@ -27,16 +27,17 @@ TEST_SUITE("validation") {
             Runner runner = expect(Runner::create(context.device(), context.queue(), tight));
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));
             CHECK(set.report.regrown > 0);
-            CHECK(ranks_of(set) == float_set(mesh, params, set.report.plan.chain));
-            // And chunks the samples of those before, in a buffer that has to grow.
-            tight.plan.chunk = 1000;
-            tight.plan.sample_capacity = 10;
+            CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
+            // And later stages the samples of those before, in a buffer that has to grow.
+            tight.plan.stages = 1;
+            tight.plan.slots = 16;
+            tight.plan.sample_capacity = 20;
             runner = expect(Runner::create(context.device(), context.queue(), tight));
-            CHECK(ranks_of(expect(runner.sample_and_wait(mesh, params))) == ranks_of(set));
+            CHECK(points_of(expect(runner.sample_and_wait(mesh, params))) == points_of(set));
 
             tight.sampler.adaptive = true;
             Runner adaptive = expect(Runner::create(context.device(), context.queue(), tight));
-            CHECK(ranks_of(expect(adaptive.sample_and_wait(mesh, varying))) ==
+            CHECK(points_of(expect(adaptive.sample_and_wait(mesh, varying))) ==
                   float_set(mesh, varying, set.report.plan.chain));
         }
         for (const std::string& message : expect(context.validation_messages())) {

@@ -10,7 +10,6 @@
 
 #include <doctest/doctest.h>
 
-#include "kernels/candidates.hpp"
 #include "run.hpp"
 #include "support/oracle_geodesic.hpp"
 
@@ -119,10 +118,10 @@ struct Nearby {
 };
 
 template <class Real>
-std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
-    std::vector<ref::FacePoint<Real>> result;
-    for (const Point& p : points) {
-        result.push_back({p.face, static_cast<Real>(p.weight1), static_cast<Real>(p.weight2)});
+std::vector<Point> points_of(const ref::Pool<Real>& pool) {
+    std::vector<Point> result;
+    for (const auto& p : pool.by_rank()) {
+        result.push_back({p.face, static_cast<double>(p.weight1), static_cast<double>(p.weight2)});
     }
     return result;
 }
@@ -139,16 +138,15 @@ std::vector<Point> Darts::samples() const {
 
 template <class Real>
 Darts thrown(const PreparedMesh& mesh, const SampleParams& params) {
-    const std::uint32_t count = pool_size(mesh, params).value();
+    const ref::Surface<Real> surface(mesh, params);
+    const ref::Pool<Real> pool = ref::draw_pool(surface, mesh, params);
     Darts darts;
     darts.min_distance = params.min_distance;
-    darts.pool = random_points(mesh, params.seed, count);
-    const ref::Surface<Real> surface(mesh, params.min_distance);
-    const ref::Bins<Real> bins(surface, converted<Real>(darts.pool));
+    darts.pool = points_of(pool);
     for (std::uint32_t chain = provided_chain(mesh, params.min_distance);; chain *= 2) {
         darts.tolerances = tolerances_for(mesh, params.min_distance, chain);
         ref::RunResult run =
-            ref::throw_darts(surface, bins, darts.tolerances,
+            ref::throw_darts(surface, pool, darts.tolerances,
                              params.stop_count != 0 ? params.stop_count : kMostCandidates);
         darts.ranks = std::move(run.ranks);
         if (run.longest_chain <= chain) {

@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "kernels/candidates.hpp"
+#include "ref/chi_square.hpp"
 #include "run.hpp"
 #include "support/geodesic_query.hpp"
 #include "support/oracle_geodesic.hpp"
@@ -62,17 +62,13 @@ TestMesh one_triangle() {
     return mesh;
 }
 
-/// Whether a sum of squares over `freedom` degrees is within 5 standard deviations of its mean.
-bool plausible(double chi_square, double freedom) {
-    return std::abs(chi_square - freedom) < 5 * std::sqrt(2 * freedom);
-}
-
 /// Candidates are as dense as 1 / g^2: counts in the parts of every face, cut in `parts` strips
 /// along each side, against the integral there.
 void check_density(const Case& c, std::uint32_t count, int parts) {
-    const SampleParams params = c.params(100);
+    SampleParams params = c.params(100, 5);
+    params.throws = count;
     const ref::Surface<double> surface(c.surface, params);
-    const auto points = ref::draw_candidates(surface, 5, count);
+    const auto points = ref::draw_pool(surface, c.surface, params).by_rank();
     const auto cells = static_cast<std::size_t>(parts * parts);
     std::vector<double> drawn(c.surface.face_count() * cells, 0.0);
     std::vector<double> expected(drawn.size(), 0.0);
@@ -116,7 +112,7 @@ void check_density(const Case& c, std::uint32_t count, int parts) {
     }
     CAPTURE(chi_square);
     CAPTURE(freedom);
-    CHECK(plausible(chi_square, freedom));
+    CHECK(is_plausible(chi_square, freedom));
 }
 
 /// No path through a face leads on to a point whose radius is larger than the rest and the bound.
@@ -150,11 +146,9 @@ void check_bounds(const std::string& name, const Case& c, double count) {
 template <class Real>
 ref::RunResult throw_on(const ref::Surface<Real>& surface, const Case& c,
                         const SampleParams& params) {
-    const auto points =
-        ref::draw_candidates(surface, params.seed, pool_size(c.surface, params).value());
-    const ref::Bins<Real> bins(surface, points);
+    const ref::Pool<Real> pool = ref::draw_pool(surface, c.surface, params);
     const std::uint32_t chain = provided_chain(c.surface, params.min_distance);
-    return ref::throw_darts(surface, bins, tolerances_for(c.surface, params, chain));
+    return ref::throw_darts(surface, pool, tolerances_for(c.surface, params, chain));
 }
 
 /// Cut at the bounds of the faces, a run returns what it returns cut at the largest radius alone.
@@ -180,9 +174,9 @@ void check_pairs(const std::string& name, const Case& c, double count) {
     params.pool_ratio = 10;
     const ref::Surface<float> surface(c.surface, params);
     const std::vector<std::uint32_t> ranks = throw_on(surface, c, params).ranks;
-    const std::uint32_t size = pool_size(c.surface, params).value();
     const ref::Surface<double> exact(c.surface, params);
-    const std::vector<Point> pool = ref::draw_candidates(exact, params.seed, size);
+    const std::vector<Point> pool = ref::draw_pool(exact, c.surface, params).by_rank();
+    const auto size = static_cast<std::uint32_t>(pool.size());
     const double guard =
         tolerances_for(c.surface, params, provided_chain(c.surface, params.min_distance)).guard;
     std::vector<bool> accepted(size, false), covered(size, false);
@@ -295,12 +289,17 @@ TEST_SUITE("adaptive candidates") {
     TEST_CASE("are the same in float and in double, and inside their faces") {
         const TestMesh mesh = builtin("torus-knot", 8);
         const Case c(mesh, rough_factors(mesh, 0.001));
-        const ref::Surface<float> floats(c.surface, c.params(100));
-        const ref::Surface<double> doubles(c.surface, c.params(100));
+        const SampleParams params = c.params(1000, 3);
+        const auto floats =
+            ref::draw_pool(ref::Surface<float>(c.surface, params), c.surface, params);
+        const auto doubles =
+            ref::draw_pool(ref::Surface<double>(c.surface, params), c.surface, params);
+        REQUIRE(floats.size() == doubles.size());
         std::uint32_t wrong = 0;
-        for (std::uint32_t rank = 0; rank < 20000; ++rank) {
-            const auto a = ref::draw_candidate(floats, 3, rank);
-            const auto b = ref::draw_candidate(doubles, 3, rank);
+        for (std::uint32_t rank = 0; rank < floats.size(); ++rank) {
+            const auto a = floats.candidate(rank);
+            const auto b = doubles.candidate(rank);
+            wrong += floats.word(rank) != doubles.word(rank);
             wrong += a.face != b.face || static_cast<double>(a.weight1) != b.weight1 ||
                      static_cast<double>(a.weight2) != b.weight2 || b.weight1 < 0 ||
                      b.weight2 < 0 || b.weight1 + b.weight2 >= 1;
@@ -311,11 +310,16 @@ TEST_SUITE("adaptive candidates") {
     TEST_CASE("of the largest radius everywhere are those of no field") {
         const TestMesh mesh = builtin("torus-knot", 8);
         const Case c(mesh, std::vector<double>(mesh.vertex_count(), 1.0));
-        const ref::Surface<float> surface(c.surface, c.params(100));
+        SampleParams params = c.params(1000, 3);
+        const auto varying =
+            ref::draw_pool(ref::Surface<float>(c.surface, params), c.surface, params);
+        params.radii = nullptr;
+        const auto same = ref::draw_pool(ref::Surface<float>(c.surface, params), c.surface, params);
+        REQUIRE(varying.size() == same.size());
         std::uint32_t wrong = 0;
-        for (std::uint32_t rank = 0; rank < 20000; ++rank) {
-            const auto a = ref::draw_candidate(surface, 3, rank);
-            const auto b = ref::draw_candidate<float>(c.surface.alias_columns(), 3, rank);
+        for (std::uint32_t rank = 0; rank < same.size(); ++rank) {
+            const auto a = varying.candidate(rank);
+            const auto b = same.candidate(rank);
             wrong += a.face != b.face || a.weight1 != b.weight1 || a.weight2 != b.weight2;
         }
         CHECK(wrong == 0);
@@ -428,8 +432,7 @@ TEST_SUITE("adaptive sets") {
         const Case c(mesh, factors);
         const SampleParams params = c.params(4000);
         const ref::Surface<float> surface(c.surface, params);
-        const auto points =
-            ref::draw_candidates(surface, params.seed, pool_size(c.surface, params).value());
+        const auto points = ref::draw_pool(surface, c.surface, params).by_rank();
         const auto ranks = throw_on(surface, c, params).ranks;
         CHECK(static_cast<double>(ranks.size()) == doctest::Approx(4000).epsilon(0.05));
         double coarse = 0, fine = 0;

@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "baselines/box.hpp"
+#include "baselines/pool_darts.hpp"
 #include "geodisk/box.hpp"
 #include "kernels/grid.hpp"
+#include "kernels/poisson.hpp"
 #include "lib/rng.hpp"
+#include "ref/chi_square.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -28,26 +33,42 @@ void check_refused(const BoxParams& box, const std::string& part) {
     CHECK_MESSAGE(size.error().message.find(part) != std::string::npos, size.error().message);
 }
 
+/// A job with about so many candidates.
+BoxParams with_candidates(BoxParams box, double candidates) {
+    box.pool_ratio = candidates / expected_count(box);
+    return box;
+}
+
+std::vector<double> coordinates_of(const BoxParams& box, const std::vector<ref::BoxPoint>& points) {
+    const ref::BoxLattice lattice(box);
+    std::vector<double> coordinates;
+    for (const ref::BoxPoint& point : points) {
+        for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
+            coordinates.push_back(lattice.coordinate(axis, point));
+        }
+    }
+    return coordinates;
+}
+
 /// Every disk lists just what lies in it by double coordinates; pairs nearer to the limit than
 /// rounding may move them do not count.
 template <class Real>
-void check_disks(const BoxParams& box, std::uint32_t candidates) {
+void check_disks(const BoxParams& box) {
     constexpr double kRounding = 0x1p-21;
     const std::size_t n = box.extents.size();
-    const ref::BoxPool<Real> pool(box, candidates);
+    const ref::BoxPool<Real> pool(box);
+    REQUIRE(pool.size() > 30);
+    REQUIRE(pool.size() < 20000);
     const ref::Box plain{box.extents, box.is_periodic};
-    std::vector<double> points(n * candidates);
+    const std::vector<double> points = coordinates_of(box, pool.points);
     const auto point = [&](std::uint32_t i) { return std::span(points).subspan(i * n, n); };
-    for (std::uint32_t i = 0; i < candidates; ++i) {
-        candidate_point(box, i, point(i));
-    }
     ref::BoxDetector<Real> detector(pool);
     std::uint32_t wrong = 0;
-    for (std::uint32_t i = 0; i < candidates; i += 7) {
-        std::vector<bool> hit(candidates, false);
+    for (std::uint32_t i = 0; i < pool.size(); i += 7) {
+        std::vector<bool> hit(pool.size(), false);
         detector.run(
             i, [](std::uint32_t) { return true; }, [&](std::uint32_t q) { hit[q] = true; });
-        for (std::uint32_t q = 0; q < candidates; ++q) {
+        for (std::uint32_t q = 0; q < pool.size(); ++q) {
             const double distance =
                 std::sqrt(plain.distance2(point(i), point(q))) / box.min_distance;
             const bool is_tie = std::abs(distance - 1 - kBoxGuard) < kRounding;
@@ -55,6 +76,22 @@ void check_disks(const BoxParams& box, std::uint32_t candidates) {
         }
     }
     CHECK(wrong == 0);
+}
+
+/// Sequential dart throwing over the pool by brute force.
+void check_set(const BoxParams& box) {
+    const std::size_t n = box.extents.size();
+    const ref::BoxPool<double> pool(box);
+    const std::vector<double> points = coordinates_of(box, ref::draw_in_box(box).points);
+    const auto point = [&](std::uint32_t i) { return std::span(points).subspan(i * n, n); };
+    const ref::Box plain{box.extents, box.is_periodic};
+    const double limit = box.min_distance * (1 + kBoxGuard);
+    const auto brute = ref::throw_brute_force(pool.size(), [&](std::uint32_t a, std::uint32_t b) {
+        return plain.distance2(point(a), point(b)) < limit * limit;
+    });
+    CHECK(ref::throw_darts(pool) == brute);
+    CHECK(static_cast<double>(brute.size()) > 0.7 * expected_count(box));
+    CHECK(static_cast<double>(brute.size()) < 1.3 * expected_count(box) + 10);
 }
 
 } // namespace
@@ -67,43 +104,177 @@ TEST_CASE("boxes: disks hold what brute force finds") {
                 CAPTURE(n);
                 CAPTURE(is_periodic);
                 CAPTURE(distance);
-                check_disks<float>(unit_box(n, distance, is_periodic), 500);
-                check_disks<double>(unit_box(n, distance, is_periodic), 500);
+                const BoxParams box = with_candidates(unit_box(n, distance, is_periodic), 500);
+                check_disks<float>(box);
+                check_disks<double>(box);
             }
         }
     }
     BoxParams flat = unit_box(3, 0.2, true);
     flat.extents = {1, 0.25, 7};
-    check_disks<float>(flat, 2000);
+    check_disks<float>(with_candidates(flat, 2000));
     flat.is_periodic = false;
     flat.extents = {1, 1e-9, 7};
-    check_disks<float>(flat, 2000);
+    check_disks<float>(with_candidates(flat, 2000));
+}
+
+TEST_CASE("boxes: sets are those of brute force") {
+    for (std::size_t n = 1; n <= 4; ++n) {
+        for (const bool is_periodic : {false, true}) {
+            CAPTURE(n);
+            CAPTURE(is_periodic);
+            BoxParams box = unit_box(n, 0, is_periodic);
+            box.min_distance = distance_for_count(box, 100);
+            box.seed = n;
+            check_set(box);
+        }
+    }
 }
 
 TEST_CASE("boxes: the table of cells is one to one where it can be") {
-    const ref::BoxCellTable<float> all(unit_box(2, 0.1), 2000);
+    const ref::BoxCellTable<float> all(ref::BoxLattice(unit_box(2, 0.1)), 2000, kBoxGuard);
     CHECK(all.axes[0].cells == 19);
     CHECK(all.axes[0].stride == 1);
     CHECK(all.axes[1].stride == 19);
     CHECK(all.heads == 512);
-    const ref::BoxCellTable<float> shared(unit_box(6, 0.1), 2000);
+    const ref::BoxCellTable<float> shared(ref::BoxLattice(unit_box(6, 0.1)), 2000, kBoxGuard);
     CHECK(shared.heads == 4096);
 }
 
-TEST_CASE("boxes: candidates are the words of the stream, coordinate by coordinate") {
-    BoxParams box = unit_box(6, 0.5);
-    box.extents[5] = 4;
+TEST_CASE("boxes: lattices") {
+    const auto axis = [](double side, double min_distance, bool is_periodic) {
+        BoxParams box = unit_box(2, min_distance, is_periodic);
+        box.extents = {side, side};
+        return ref::BoxLattice(box).axes[0];
+    };
+    const ref::LatticeAxis around = axis(3.5, 1, true);
+    CHECK(around.step == 3.5 * 0x1p-32);
+    CHECK(around.length == std::uint64_t{1} << 32);
+    CHECK(around.cells == 3);
+    CHECK(around.width == 1431655765);
+    CHECK(around.last_width == 1431655766);
+    CHECK(axis(1.5, 1, true).width == 0); // All of it.
+    CHECK(axis(1.5, 1, true).last_width == 0);
+    const ref::LatticeAxis open = axis(7.25, 2, false);
+    CHECK(open.step == 0x1p-15);
+    CHECK(open.length == 237568); // 3.625 distances of 2^16 steps.
+    CHECK(open.cells == 4);
+    CHECK(open.width == 65536);
+    CHECK(open.last_width == 40960);
+    const ref::LatticeAxis whole = axis(3, 1, false);
+    CHECK(whole.cells == 3);
+    CHECK(whole.last_width == whole.width);
+    const ref::LatticeAxis small = axis(0.75, 1, false);
+    CHECK(small.step == 0x1p-31);
+    CHECK(small.cells == 1);
+    CHECK(small.last_width == 3u << 29);
+    CHECK(axis(65535.5, 1, false).step == 0x1p-16);
+    CHECK(axis(65536, 1, false).length == std::uint64_t{1} << 32);
+    CHECK(axis(65537, 1, false).step == 0x1p-15);
+    CHECK(axis(0x1p24, 1, false).step == 0x1p-8);
+    CHECK(axis(0x1p24, 1, false).length == std::uint64_t{1} << 32);
+    BoxParams thin = unit_box(2, 1);
+    thin.extents[1] = 1e-30;
+    CHECK(ref::BoxLattice(thin).axes[1].length == 1);
+    // Distances beyond those in the box are measured by them.
+    CHECK(ref::BoxLattice(unit_box(2, 1e9)).unit == doctest::Approx(1.01 * std::sqrt(2.0)));
+}
+
+TEST_CASE("boxes: a candidate by hand") {
+    BoxParams box = unit_box(6, 0.5, true);
+    box.extents[5] = 2;
     box.seed = 0x123456789abcdef0;
-    double point[6];
-    candidate_point(box, 77, point);
-    const auto first = ref::philox(box.seed, 77);
-    const auto second = ref::philox(box.seed, 77, 1);
-    for (std::size_t i = 0; i < 4; ++i) {
-        CHECK(point[i] == first[i] * 0x1p-32);
+    // Two cells along each axis but four along the last; the pool's first stage has the lowest
+    // words.
+    const ref::BoxCandidates drawn = ref::draw_in_box(box);
+    const std::array<std::uint32_t, 6> cell{1, 0, 1, 1, 0, 3};
+    const auto seed_of = [](const std::array<std::uint32_t, 4>& w) {
+        return w[0] | std::uint64_t{w[1]} << 32;
+    };
+    const std::uint64_t first = seed_of(ref::philox(box.seed, {cell[0], cell[1], cell[2], 0xB0C5}));
+    const std::uint64_t seed = seed_of(ref::philox(first, {cell[3], cell[4], cell[5], 0xB0C5}));
+    const float mean = ref::stage_intensity(box);
+    const auto words = ref::philox(seed, {0xffffffff, 2, 0, 0});
+    const std::uint32_t count = ref::poisson(mean, words[0], words[1]);
+    const auto in_cell = [&](std::size_t i) {
+        for (std::size_t axis = 0; axis < 6; ++axis) {
+            if (drawn.points[i][axis] >> (axis == 5 ? 30 : 31) != cell[axis]) {
+                return false;
+            }
+        }
+        return drawn.words[i] >> 28 == 2;
+    };
+    std::map<std::uint32_t, ref::BoxPoint> found;
+    for (std::size_t i = 0; i < drawn.points.size(); ++i) {
+        if (in_cell(i)) {
+            found[drawn.words[i] & 0xfffffff] = drawn.points[i];
+        }
     }
-    CHECK(point[4] == second[0] * 0x1p-32);
-    CHECK(point[5] == second[1] * 0x1p-30);
-    CHECK(first != second);
+    REQUIRE(count > 0);
+    CHECK(found.size() == count);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const auto a = ref::philox(seed, {k, 2, 0, 0});
+        const auto b = ref::philox(seed, {k, 2, 1, 0});
+        const std::array<std::uint32_t, 6> inside{a[1], a[2], a[3], b[0], b[1], b[2]};
+        REQUIRE(found.count(a[0] >> 4) == 1);
+        for (std::size_t axis = 0; axis < 6; ++axis) {
+            const std::uint32_t bits = axis == 5 ? 30 : 31;
+            CHECK(found[a[0] >> 4][axis] == (cell[axis] << bits | inside[axis] >> (32 - bits)));
+        }
+    }
+}
+
+TEST_CASE("boxes: candidates are uniform, as many as asked for, and in dart order") {
+    for (const bool is_periodic : {false, true}) {
+        BoxParams box = unit_box(2, 0.2734, is_periodic);
+        box.extents = {1.9, 0.6};
+        box = with_candidates(box, 200000);
+        const ref::BoxLattice lattice(box);
+        const ref::BoxCandidates drawn = ref::draw_in_box(box);
+        const double area = box.extents[0] * box.extents[1];
+        const double expected = static_cast<double>(ref::stage_intensity(box)) *
+                                ref::pool_stages(box) * area / lattice.unit / lattice.unit;
+        const auto total = static_cast<double>(drawn.points.size());
+        CHECK(std::abs(total - expected) < 5 * std::sqrt(expected));
+        CHECK(std::is_sorted(drawn.words.begin(), drawn.words.end()));
+        constexpr std::size_t kColumns = 38, kRows = 12;
+        std::vector<double> counts(kColumns * kRows, 0);
+        for (const ref::BoxPoint& point : drawn.points) {
+            const auto column = static_cast<std::size_t>(lattice.coordinate(0, point) / 0.05);
+            const auto row = static_cast<std::size_t>(lattice.coordinate(1, point) / 0.05);
+            counts.at(row * kColumns + column) += 1;
+        }
+        check_chi_square(counts, std::vector(counts.size(), total / (kColumns * kRows)),
+                         static_cast<double>(counts.size()) - 1);
+    }
+}
+
+TEST_CASE("boxes: an open box has the candidates of a part of it") {
+    // Cells are a distance wide, and the last one of an axis what is left.
+    BoxParams part = unit_box(3, 0.125);
+    part.extents = {0.75, 0.625, 0.875};
+    BoxParams whole = part;
+    whole.extents = {1, 1.125, 1.7};
+    REQUIRE(ref::stage_intensity(part) == ref::stage_intensity(whole));
+    const ref::BoxCandidates inner = ref::draw_in_box(part);
+    const ref::BoxCandidates outer = ref::draw_in_box(whole);
+    const ref::BoxLattice lattice(part);
+    std::vector<std::pair<std::uint32_t, ref::BoxPoint>> expected, found;
+    for (std::size_t i = 0; i < inner.points.size(); ++i) {
+        expected.emplace_back(inner.words[i], inner.points[i]);
+    }
+    for (std::size_t i = 0; i < outer.points.size(); ++i) {
+        bool is_inside = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            is_inside = is_inside && outer.points[i][axis] < lattice.axes[axis].length;
+        }
+        if (is_inside) {
+            found.emplace_back(outer.words[i], outer.points[i]);
+        }
+    }
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    CHECK(found == expected);
 }
 
 TEST_CASE("boxes: count and distance belong together") {
@@ -114,7 +285,11 @@ TEST_CASE("boxes: count and distance belong together") {
                 box.extents[0] = 3;
                 box.min_distance = distance_for_count(box, count);
                 CHECK(expected_count(box) == doctest::Approx(count));
-                CHECK(pool_size(box).value() == doctest::Approx(std::max(64.0, 20 * count)));
+                // With borders as near as a power of two comes.
+                const double off = is_periodic ? 1 : std::sqrt(2.0);
+                const double pool = pool_size(box).value();
+                CHECK(pool < 1 + 1.001 * off * std::max(64.0, 20 * count));
+                CHECK(pool > 0.999 / off * std::max(64.0, 20 * count) - 1);
             }
         }
     }

@@ -10,7 +10,7 @@
 
 #include "common/builtin_shapes.hpp"
 #include "common/mesh_file.hpp"
-#include "kernels/candidates.hpp"
+#include "kernels/pool.hpp"
 #include "support/data_file.hpp"
 
 namespace geodisk::test {
@@ -114,7 +114,11 @@ std::vector<Point> points_at_vertex(const TestMesh& mesh, std::uint32_t v) {
 
 std::vector<Point> random_points(const PreparedMesh& mesh, std::uint64_t seed,
                                  std::uint32_t count) {
-    return ref::draw_candidates<double>(mesh.alias_columns(), seed, count);
+    SampleParams params;
+    params.min_distance = distance_for_count(mesh.statistics().area, count / kStageRatio);
+    params.seed = seed;
+    params.throws = count;
+    return ref::draw_pool(ref::Surface<double>(mesh, params), mesh, params).by_rank();
 }
 
 TestMesh subdivided(const TestMesh& mesh, int times) {

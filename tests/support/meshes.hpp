@@ -57,7 +57,7 @@ Point point_at(const TestMesh& mesh, double x, double y);
 /// The place of vertex v, once in every face that uses it.
 std::vector<Point> points_at_vertex(const TestMesh& mesh, std::uint32_t v);
 
-/// Points distributed uniformly by area: candidates of the stream `seed`.
+/// Points distributed uniformly by area: darts of the seed.
 std::vector<Point> random_points(const PreparedMesh& mesh, std::uint64_t seed, std::uint32_t count);
 
 /// Every triangle cut in four along its edge midpoints, `times` times. The children of face f are

@@ -28,7 +28,7 @@ std::vector<double> wavy_factors(const TestMesh& mesh, double least, double wave
 std::vector<double> rough_factors(const TestMesh& mesh, double least, std::uint32_t seed) {
     std::vector<double> factors;
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        factors.push_back(least + (1 - least) * 0x1p-32 * ref::philox(seed, v)[0]);
+        factors.push_back(least + (1 - least) * 0x1p-32 * ref::philox(seed, {v, 0, 0, 0})[0]);
     }
     return factors;
 }

@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
-#include "kernels/candidates.hpp"
 #include "kernels/detect.hpp"
+#include "kernels/pool.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -17,14 +17,14 @@ namespace {
 template <class Real>
 struct Side {
     ref::Surface<Real> surface;
-    std::vector<ref::FacePoint<Real>> points;
-    ref::Bins<Real> bins;
+    ref::Pool<Real> pool;
+    std::vector<std::uint32_t> ranks;
     ref::Detector<Real> detector;
 
-    Side(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t count,
-         const Tolerances& tolerances, Real limit)
-        : surface(mesh, params), points(ref::draw_candidates(surface, params.seed, count)),
-          bins(surface, points), detector(surface, bins, tolerances, limit) {}
+    Side(const PreparedMesh& mesh, const SampleParams& params, const Tolerances& tolerances,
+         Real limit)
+        : surface(mesh, params), pool(ref::draw_pool(surface, mesh, params)), ranks(pool.ranks()),
+          detector(surface, pool.bins, tolerances, limit) {}
 };
 
 /// Distances from the sample in hand, by rank; of several paths the shortest counts.
@@ -75,12 +75,11 @@ void judge(const Distances& hits, const Distances& truth, const Limit& limit_wit
 
 ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
     const Tolerances tolerances = tolerances_for(mesh, params, chain);
-    const std::uint32_t count = pool_size(mesh, params).value();
-    Side<float> floats(mesh, params, count, tolerances, tolerances.limit);
-    Side<double> doubles(mesh, params, count, tolerances, tolerances.limit + 2 * tolerances.guard);
-    std::vector<bool> decided(count, false);
+    Side<float> floats(mesh, params, tolerances, tolerances.limit);
+    Side<double> doubles(mesh, params, tolerances, tolerances.limit + 2 * tolerances.guard);
+    std::vector<bool> decided(floats.pool.size(), false);
     ReplayReport report;
-    for (std::uint32_t rank = 0; rank < count; ++rank) {
+    for (std::uint32_t rank = 0; rank < floats.pool.size(); ++rank) {
         if (decided[rank]) {
             continue;
         }
@@ -89,15 +88,19 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::u
         Distances hits;
         Distances truth;
         floats.detector.run(
-            floats.points[rank], [&](std::uint32_t q) { return !decided[floats.bins.order[q]]; },
-            [&](std::uint32_t q, float distance) { hits.note(floats.bins.order[q], distance); });
+            floats.pool.candidate(rank),
+            [&](std::uint32_t place) { return !decided[floats.ranks[place]]; },
+            [&](std::uint32_t place, float distance) { hits.note(floats.ranks[place], distance); });
         doubles.detector.run(
-            doubles.points[rank], [&](std::uint32_t q) { return !decided[doubles.bins.order[q]]; },
-            [&](std::uint32_t q, double distance) { truth.note(doubles.bins.order[q], distance); });
+            doubles.pool.candidate(rank),
+            [&](std::uint32_t place) { return !decided[doubles.ranks[place]]; },
+            [&](std::uint32_t place, double distance) {
+                truth.note(doubles.ranks[place], distance);
+            });
         const auto limit_with = [&](std::uint32_t q) {
             const double limit = tolerances.limit;
             const auto radius = [&](std::uint32_t i) {
-                return doubles.surface.radius_at(doubles.points[i]);
+                return doubles.surface.radius_at(doubles.pool.candidate(i));
             };
             return params.radii == nullptr ? limit : radius(rank) + radius(q) + (limit - 1);
         };

@@ -232,9 +232,8 @@ TEST_CASE("the radius of samples is written and read") {
         CHECK(read.rows[0].radius == 0.1);
         CHECK(read.rows[1].radius == 1.0 / 3);
     }
-    CHECK(
-        contains(bytes_of(folder / "a.ply"), "property uint candidate\nproperty double radius\n"));
-    CHECK(contains(bytes_of(folder / "c.csv"), ",candidate,radius\n"));
+    CHECK(contains(bytes_of(folder / "a.ply"), "property float bary_w\nproperty double radius\n"));
+    CHECK(contains(bytes_of(folder / "c.csv"), ",bary_w,radius\n"));
     rows[0].radius = rows[1].radius = 0;
     write_samples(folder / "d.csv", {}, rows, false);
     CHECK_FALSE(contains(bytes_of(folder / "d.csv"), "radius"));

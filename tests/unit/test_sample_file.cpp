@@ -22,7 +22,6 @@ std::vector<SampleRow> some_rows(double offset) {
         row.bary[0] = 1.0f / static_cast<float>(i + 1);
         row.bary[1] = 1e-30f;
         row.bary[2] = 1.0f - row.bary[0];
-        row.candidate = i == 99 ? 4294967295u : 1000003u * i;
         rows.push_back(row);
     }
     return rows;
@@ -44,7 +43,6 @@ void check_same(const SampleRow& a, const SampleRow& b, bool float_positions) {
         CHECK(a.bary[k] == b.bary[k]);
     }
     CHECK(a.face == b.face);
-    CHECK(a.candidate == b.candidate);
 }
 
 std::string csv_with(std::string_view row) {
@@ -108,24 +106,22 @@ TEST_CASE("the text formats are plain") {
     row.face = 5;
     row.bary[0] = 0.2f;
     row.bary[1] = 0.8f;
-    row.candidate = 17;
     const std::vector<SampleRow> rows{row, SampleRow{}};
     const SampleHeader header{{{"mesh", "two\nlines"}}};
     write_samples(folder / "a.xyz", header, rows, false);
     CHECK(bytes_of(folder / "a.xyz") == "0.1 -2 1e-07\n0 0 0\n");
     write_samples(folder / "a.csv", header, rows, false);
-    CHECK(bytes_of(folder / "a.csv") ==
-          "# mesh: two lines\n"
-          "x,y,z,nx,ny,nz,face_index,bary_u,bary_v,bary_w,candidate\n"
-          "0.1,-2,1e-07,0,0,1,5,0.2,0.8,0,17\n0,0,0,0,0,0,0,0,0,0,0\n");
+    CHECK(bytes_of(folder / "a.csv") == "# mesh: two lines\n"
+                                        "x,y,z,nx,ny,nz,face_index,bary_u,bary_v,bary_w\n"
+                                        "0.1,-2,1e-07,0,0,1,5,0.2,0.8,0\n0,0,0,0,0,0,0,0,0,0\n");
     write_samples(folder / "a.ply", header, rows, true);
     CHECK(bytes_of(folder / "a.ply") ==
           "ply\nformat ascii 1.0\ncomment mesh: two lines\nelement vertex 2\n"
           "property float x\nproperty float y\nproperty float z\n"
           "property float nx\nproperty float ny\nproperty float nz\nproperty int face_index\n"
           "property float bary_u\nproperty float bary_v\nproperty float bary_w\n"
-          "property uint candidate\nend_header\n0.1 -2 1e-07 0 0 1 5 0.2 0.8 0 17\n"
-          "0 0 0 0 0 0 0 0 0 0 0\n");
+          "end_header\n0.1 -2 1e-07 0 0 1 5 0.2 0.8 0\n"
+          "0 0 0 0 0 0 0 0 0 0\n");
 }
 
 TEST_CASE("binary samples have the documented layout") {
@@ -133,8 +129,8 @@ TEST_CASE("binary samples have the documented layout") {
     write_samples(folder / "a.ply", {}, some_rows(0), false);
     const std::string bytes = bytes_of(folder / "a.ply");
     const std::size_t body = bytes.find("end_header\n") + 11;
-    CHECK(bytes.size() - body == 100 * 11 * 4);
-    CHECK(static_cast<unsigned char>(bytes[body + 44 + 24]) == 7); // face_index of row 1
+    CHECK(bytes.size() - body == 100 * 10 * 4);
+    CHECK(static_cast<unsigned char>(bytes[body + 40 + 24]) == 7); // face_index of row 1
 }
 
 TEST_CASE("output paths are checked early") {
@@ -162,7 +158,6 @@ TEST_CASE("sample files may lack and add columns in any order") {
     CHECK(samples.rows[0].position[0] == 3);
     CHECK(samples.rows[0].bary[2] == 0.5f);
     CHECK(samples.rows[0].face == 3);
-    CHECK(samples.rows[0].candidate == 0);
     CHECK(samples.header.entries.size() == 1);
 }
 

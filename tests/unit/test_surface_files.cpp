@@ -66,7 +66,6 @@ SampleRow row_of(std::uint32_t dimension) {
     }
     row.face = 3;
     row.bary[0] = 1;
-    row.candidate = 9;
     return row;
 }
 
@@ -281,7 +280,6 @@ TEST_CASE("samples keep as many coordinates as their mesh has") {
                 CHECK(read.rows[0].position[axis] == rows[0].position[axis]);
             }
             CHECK(read.rows[0].face == 3);
-            CHECK(read.rows[0].candidate == 9);
         }
         if (dimension != 3) {
             check_fails(ExitCode::usage, "an .xyz file holds three coordinates",
@@ -290,13 +288,13 @@ TEST_CASE("samples keep as many coordinates as their mesh has") {
     }
     write_samples(folder / "b.csv", {}, std::vector<SampleRow>{row_of(4)}, false, 4);
     CHECK(bytes_of(folder / "b.csv") ==
-          "x0,x1,x2,x3,face_index,bary_u,bary_v,bary_w,candidate\n0.5,1.5,2.5,3.5,3,1,0,0,9\n");
+          "x0,x1,x2,x3,face_index,bary_u,bary_v,bary_w\n0.5,1.5,2.5,3.5,3,1,0,0\n");
     write_samples(folder / "b.csv", {}, std::vector<SampleRow>{row_of(0)}, false, 0);
-    CHECK(bytes_of(folder / "b.csv") == "face_index,bary_u,bary_v,bary_w,candidate\n3,1,0,0,9\n");
+    CHECK(bytes_of(folder / "b.csv") == "face_index,bary_u,bary_v,bary_w\n3,1,0,0\n");
     write_samples(folder / "b.ply", {}, std::vector<SampleRow>{row_of(4)}, true, 4);
     CHECK(
         contains(bytes_of(folder / "b.ply"), "double y\nproperty double z\nproperty double x0\n"));
-    CHECK(contains(bytes_of(folder / "b.ply"), "\n0.5 1.5 2.5 0.5 1.5 2.5 3.5 3 1 0 0 9\n"));
+    CHECK(contains(bytes_of(folder / "b.ply"), "\n0.5 1.5 2.5 0.5 1.5 2.5 3.5 3 1 0 0\n"));
     check_fails(ExitCode::bad_input, "no column z", [&] {
         read_samples(folder.write("c.csv", "x,y,face_index,bary_u,bary_v,bary_w\n"));
     });

@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/bins.hpp"
-#include "kernels/candidates.hpp"
+#include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -24,36 +23,46 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Candidates and tolerances as the device used them.
+/// A job with the tolerances that the device used.
 struct ReferenceJob {
-    std::uint32_t candidates;
+    const PreparedMesh& mesh;
+    SampleParams params;
     Tolerances tolerances;
 };
 
+template <class Real>
 struct ReferenceRun {
     double seconds;
-    std::vector<std::uint32_t> ranks;
+    std::vector<ref::FacePoint<Real>> samples; ///< In dart-throwing order.
 };
 
 /// From the candidates to the set, as the `sample` stage of the device.
 template <class Real>
-ReferenceRun run_reference(const ref::Surface<Real>& surface, const ReferenceJob& job) {
+ReferenceRun<Real> run_reference(const ref::Surface<Real>& surface, const ReferenceJob& job) {
     tools::check_interrupted();
     const auto start = Clock::now();
-    const ref::Bins<Real> bins(surface,
-                               ref::draw_candidates<Real>(surface.alias, kSeed, job.candidates));
-    auto result = ref::throw_darts(surface, bins, job.tolerances);
-    return {seconds_since(start), std::move(result.ranks)};
+    const ref::Pool<Real> pool = ref::draw_pool(surface, job.mesh, job.params);
+    ReferenceRun<Real> run{};
+    for (const std::uint32_t rank : ref::throw_darts(surface, pool, job.tolerances).ranks) {
+        run.samples.push_back(pool.candidate(rank));
+    }
+    run.seconds = seconds_since(start);
+    return run;
 }
 
-void check_equal(const std::vector<Sample>& samples, const std::vector<std::uint32_t>& ranks,
-                 const std::string& what) {
+bool is_same(const Sample& sample, const ref::FacePoint<float>& point) {
+    return sample.face == point.face && sample.weights[1] == point.weight1 &&
+           sample.weights[2] == point.weight2;
+}
+
+void check_equal(const std::vector<Sample>& samples,
+                 const std::vector<ref::FacePoint<float>>& expected, const std::string& what) {
     std::size_t place = 0;
-    while (place < samples.size() && place < ranks.size() &&
-           samples[place].candidate == ranks[place]) {
+    while (place < samples.size() && place < expected.size() &&
+           is_same(samples[place], expected[place])) {
         ++place;
     }
-    if (place < samples.size() || place < ranks.size()) {
+    if (place < samples.size() || place < expected.size()) {
         throw UserError(ExitCode::internal,
                         what + ": device and reference differ at sample " + tools::grouped(place));
     }
@@ -107,13 +116,12 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
     const SampleParams params = params_for(mesh, count);
 
     SampleSet set = run_device(runner, mesh.prepared, params, what);
-    const ReferenceJob job{set.report.candidates, tolerances_for(mesh.prepared, params.min_distance,
-                                                                 set.report.plan.chain)};
-    check_equal(set.samples,
-                run_reference(ref::Surface<float>(mesh.prepared, params.min_distance), job).ranks,
+    const ReferenceJob job{mesh.prepared, params,
+                           tolerances_for(mesh.prepared, params, set.report.plan.chain)};
+    check_equal(set.samples, run_reference(ref::Surface<float>(mesh.prepared, params), job).samples,
                 what);
 
-    const ref::Surface<double> surface(mesh.prepared, params.min_distance);
+    const ref::Surface<double> surface(mesh.prepared, params);
     std::vector<double> upload;
     std::vector<double> device;
     std::vector<double> readback;

@@ -35,8 +35,7 @@ std::vector<Job> jobs_of(const Options& options, const std::vector<NamedMesh>& m
 
 bool is_same(const std::vector<Sample>& a, const std::vector<Sample>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Sample& x, const Sample& y) {
-        return x.candidate == y.candidate && x.face == y.face &&
-               std::equal(x.weights, x.weights + 3, y.weights);
+        return x.face == y.face && std::equal(x.weights, x.weights + 3, y.weights);
     });
 }
 

@@ -101,7 +101,6 @@ std::vector<Column> columns_of(const Layout& layout) {
         add(SampleColumn::face_index, SampleColumn::face_index, "int");
         add(SampleColumn::bary_u, SampleColumn::bary_w, "float");
     }
-    add(SampleColumn::candidate, SampleColumn::candidate, "uint");
     if (layout.has_radius) {
         add(SampleColumn::radius, SampleColumn::radius, "double");
     }
@@ -150,7 +149,6 @@ void for_each_value(const SampleRow& row, const Layout& layout, const Append& ap
             append(weight);
         }
     }
-    append(row.candidate);
     if (layout.has_radius) {
         append(row.radius);
     }

@@ -18,7 +18,6 @@ struct SampleRow {
     float normal[3] = {};
     std::uint32_t face = 0;
     float bary[3] = {};
-    std::uint32_t candidate = 0;
     double radius = 0; ///< In mesh units, where radii vary; 0 in all rows where they do not.
 };
 
@@ -46,7 +45,7 @@ struct SampleFile {
 
 /// Writes `rows` in the format of the extension of `path`:
 ///   .ply  binary little endian, or ascii on request: element vertex with x y z nx ny nz
-///         face_index bary_u bary_v bary_w candidate, and radius as double where radii vary; the
+///         face_index bary_u bary_v bary_w, and radius as double where radii vary; the
 ///         header as "comment KEY: VALUE". x y z are float, or double where float would blur them:
 ///         far from the origin for their extent.
 ///   .csv  a header row with the same names; the header before it as "# KEY: VALUE"

@@ -125,8 +125,6 @@ bool set_value(SampleRow& row, SampleColumn column, double value) {
         return std::isfinite(value);
     case SampleColumn::face_index:
         return set_index(row.face, value);
-    case SampleColumn::candidate:
-        return set_index(row.candidate, value);
     case SampleColumn::radius:
         row.radius = value;
         return value > 0 && std::isfinite(value);

@@ -126,16 +126,15 @@ BoxSampleSet sample_on_device(const BoxOptions& options, const RunnerOptions& ru
         progress);
     check_validation(context);
     report.run = set.report;
-    report.samples = set.candidates.size();
+    report.samples = set.points.size() / set.dimension;
     return set;
 }
 
 std::vector<SampleRow> to_rows(const BoxSampleSet& set) {
-    std::vector<SampleRow> rows(set.candidates.size());
+    std::vector<SampleRow> rows(set.points.size() / set.dimension);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         std::copy_n(set.points.begin() + static_cast<std::ptrdiff_t>(i * set.dimension),
                     set.dimension, rows[i].position);
-        rows[i].candidate = set.candidates[i];
     }
     return rows;
 }

@@ -274,7 +274,6 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
         SampleRow row;
         row.face = sample.face;
         std::copy_n(sample.weights, 3, row.bary);
-        row.candidate = sample.candidate;
         mesh.place(row);
         row.radius = mesh.radius(sample.face, sample.weights, min_distance);
         rows.push_back(row);

@@ -83,7 +83,7 @@ void check_samples(const TransferOptions& options, const SampleFile& samples,
     check_rows(options.samples, samples, options.from.mesh, from);
     const std::vector<StrayRow> strays = find_strays(samples, from);
     if (!strays.empty()) {
-        fail_input(options.samples, row_text(samples, strays.front().row) + " is " +
+        fail_input(options.samples, "sample " + std::to_string(strays.front().row) + " is " +
                                         offset_text(strays.front()) + " on " + options.from.mesh +
                                         "; are these samples of another mesh?");
     }
@@ -115,7 +115,7 @@ std::string report_text(const TransferOptions& options, const SampleFile& sample
                         {"mesh_b", options.to.mesh},
                         {"output", options.output},
                         {"samples", samples.rows.size()},
-                        {"smallest", pair_json(samples, closest)}});
+                        {"smallest", pair_json(closest)}});
 }
 
 void print_summary(const TransferOptions& options, const SampleFile& samples,
@@ -127,8 +127,7 @@ void print_summary(const TransferOptions& options, const SampleFile& samples,
               << "smallest      ";
     if (closest) {
         std::cout << rounded(closest->distance, 9) << " in mesh units, "
-                  << row_text(samples, closest->row_a) << " and "
-                  << row_text(samples, closest->row_b) << '\n';
+                  << "samples " << closest->row_a << " and " << closest->row_b << '\n';
     } else {
         std::cout << "none, no path joins two of them\n";
     }

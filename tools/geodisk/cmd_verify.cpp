@@ -146,8 +146,8 @@ void print_result(std::ostream& out, const VerifyOptions& options, const SampleF
         out << "off the mesh  " << grouped(strays.size()) << '\n';
     }
     for (std::size_t i = 0; i < std::min(strays.size(), kNamedStrays); ++i) {
-        out << "              " << row_text(samples, strays[i].row) << ": "
-            << offset_text(strays[i]) << '\n';
+        out << "              "
+            << "sample " << strays[i].row << ": " << offset_text(strays[i]) << '\n';
     }
 }
 
@@ -164,7 +164,7 @@ std::string report_text(const VerifyOptions& options, const SampleFile& samples,
              {"rho", has_distance ? Json(rho_of(samples, mesh, spacing)) : Json(nullptr)},
              {"radii_vary", spacing.radii_vary},
              {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
-             {"smallest", pair_json(samples, result.closest)},
+             {"smallest", pair_json(result.closest)},
              {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
              {"violations", violations_json(result)},
              {"wrong_radii", spacing.wrong},

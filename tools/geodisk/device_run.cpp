@@ -26,10 +26,10 @@ RunnerOptions tuned(RunnerOptions options, const DeviceReport& device) {
 
 ProgressCallback show_progress(ProgressLine& progress, double expected) {
     return [&progress, expected](const Progress& state) {
-        // Work is in the disks of accepted candidates, but only the ranks are sure to reach the
+        // Work is in the disks of accepted candidates, but only the darts are sure to reach the
         // end.
         const double accepted = std::min(0.99, state.accepted / std::max(1.0, expected));
-        const double passed = static_cast<double>(state.ranks_passed) / state.candidates;
+        const double passed = static_cast<double>(state.decided) / state.candidates;
         progress.update(std::max(accepted, passed), grouped(state.accepted) + " samples");
         return !is_interrupted();
     };

@@ -52,7 +52,7 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
         const SampleRow& row = samples.rows[i];
         if (row.face >= mesh.prepared.face_count()) {
             fail_input(samples_path,
-                       row_text(samples, i) + ": face " + std::to_string(row.face) +
+                       "sample " + std::to_string(i) + ": face " + std::to_string(row.face) +
                            " is out of range, " + mesh_path + " has " +
                            counted(mesh.prepared.face_count(), "triangle", "triangles"));
         }
@@ -63,7 +63,7 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
             least = std::min(least, weight);
         }
         if (!(least >= -kTolerance && std::abs(sum - 1) <= kTolerance)) {
-            fail_input(samples_path, row_text(samples, i) +
+            fail_input(samples_path, "sample " + std::to_string(i) +
                                          ": the weights are not those of a point in a triangle");
         }
     }

@@ -59,11 +59,6 @@ std::size_t SpacingResult::violating_samples() const {
     return static_cast<std::size_t>(std::unique(rows.begin(), rows.end()) - rows.begin());
 }
 
-std::string row_text(const SampleFile& samples, std::uint32_t row) {
-    return "sample " + std::to_string(row) + " (candidate " +
-           std::to_string(samples.rows[row].candidate) + ")";
-}
-
 std::string smallest_text(const SpacingResult& result, double min_distance) {
     return result.closest ? rounded(result.closest->distance, 9) + ", " +
                                 rounded(result.closest->ratio, 9) + " of the minimum distance"
@@ -75,8 +70,9 @@ void print_violations(std::ostream& out, const SampleFile& samples, const Spacin
     out << "violations    " << count_text(result.violations.size(), result.is_complete) << '\n';
     for (std::size_t i = 0; i < std::min(result.violations.size(), kNamedViolations); ++i) {
         const ClosePair& pair = result.violations[i];
-        out << "              " << row_text(samples, pair.row_a) << " and "
-            << row_text(samples, pair.row_b) << ": " << rounded(pair.distance, 9);
+        out << "              "
+            << "samples " << pair.row_a << " and " << pair.row_b << ": "
+            << rounded(pair.distance, 9);
         if (with_ratios) {
             out << ", " << rounded(pair.ratio, 9) << " of the sum of their radii";
         }
@@ -96,14 +92,11 @@ std::string violation_text(const SpacingResult& result, const std::string& what)
                             " closer than " + what;
 }
 
-Json pair_json(const SampleFile& samples, const std::optional<ClosePair>& pair) {
+Json pair_json(const std::optional<ClosePair>& pair) {
     if (!pair) {
         return nullptr;
     }
-    return {
-        {"distance", pair->distance},
-        {"samples", {pair->row_a, pair->row_b}},
-        {"candidates", {samples.rows[pair->row_a].candidate, samples.rows[pair->row_b].candidate}}};
+    return {{"distance", pair->distance}, {"samples", {pair->row_a, pair->row_b}}};
 }
 
 Json violations_json(const SpacingResult& result) {

@@ -39,9 +39,6 @@ struct SpacingResult {
     std::size_t violating_samples() const;
 };
 
-/// "sample ROW (candidate INDEX)".
-std::string row_text(const SampleFile& samples, std::uint32_t row);
-
 /// The smallest distance, and what part of `min_distance` it is, the least for all pairs.
 std::string smallest_text(const SpacingResult& result, double min_distance);
 
@@ -54,7 +51,7 @@ void print_violations(std::ostream& out, const SampleFile& samples, const Spacin
 std::string violation_text(const SpacingResult& result, const std::string& what);
 
 /// Distance, rows and candidates of a pair; null without one.
-Json pair_json(const SampleFile& samples, const std::optional<ClosePair>& pair);
+Json pair_json(const std::optional<ClosePair>& pair);
 /// Numbers of pairs and samples.
 Json violations_json(const SpacingResult& result);
 

@@ -105,7 +105,7 @@ std::string report_text(const VerifyBoxOptions& options, const BoxParams& box,
                         {"samples", samples.rows.size()},
                         {"min_distance", box.min_distance},
                         {"cut", result.cut * box.min_distance},
-                        {"smallest", pair_json(samples, result.closest)},
+                        {"smallest", pair_json(result.closest)},
                         {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json()},
                         {"violations", violations_json(result)},
                         {"outside", outside}});

@@ -61,8 +61,15 @@ BoxSampleSet run_device(BoxRunner& runner, const BoxParams& box) {
 }
 
 void check_equal(const BoxSampleSet& set, const BoxParams& box) {
-    const ref::BoxPool<float> pool(box, set.report.candidates);
-    if (set.candidates != ref::throw_darts(pool)) {
+    const ref::BoxPool<float> pool(box);
+    const ref::BoxLattice lattice(box);
+    std::vector<double> points;
+    for (const std::uint32_t rank : ref::throw_darts(pool)) {
+        for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
+            points.push_back(lattice.coordinate(axis, pool.points[pool.places[rank]]));
+        }
+    }
+    if (set.points != points) {
         throw tools::UserError(tools::ExitCode::internal,
                                std::to_string(box.extents.size()) +
                                    " dimensions: device and reference differ");
@@ -84,11 +91,9 @@ void add_dimension(const Options& options, const Context& context, std::uint32_t
     Speed device, reference, around;
     for (int i = 0; i < options.common.repeats; ++i, ++box.seed) {
         const BoxSampleSet set = run_device(runner, box);
-        device.samples = static_cast<double>(set.candidates.size());
+        device.samples = static_cast<double>(set.points.size()) / dimension;
         device.seconds.push_back(set.report.seconds.sample);
-        add_run(reference, [&] {
-            return ref::throw_darts(ref::BoxPool<double>(box, set.report.candidates)).size();
-        });
+        add_run(reference, [&] { return ref::throw_darts(ref::BoxPool<double>(box)).size(); });
         add_run(around, [&] {
             return ref::throw_around_samples({box.extents, box.is_periodic}, box.min_distance,
                                              trials, box.seed)

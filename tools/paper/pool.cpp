@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "kernels/candidates.hpp"
+#include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -30,10 +30,11 @@ SampleParams params_for(const PaperMesh& mesh, double count, double ratio, std::
 
 Pool draw_pool(const PaperMesh& mesh, const SampleParams& params) {
     tools::check_interrupted();
-    const std::uint32_t size = tools::take(pool_size(mesh.prepared, params), mesh.name);
+    tools::take(pool_size(mesh.prepared, params), mesh.name); // Fails where a parameter is wrong.
+    const ref::Surface<double> surface(mesh.prepared, params);
     const std::uint32_t chain = provided_chain(mesh.prepared, params.min_distance);
     return {params, tolerances_for(mesh.prepared, params.min_distance, chain),
-            ref::draw_candidates<double>(mesh.prepared.alias_columns(), params.seed, size)};
+            ref::draw_pool(surface, mesh.prepared, params).by_rank()};
 }
 
 } // namespace geodisk::paper

@@ -42,22 +42,19 @@ GEODISK_API double expected_count(const BoxParams& box) noexcept;
 /// tells.
 GEODISK_API double distance_for_count(const BoxParams& box, double count) noexcept;
 
-/// Candidates in the pool: pool_ratio times the expected count, at least 64.
+/// Candidates that the pool expects, about pool_ratio times the expected count, at least 64. They
+/// are as dense in every box, but that boxes with much border have 2, 4, ... times as many, so that
+/// a larger box has those of a smaller one with the same lower corner.
 ///
 /// Fails with `invalid_argument` when a parameter is out of range; when a side is more than 2^24
 /// distances long, or the pool cannot be indexed with 32 bits; and when the minimum distance
 /// exceeds a side of a periodic box.
 GEODISK_API Result<std::uint32_t> pool_size(const BoxParams& box) noexcept;
 
-/// The coordinates of a candidate, a pure function of seed and index: multiples of 2^-32 of the
-/// sides, rounded to double. `point` holds as many as the box has sides.
-GEODISK_API void candidate_point(const BoxParams& box, std::uint32_t candidate,
-                                 std::span<double> point) noexcept;
-
 struct BoxSampleSet {
     std::uint32_t dimension = 0;
-    std::vector<std::uint32_t> candidates; ///< Of each sample, in dart-throwing order.
-    std::vector<double> points;            ///< `dimension` coordinates of each, in that order.
+    /// `dimension` coordinates of each sample, in dart-throwing order.
+    std::vector<double> points;
     /// `windows` counts the rows of cells visited; what concerns windows, chains and vertices
     /// otherwise is 0.
     RunReport report;

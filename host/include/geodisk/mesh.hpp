@@ -76,12 +76,6 @@ struct VertexFan {
     std::uint32_t flags;       ///< `gpu::kFan*` bits of shaders/shared/constants.h.
 };
 
-/// Column of the alias table that draws faces in proportion to their area (Walker 1977, Vose 1991).
-struct AliasColumn {
-    std::uint32_t threshold; ///< Fractions below it, of 2^32, keep the column's own face.
-    std::uint32_t alias;     ///< The face of all other fractions.
-};
-
 struct MeshStatistics {
     std::uint64_t vertices = 0; ///< Vertices used by a face.
     std::uint64_t triangles = 0;
@@ -102,9 +96,9 @@ struct MeshStatistics {
 /// the caller's mesh: face f owns half-edges 3f, 3f+1, 3f+2.
 class PreparedMesh {
   public:
-    /// Builds connectivity, intrinsic frames, vertex fans and the area table. Time and memory are
-    /// linear in the mesh (about 300 bytes per face). Large meshes take further threads, up to 16,
-    /// which end before it returns; the result does not depend on them.
+    /// Builds connectivity, intrinsic frames and vertex fans. Time and memory are linear in the
+    /// mesh (about 300 bytes per face). Large meshes take further threads, up to 16, which end
+    /// before it returns; the result does not depend on them.
     ///
     /// Fails with `mesh_rejected` and the face or vertex in `Error::element` when an index is out
     /// of range, a used coordinate is not finite, there is no face with area, or the mesh is too
@@ -119,7 +113,6 @@ class PreparedMesh {
     std::span<const HalfEdge> half_edges() const noexcept { return half_edges_; }
     std::span<const VertexFan> fans() const noexcept { return fans_; }
     std::span<const std::uint32_t> corners() const noexcept { return corners_; }
-    std::span<const AliasColumn> alias_columns() const noexcept { return alias_; }
     std::uint32_t face_count() const noexcept {
         return static_cast<std::uint32_t>(half_edges_.size() / 3);
     }
@@ -133,7 +126,6 @@ class PreparedMesh {
     UninitializedVector<HalfEdge> half_edges_;
     std::vector<VertexFan> fans_;
     std::vector<std::uint32_t> corners_;
-    std::vector<AliasColumn> alias_;
     MeshStatistics statistics_;
 };
 

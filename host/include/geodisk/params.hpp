@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "geodisk/export.hpp"
 #include "geodisk/mesh.hpp"
@@ -14,8 +15,13 @@ namespace geodisk {
 /// on average; used to translate between a count and a distance.
 inline constexpr double kExpectedRho = 0.725;
 inline constexpr double kDefaultPoolRatio = 20;
-/// Candidates of a job: their index has 32 bits.
+/// Candidates of a job.
 inline constexpr std::uint32_t kMostCandidates = 0xffffffff;
+/// Candidates per expected sample of a stage, see Stages, and the most stages of a pool.
+inline constexpr double kStageRatio = 5;
+inline constexpr std::uint32_t kMostPoolStages = 15;
+/// Candidates that one face may expect in one stage.
+inline constexpr double kMostPerFace = 0x1p24;
 
 /// A sampling job. Lengths are in mesh units.
 struct SampleParams {
@@ -33,13 +39,36 @@ struct SampleParams {
     /// min_distance / 2. It must be of the same mesh and outlive the run, and the sampler must be
     /// one for it (`SamplerOptions::adaptive`).
     const RadiusField* radii = nullptr;
+    /// What the candidates of each face are drawn by, besides the seed: the same triangle with the
+    /// same key has the same candidates in every mesh. Empty: the index of the face. Otherwise one
+    /// for each face, and no two alike; they must outlive the run.
+    std::span<const std::uint32_t> face_keys{};
+};
+
+/// The stages in which the candidates of a job come: each is a Poisson process of its own, drawn
+/// face by face, and all of a stage come before those of the next (host/docs/determinism.md).
+struct Stages {
+    double samples = 0;       ///< Expected of the job.
+    double ratio = 0;         ///< Candidates of a pool for each.
+    std::uint32_t throws = 0; ///< Darts to throw instead, if not 0: stages until there are so many.
+
+    /// Of a pool: its ratio over kStageRatio, rounded up, but at most kMostPoolStages.
+    GEODISK_API std::uint32_t pool_stages() const noexcept;
+    /// Candidates of a stage for each sample. The stages of a pool are alike. Of darts the first
+    /// has kStageRatio, and each twice as many as the one before while they are no more than 640,
+    /// nor 2^23 in all; and no fewer than 64 in all.
+    GEODISK_API double per_sample(std::uint32_t stage) const noexcept;
+
+    /// Candidates that a stage expects, and all of a pool.
+    double expected(std::uint32_t stage) const noexcept { return per_sample(stage) * samples; }
+    double pool() const noexcept { return ratio * samples; }
 };
 
 /// The guard band that makes float decisions safe, in units of the minimum distance.
 ///
 /// Conflicts are tested against `1 + guard`. A window chain of `chain` crossings errs by less than
-/// `guard` when each crossing errs by at most 2^-22 of the distances met: the largest is one disk
-/// plus the longest edge.
+/// `margin` when each crossing errs by at most 2^-22 of the distances met: the largest is one disk
+/// plus the longest edge. The guard is that rounded up to a power of two, at least 2^-13.
 struct Tolerances {
     float limit;  ///< 1 + guard.
     float margin; ///< A window is dropped only when beaten by more than this.
@@ -70,14 +99,27 @@ GEODISK_API double distance_for_count(double area, double count) noexcept;
 /// Packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
 GEODISK_API double packing_density(double area, double min_distance, double count) noexcept;
 
-/// Candidates of a job: `throws`, or else pool_ratio times the expected count, at least 64.
+/// Candidates of a job: `throws`, or those that a pool expects, pool_ratio times the expected
+/// count, at least 64.
 ///
-/// Fails with `invalid_argument` when a parameter is out of range or the radii are of a mesh with
-/// another number of faces; when the pool cannot be indexed with 32 bits, telling how many
-/// candidates it would take; and when an edge is more than 4,000 distances long, where the guard
-/// would outgrow its purpose.
+/// Fails with `invalid_argument` when a parameter is out of range, or radii or face keys are not as
+/// many as the mesh has faces; when the pool cannot be indexed with 32 bits, telling how many
+/// candidates it would take; when an edge is more than 4,000 distances long, where the guard would
+/// outgrow its purpose; and when a face alone, `Error::element`, expects more than kMostPerFace
+/// candidates in a stage.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
+
+/// The stages of a job that pool_size() finds no fault with.
+GEODISK_API Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+/// Samples expected per area of one distance squared.
+GEODISK_API double samples_per_area() noexcept;
+
+/// Candidates that a stage expects per unit of area, or where radii vary per unit of the integral
+/// of 1 / g^2; lengths in units of working_distance().
+GEODISK_API float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
+                                  std::uint32_t stage) noexcept;
 
 /// Crossings to provide for: a bound guessed from the faces a disk covers, at least 64.
 GEODISK_API std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept;

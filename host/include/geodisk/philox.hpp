@@ -7,10 +7,8 @@
 
 namespace geodisk {
 
-/// Four independent 32-bit words, a pure function of seed, index and block.
-inline std::array<std::uint32_t, 4> philox(std::uint64_t seed, std::uint32_t index,
-                                           std::uint32_t block = 0) {
-    std::array<std::uint32_t, 4> c{index, block, 0, 0};
+/// Four independent 32-bit words, a pure function of seed and counter.
+inline std::array<std::uint32_t, 4> philox(std::uint64_t seed, std::array<std::uint32_t, 4> c) {
     auto key0 = static_cast<std::uint32_t>(seed);
     auto key1 = static_cast<std::uint32_t>(seed >> 32);
     for (int round = 0; round < 10; ++round) {

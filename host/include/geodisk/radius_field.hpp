@@ -43,9 +43,12 @@ class RadiusField {
     /// the largest radius everywhere.
     double effective_area() const noexcept { return effective_area_; }
 
-    /// What proposes candidates, see shaders/lib/candidate.glsl: the alias table that draws their
-    /// faces, and g^(2/3) at the origin of each half-edge.
-    std::span<const AliasColumn> alias_columns() const noexcept { return alias_; }
+    /// The mean of 1 / g^2 over each face, by which it has more candidates, and the largest.
+    std::span<const float> densities() const noexcept { return densities_; }
+    float largest_density() const noexcept { return largest_density_; }
+
+    /// What proposes candidates in a face, see shaders/lib/candidate.glsl: g^(2/3) at the origin of
+    /// each half-edge.
     std::span<const float> spreads() const noexcept { return spreads_; }
 
     /// How far disks reach into each face: from no point x of it a path of length l leads on to any
@@ -60,7 +63,8 @@ class RadiusField {
   private:
     std::vector<float> factors_;
     std::vector<float> spreads_;
-    std::vector<AliasColumn> alias_;
+    std::vector<float> densities_;
+    float largest_density_ = 0;
     double effective_area_ = 0;
 };
 

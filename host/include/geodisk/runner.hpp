@@ -19,21 +19,21 @@ namespace geodisk {
 
 /// An accepted candidate.
 struct Sample {
-    std::uint32_t candidate; ///< Its index in dart-throwing order.
-    std::uint32_t face;      ///< Index of its triangle in the caller's mesh.
-    float weights[3];        ///< Of the triangle's corners in order; they sum to exactly 1.
+    std::uint32_t face; ///< Index of its triangle in the caller's mesh.
+    float weights[3];   ///< Of the triangle's corners in order; they sum to exactly 1.
 };
 
 /// The parts of a run on the device.
 enum class Stage : std::uint32_t {
-    draw,    ///< Candidates, and how many lie in each cell.
-    bin,     ///< Sorts them by cell.
+    count,   ///< How many candidates each face has.
+    bin,     ///< And how many of them each cell of a large one.
+    draw,    ///< The candidates.
     select,  ///< Finds the next batch and readies its slots.
     detect,  ///< Geodesic disks.
     resolve, ///< Decides the batch.
-    gather,  ///< Collects the samples.
+    gather,  ///< Puts the samples in order.
 };
-inline constexpr std::size_t kStages = 6;
+inline constexpr std::size_t kStages = 7;
 /// By Stage.
 using StageSeconds = std::array<double, kStages>;
 
@@ -43,7 +43,7 @@ GEODISK_API const char* to_string(Stage stage) noexcept;
 /// How a run went. Seconds are wall time.
 struct RunReport {
     std::uint32_t candidates = 0;     ///< Decided: all, or up to the last sample of a count.
-    std::uint32_t chunks = 0;         ///< Parts in which they were drawn.
+    std::uint32_t chunks = 0;         ///< Parts in which they were drawn, of a stage or more each.
     std::uint32_t iterations = 0;     ///< Batches of disks.
     std::uint32_t dispatches = 0;     ///< Recorded, empty ones included.
     std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples; those of
@@ -76,7 +76,7 @@ struct SampleSet {
 
 /// How far a run is.
 struct Progress {
-    std::uint32_t ranks_passed; ///< Candidates decided or being worked on, of `candidates`.
+    std::uint32_t decided; ///< Candidates decided or being worked on, of `candidates`, about.
     std::uint32_t candidates;
     std::uint32_t accepted;
 };

@@ -7,17 +7,18 @@
 //   2. workspace_needs      sizes of the buffers; the caller allocates them
 //   3. mesh_bytes           what to upload into the mesh buffers before the first use
 //   4. make_job             writes descriptor sets; nothing is recorded yet
-//   5. record_begin         draws and bins the candidates, or a chunk of them
+//   5. record_begin         draws the candidates of the first stages
 //   6. record_rounds        a fixed number of rounds; those after the last cost empty dispatches.
 //                           Submit, read gpu::ControlRec from the control buffer, and record more
-//                           until `done`. With `overflow` set nothing was decided since; grow_plan,
-//                           set it on the job and record_rewind first.
-//   7. record_finish        gpu::SampleRec per accepted candidate, in rank order; if more were
-//                           accepted than the plan's sample_capacity, as ControlRec tells, give the
-//                           job a larger buffer first (set_samples)
-//   8. set_chunk            if the plan's chunk is smaller than the number of candidates: the next
-//                           ones, and on with 5, until all were drawn or `accepted` has reached the
-//                           count to stop at
+//                           until `done`. With `overflow` set nothing is decided until the host has
+//                           acted: kOverflowSamples asks for larger buffers (set_samples), others
+//                           for a larger pool (grow_plan, set_plan); then record_rewind
+//   7. record_finish        at any time: gpu::SampleRec per accepted candidate, in dart order.
+//                           ControlRec::ready of them are final: the first of all that will be
+//                           accepted
+//   8. set_stages           if the plan's stages are fewer than the job's: the next ones, and on
+//                           with 5 after a finish, until all were drawn or `accepted` has reached
+//                           the count to stop at
 #pragma once
 
 #include <array>
@@ -98,19 +99,21 @@ struct SamplerOptions {
 enum class BufferRole : std::uint32_t {
     faces,
     fans,
-    alias,
+    keys,
     cells,
     states,
     weights,
-    places,
-    slots,
+    orders,
+    starts,
     pool,
     control,
-    marks,
+    list,
     sums,
     samples,
+    accepted,
+    buckets,
 };
-inline constexpr std::size_t kBufferRoles = 13;
+inline constexpr std::size_t kBufferRoles = 15;
 
 /// Name of a role as spelled above, for messages.
 GEODISK_API const char* to_string(BufferRole role) noexcept;
@@ -131,7 +134,7 @@ inline constexpr VkBufferUsageFlags kWorkspaceUsage =
     VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 
-/// Bytes each buffer needs at least.
+/// Bytes each buffer needs at least; one that needs none may be left out.
 struct WorkspaceNeeds {
     std::array<VkDeviceSize, kBufferRoles> bytes{};
     GEODISK_API VkDeviceSize total() const noexcept;
@@ -140,7 +143,7 @@ struct WorkspaceNeeds {
 /// How a job is cut into work. Nothing but `chain` bears on which samples come out, and that only
 /// where a distance is within the guard of the minimum.
 struct RunPlan {
-    std::uint32_t slots = 0;           ///< Candidates active at a time.
+    std::uint32_t slots = 0;           ///< Candidates active at a time, at least kLeastSlots.
     std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another.
     std::uint32_t window_capacity = 0; ///< Windows waiting in a lane, and vertex events; a power of
                                        ///< two.
@@ -150,10 +153,11 @@ struct RunPlan {
     std::uint32_t step_budget = 0;     ///< Steps of a lane per dispatch, each gpu::kTripsPerStep
                                        ///< windows or corners; cut to what the device can take.
     std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
-    std::uint32_t sample_capacity = 0; ///< Samples the buffer holds.
+    std::uint32_t sample_capacity = 0; ///< Samples the buffers hold; more than slots.
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
     std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it.
-    std::uint32_t chunk = 0;           ///< Most candidates worked on before the next are drawn.
+    std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
+    std::uint32_t idle_capacity = 0;   ///< Candidates found at once that come next.
 
     /// A lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;
@@ -162,6 +166,9 @@ struct RunPlan {
     /// The slices of all lanes and the lists of all slots.
     GEODISK_API std::uint64_t pool_bytes() const noexcept;
 };
+
+/// As many candidates never share one priority.
+inline constexpr std::uint32_t kLeastSlots = 8;
 
 /// Stages and accesses of the first commands that touch the workspace (the caller's earlier writes
 /// must be made visible to them) and of the last ones (to be waited for before reading).
@@ -204,12 +211,13 @@ class GEODISK_API Sampler {
     Result<WorkspaceNeeds> workspace_needs(const PreparedMesh& mesh, const SampleParams& params,
                                            const RunPlan& plan) const noexcept;
 
-    /// Writes the bytes of a mesh buffer (faces, fans or alias) for the caller to upload. `out`
-    /// must hold exactly as many bytes as `mesh_bytes_size` tells. Errors: `invalid_argument` as
+    /// Writes the bytes of a mesh buffer (faces, fans or keys) for the caller to upload. `out` must
+    /// hold exactly as many bytes as `mesh_bytes_size` tells. Errors: `invalid_argument` as
     /// plan_run(), and for another buffer or size; `out_of_host_memory`.
     Result<Done> mesh_bytes(const PreparedMesh& mesh, const SampleParams& params, BufferRole role,
                             std::span<std::byte> out) const noexcept;
-    std::size_t mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept;
+    std::size_t mesh_bytes_size(const PreparedMesh& mesh, const SampleParams& params,
+                                BufferRole role) const noexcept;
 
     /// Writes descriptor sets for a workspace. The job keeps no reference to mesh or params; the
     /// Sampler must outlive it.
@@ -220,8 +228,11 @@ class GEODISK_API Sampler {
     // family with compute. Each call leaves compute pipeline, descriptor set 0 and push constants
     // changed, and begins and ends with its own barriers among the job's buffers.
     //
-    // The rounds of a chunk but the first begin with the disks of all samples so far, which reject
-    // the chunk's candidates. The samples are those of one chunk with all candidates.
+    // The rounds of later stages begin with the disks of all samples so far, which reject the
+    // candidates. The samples are those of all stages at once.
+    //
+    // record_finish may be recorded between any rounds, and as often as is liked: what it leaves is
+    // put in order once and stays, and the rest grows.
     void record_begin(VkCommandBuffer commands, const Job& job) const noexcept;
     void record_rounds(VkCommandBuffer commands, const Job& job,
                        std::uint32_t rounds) const noexcept;
@@ -231,8 +242,9 @@ class GEODISK_API Sampler {
     static constexpr SyncScope kFirstUse{
         VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
-    static constexpr SyncScope kLastUse{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                        VK_ACCESS_SHADER_WRITE_BIT};
+    static constexpr SyncScope kLastUse{VK_PIPELINE_STAGE_TRANSFER_BIT |
+                                            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                        VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT};
 
     struct Impl; ///< Internal.
 
@@ -252,22 +264,23 @@ class GEODISK_API Job {
 
     const RunPlan& plan() const noexcept;
     /// Replaces the plan, for rounds recorded from now on. Its slots must not be more than the job
-    /// was made with, its chunk the same, and its pool must fit the workspace's.
+    /// was made with, its stages the same, and its pool must fit the workspace's.
     Result<Done> set_plan(const RunPlan& plan) noexcept;
     /// The same with another pool. No command buffer of the job may be pending.
     Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;
-    /// Candidates of the chunk.
-    std::uint32_t candidates() const noexcept;
-    /// The chunk to begin next: `count` candidates from index `first` on. A new job has the first
-    /// candidates of all, as many as RunPlan::chunk. Chunks must follow each other, each finished
-    /// by record_finish before the next begins; from index 0 a run starts anew. Errors:
-    /// `invalid_argument` for more than RunPlan::chunk candidates, none, or indices beyond 32 bits.
-    Result<Done> set_chunk(std::uint32_t first, std::uint32_t count) noexcept;
-    /// Another buffer for the samples, where more were accepted than RunPlan::sample_capacity; its
-    /// size becomes the capacity. record_finish may be recorded again afterwards. The caller copies
-    /// the samples of earlier chunks, ControlRec::settled of them. No command buffer of the job may
-    /// be pending.
-    Result<Done> set_samples(const BufferRange& samples) noexcept;
+    /// The stages to begin next: `count` of them from `first` on. A new job has the first of all,
+    /// as many as RunPlan::stages. They must follow each other, each finished by record_finish
+    /// before the next begins; from stage 0 a run starts anew. Errors: `invalid_argument` for more
+    /// than RunPlan::stages, none, or numbers beyond 32 bits.
+    Result<Done> set_stages(std::uint32_t first, std::uint32_t count) noexcept;
+    /// Other buffers for the samples, where ControlRec::accepted and the plan's slots together are
+    /// more than RunPlan::sample_capacity, which becomes `capacity`: samples, accepted and buckets,
+    /// as large as sample_bytes() tells. The caller copies what samples and accepted hold, then
+    /// records rewind. No command buffer of the job may be pending.
+    Result<Done> set_samples(std::uint32_t capacity, const BufferRange& samples,
+                             const BufferRange& accepted, const BufferRange& buckets) noexcept;
+    /// Bytes that samples, accepted and buckets take for so many samples.
+    std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity) const noexcept;
 
     struct Impl; ///< Internal.
 

@@ -1,6 +1,8 @@
 #include "geodisk/box.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -21,6 +23,10 @@ constexpr Density kDensities[kMostBoxDimensions] = {{0.726, 0.281}, {0.601, 0.29
                                                     {0.523, 0.262}, {0.545, 0.245}, {0.597, 0.237}};
 
 constexpr double kMinimumPool = 64;
+// A float holds it.
+constexpr double kLargestIntensity = 0x1p126;
+// The square root of 2.
+constexpr double kHalfStep = 1.4142135623730951;
 // A distance then still has 256 steps of a coordinate.
 constexpr double kLongestSide = 0x1p24;
 
@@ -98,21 +104,77 @@ Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
     if (auto checked = check_sides(box); !checked) {
         return checked.error();
     }
-    const double wanted = std::ceil(box.pool_ratio * expected_count(box));
+    const Stages stages = stages_of(box);
+    if (!(stages.per_sample(0) * samples_per_volume(box) <= kLargestIntensity)) {
+        return invalid("sides of the box are too short beside the minimum distance; leave them out");
+    }
+    const double wanted = std::ceil(stages.pool());
     if (!(wanted <= kMostCandidates)) {
         return invalid("the minimum distance is too small for this box: the pool would take " +
                        number_text(wanted) + " candidates, the most is " +
                        number_text(kMostCandidates));
     }
-    return static_cast<std::uint32_t>(std::max(wanted, kMinimumPool));
+    return static_cast<std::uint32_t>(wanted);
 }
 
-void candidate_point(const BoxParams& box, std::uint32_t candidate,
-                     std::span<double> point) noexcept {
-    for (std::size_t axis = 0; axis < point.size(); ++axis) {
-        const auto block = static_cast<std::uint32_t>(axis / 4);
-        const std::uint32_t steps = philox(box.seed, candidate, block)[axis % 4];
-        point[axis] = steps * 0x1p-32 * box.extents[axis];
+namespace {
+
+/// In units of length; no side is shorter than a step.
+double volume_of(const BoxParams& box) {
+    double volume = 1;
+    for (const double extent : box.extents) {
+        volume *= std::max(extent / unit_of(box), kShortestSide);
+    }
+    return volume;
+}
+
+} // namespace
+
+double samples_per_volume(const BoxParams& box) noexcept {
+    // More for the samples at borders, in steps of two: the box may grow.
+    const double density = density_in_box(box.extents.size());
+    const double samples = count_at(box, unit_of(box));
+    double boost = 1;
+    while (boost * kHalfStep < samples / (density * volume_of(box))) {
+        boost *= 2;
+    }
+    return density * boost;
+}
+
+Stages stages_of(const BoxParams& box) noexcept {
+    const double samples = samples_per_volume(box) * volume_of(box);
+    return {samples, std::max(box.pool_ratio, kMinimumPool / samples), 0};
+}
+
+void sample_point(const BoxParams& box, const gpu::SampleRec& sample,
+                  std::span<double> point) noexcept {
+    const auto number = std::bit_cast<std::uint32_t>(sample.weight1);
+    const auto stage = std::bit_cast<std::uint32_t>(sample.weight2);
+    const std::size_t n = box.extents.size();
+    const DrawAxes axes = draw_axes(box);
+    std::array<std::uint32_t, kMostBoxDimensions> at{};
+    std::uint32_t cell = sample.face;
+    for (std::size_t i = 0; i < n; ++i) {
+        at[i] = cell % axes[i].cells;
+        cell /= axes[i].cells;
+    }
+    const auto seed_of = [](const std::array<std::uint32_t, 4>& words) {
+        return words[0] | std::uint64_t{words[1]} << 32;
+    };
+    std::uint64_t seed = seed_of(philox(box.seed, {at[0], at[1], at[2], gpu::kCellSeed}));
+    if (n > 3) {
+        seed = seed_of(philox(seed, {at[3], at[4], at[5], gpu::kCellSeed}));
+    }
+    const auto first = philox(seed, {number, stage, 0, 0});
+    const auto second = philox(seed, {number, stage, 1, 0});
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::uint32_t word = i < 3 ? first[i + 1] : second[i - 3];
+        const DrawAxis& axis = axes[i];
+        const std::uint32_t width = at[i] + 1 == axis.cells ? axis.last_width : axis.width;
+        const std::uint32_t inside =
+            width == 0 ? word : static_cast<std::uint32_t>(std::uint64_t{word} * width >> 32);
+        const std::uint64_t steps = std::uint64_t{at[i]} * axis.width + inside;
+        point[i] = static_cast<double>(steps) * axis.step;
     }
 }
 

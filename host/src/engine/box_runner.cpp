@@ -44,9 +44,8 @@ Result<BoxRunner> BoxRunner::create(const DeviceRefs& device, const QueueRef& qu
 Result<BoxSampleSet> BoxRunner::sample_and_wait(const BoxParams& box,
                                                 const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<BoxSampleSet> {
-        const auto candidates = pool_size(box);
-        if (!candidates) {
-            return candidates.error();
+        if (auto checked = pool_size(box); !checked) {
+            return checked.error();
         }
         if (box.extents.size() != dimension()) {
             return Error{Status::invalid_argument,
@@ -54,18 +53,15 @@ Result<BoxSampleSet> BoxRunner::sample_and_wait(const BoxParams& box,
                              " sides, and the runner was made for " + std::to_string(dimension())};
         }
         const auto result = run_and_wait(
-            *impl_, BoxSource(impl_->engine(), box, *candidates, impl_->memory_for_candidates()),
-            progress);
+            *impl_, BoxSource(impl_->engine(), box, impl_->memory_for_candidates()), progress);
         if (!result) {
             return result.error();
         }
-        BoxSampleSet set{dimension(), {}, {}, result->report};
-        set.candidates.reserve(result->samples.size());
+        BoxSampleSet set{dimension(), {}, result->report};
         set.points.resize(result->samples.size() * dimension());
         for (std::size_t i = 0; i < result->samples.size(); ++i) {
-            set.candidates.push_back(result->samples[i].rank);
-            candidate_point(box, result->samples[i].rank,
-                            std::span(set.points).subspan(i * dimension(), dimension()));
+            sample_point(box, result->samples[i],
+                         std::span(set.points).subspan(i * dimension(), dimension()));
         }
         return set;
     });

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "bindings.h"
-#include "engine/plan.hpp"
 
 namespace geodisk {
 namespace {
 
 // As in plan.cpp; some iterations of a dispatch are before the trips.
-constexpr std::uint32_t kLlvmpipeTrips = (65535 - 64) / gpu::kIterationsPerGridTrip;
+constexpr std::uint32_t kLlvmpipeTrips =
+    (65535 - 64 - gpu::kListPerDispatch) / gpu::kIterationsPerGridTrip;
 constexpr std::uint32_t kDefaultTrips = 1024;
 constexpr double kMostPasses = 32;
 
@@ -41,18 +41,14 @@ double candidates_in_disk(const BoxParams& box) {
            density_in_box(box.extents.size()) * box.pool_ratio;
 }
 
-/// As many candidates as one binding and the memory hold, their points and cells too, or as a run
-/// that may stop needs at once.
-std::uint32_t most_at_once(const BoxSource::Crowd& crowd, std::uint32_t slots, VkDeviceSize memory,
+/// As many candidates as one binding and the memory hold, their points and cells too.
+std::uint64_t most_at_once(const BoxSource::Crowd& crowd, std::uint32_t slots, VkDeviceSize memory,
                            const DeviceReport& report) {
     const std::uint64_t words = report.limits.max_storage_buffer_range / 4;
-    const std::uint64_t bound = std::min(words / crowd.words_per_point - slots,
+    const std::uint64_t bound = std::min((words - std::uint64_t{slots} * crowd.words_per_point) /
+                                             (crowd.words_per_point + 1),
                                          std::bit_floor(words - 1) / kHeadsPerCandidate);
-    const auto most = static_cast<std::uint32_t>(
-        std::clamp<std::uint64_t>(memory / crowd.bytes_per_candidate(), 1, bound));
-    return crowd.stop_count == 0 ? most
-                                 : static_cast<std::uint32_t>(std::min<double>(
-                                       most, darts_at_once(crowd.stop_count, true)));
+    return std::min(memory / crowd.bytes_per_candidate(), bound);
 }
 
 } // namespace
@@ -61,45 +57,49 @@ std::uint64_t BoxSource::Crowd::bytes_per_candidate() const {
     return (3 + words_per_point + 2 * kHeadsPerCandidate) * 4;
 }
 
-BoxSource::BoxSource(const Sampler::Impl& sampler, const BoxParams& box, std::uint32_t candidates,
-                     VkDeviceSize memory)
-    : BoxSource(sampler, box, candidates, memory,
+BoxSource::BoxSource(const Sampler::Impl& sampler, const BoxParams& box, VkDeviceSize memory)
+    : BoxSource(sampler, box, memory,
                 {static_cast<std::uint32_t>(box.extents.size()), candidates_in_disk(box), kBoxGuard,
-                 0}) {}
+                 draw_axes(box), stages_of(box), samples_per_volume(box), 0}) {}
 
-BoxSource::BoxSource(const Sampler::Impl& sampler, BoxParams box, std::uint32_t candidates,
-                     VkDeviceSize memory, const Crowd& crowd)
-    : sampler_(sampler), box_(std::move(box)), candidates_(candidates), crowd_(crowd),
-      slots_(wanted_slots(room(), sampler.tuning.batches, sampler.report)),
-      chunk_(std::min(candidates, most_at_once(crowd, slots_, memory, sampler.report))),
-      grid_(box_, chunk_, crowd.guard) {}
+BoxSource::BoxSource(const Sampler::Impl& sampler, BoxParams box, VkDeviceSize memory,
+                     const Crowd& crowd)
+    : sampler_(sampler), box_(std::move(box)), crowd_(crowd),
+      slots_(wanted_slots(crowd.stages.samples, sampler.tuning.batches, sampler.report)),
+      stages_at_once_(
+          stages_at_once(crowd.stages, most_at_once(crowd, slots_, memory, sampler.report))),
+      grid_(box_, crowd.lattice, capacity_for(crowd.stages, stages_at_once_), crowd.guard) {}
 
 Result<RunPlan> BoxSource::plan(std::uint64_t pool_bytes) const {
     const auto n = static_cast<double>(box_.extents.size());
     RunPlan plan;
     plan.pool_block = sampler_.tuning.pool_block;
-    plan.chunk = chunk_;
+    plan.stages = stages_at_once_;
     plan.slots = slots_;
     // Slots need no lanes here; the least that plans may have.
     plan.lanes = 1;
     plan.window_capacity = 2;
     plan.table_capacity = 1;
-    const double in_disk = crowd_.in_disk * chunk_ / candidates_;
+    const double drawn =
+        crowd_.stages.throws != 0 ? capacity(plan) : plan.stages * crowd_.stages.expected(0);
+    const double in_disk = crowd_.in_disk * drawn / crowd_.stages.pool();
     plan.list_capacity = std::max(4u, pow2_at_least(in_disk + 6 * std::sqrt(in_disk) + 8));
     plan.step_budget = most_trips(sampler_.report);
     plan.sample_capacity =
-        wanted_sample_capacity(candidates_, room(), crowd_.stop_count, sampler_.report);
+        wanted_sample_capacity(crowd_.stages.samples, crowd_.stop_count, slots_, sampler_.report);
+    plan.idle_capacity = wanted_idle_capacity(plan.slots, capacity(plan));
     plan.detect_passes = static_cast<std::uint32_t>(
         std::clamp(std::ceil(trips_per_disk(n, in_disk) / plan.step_budget), 1.0, kMostPasses));
     return fitted(plan, pool_bytes, sampler_.report.limits);
 }
 
 Result<WorkspaceNeeds> BoxSource::needs(const RunPlan& plan) const {
-    const std::uint64_t chunk = std::min(plan.chunk, chunk_);
-    WorkspaceNeeds needs = needs_of_run(chunk, grid_.heads, plan);
+    const std::uint64_t most = capacity(plan);
+    WorkspaceNeeds needs = needs_of_run(most, drawn_by() * plan.stages, grid_.heads, plan);
     needs.bytes[gpu::kBindAxes] = box_.extents.size() * sizeof(gpu::AxisRec);
-    needs.bytes[gpu::kBindPoints] = (chunk + plan.slots) * crowd_.words_per_point * 4;
-    const std::string what = "for " + std::to_string(candidates_) + " candidates of " +
+    needs.bytes[gpu::kBindPoints] =
+        ((crowd_.words_per_point + 1) * most + crowd_.words_per_point * plan.slots) * 4;
+    const std::string what = "for " + std::to_string(most) + " candidates of " +
                              std::to_string(box_.extents.size()) + " coordinates";
     if (auto checked = check_needs(needs, what, sampler_.report); !checked) {
         return checked.error();
@@ -114,13 +114,16 @@ gpu::Push BoxSource::push() const {
     push.seed_low = static_cast<std::uint32_t>(box_.seed);
     push.seed_high = static_cast<std::uint32_t>(box_.seed >> 32);
     push.limit = grid_.limit2;
+    push.faces = static_cast<std::uint32_t>(drawn_by());
     return push;
 }
 
 Result<Job> BoxSource::make_job(const RunPlan& plan, const Workspace& workspace) const {
     gpu::Push all = push();
-    all.candidates = std::min(plan.chunk, chunk_);
-    return Job::Impl::open(sampler_, plan, workspace, all, most_trips(sampler_.report));
+    all.capacity = capacity(plan);
+    return Job::Impl::open(
+        sampler_, plan, workspace, all,
+        {crowd_.stages, crowd_.samples_per_measure, most_trips(sampler_.report)});
 }
 
 Result<std::vector<std::byte>> BoxSource::bytes(BufferRole role) const {

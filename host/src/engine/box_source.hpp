@@ -4,6 +4,7 @@
 #include <geodisk/box.hpp>
 
 #include "engine/box_grid.hpp"
+#include "engine/plan.hpp"
 #include "engine/runner_impl.hpp"
 
 namespace geodisk {
@@ -16,21 +17,22 @@ class BoxSource : public RunSource {
         std::uint32_t words_per_point;
         double in_disk;
         double guard;
-        std::uint32_t stop_count; ///< As RunSource::stop_count().
+        DrawAxes lattice; ///< Of the coordinates.
+        Stages stages;
+        double samples_per_measure; ///< Expected, by volume or area.
+        std::uint32_t stop_count;   ///< As RunSource::stop_count().
 
         /// Of device memory, at most.
         std::uint64_t bytes_per_candidate() const;
     };
 
-    /// `candidates` is pool_size() of the box, and those of a chunk may take `memory` bytes; the
-    /// sampler, made for boxes of its dimension, must outlive the source.
-    BoxSource(const Sampler::Impl& sampler, const BoxParams& box, std::uint32_t candidates,
-              VkDeviceSize memory);
+    /// The candidates of a chunk may take `memory` bytes; the sampler, made for boxes of its
+    /// dimension, must outlive the source.
+    BoxSource(const Sampler::Impl& sampler, const BoxParams& box, VkDeviceSize memory);
 
-    std::uint32_t candidates() const override { return candidates_; }
+    const Stages& stages() const override { return crowd_.stages; }
     std::uint64_t bytes_per_candidate() const override { return crowd_.bytes_per_candidate(); }
     std::uint32_t stop_count() const override { return crowd_.stop_count; }
-    double room() const final { return candidates_ / box_.pool_ratio; }
     Result<RunPlan> plan(std::uint64_t pool_bytes) const override;
     Result<WorkspaceNeeds> needs(const RunPlan& plan) const override;
     Result<Job> make_job(const RunPlan& plan, const Workspace& workspace) const override;
@@ -38,20 +40,22 @@ class BoxSource : public RunSource {
     double guard(const RunPlan&) const override { return crowd_.guard; }
 
   protected:
-    /// Samples are `candidates` by the pool ratio of the box.
-    BoxSource(const Sampler::Impl& sampler, BoxParams box, std::uint32_t candidates,
-              VkDeviceSize memory, const Crowd& crowd);
+    BoxSource(const Sampler::Impl& sampler, BoxParams box, VkDeviceSize memory, const Crowd& crowd);
     virtual gpu::Push push() const;
+    /// What candidates are drawn by.
+    virtual std::uint64_t drawn_by() const { return grid_.draw_cells; }
+    std::uint32_t capacity(const RunPlan& plan) const {
+        return capacity_for(crowd_.stages, plan.stages);
+    }
 
     const Sampler::Impl& sampler_;
     BoxParams box_;
-    std::uint32_t candidates_;
 
   private:
     Crowd crowd_;
     std::uint32_t slots_;
-    std::uint32_t chunk_; ///< As many candidates as the device takes at once.
-    BoxGrid grid_;        ///< For a chunk.
+    std::uint32_t stages_at_once_; ///< As many as the device takes.
+    BoxGrid grid_;                 ///< For their candidates.
 };
 
 } // namespace geodisk

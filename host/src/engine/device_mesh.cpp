@@ -48,7 +48,8 @@ gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face) {
     }
     const float* const g = &params.radii->factors()[std::size_t{3} * face];
     const float* const s = &params.radii->spreads()[std::size_t{3} * face];
-    return {0.5f * g[0], 0.5f * g[1], 0.5f * g[2], 0, s[0], s[1], s[2], 0};
+    return {0.5f * g[0], 0.5f * g[1], 0.5f * g[2], 0,
+            s[0],        s[1],        s[2],        params.radii->densities()[face]};
 }
 
 /// As shaders/lib/radii.glsl has it.
@@ -110,6 +111,13 @@ Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& 
     return static_cast<std::uint32_t>(cells);
 }
 
+float face_area(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face) {
+    const double unit = working_distance(mesh, params);
+    const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
+    const float height = previous_length(mesh, 3 * face, unit) * direction(edge.sine);
+    return 0.5f * (scaled(edge.length, unit) * height);
+}
+
 std::size_t face_bytes(const PreparedMesh& mesh) {
     return mesh.face_count() * (3 * sizeof(gpu::HalfEdgeRec) + sizeof(gpu::FaceLinksRec));
 }
@@ -118,8 +126,8 @@ std::size_t fan_bytes(const PreparedMesh& mesh, bool adaptive) {
     return FanRows(mesh, adaptive).bytes();
 }
 
-std::size_t alias_bytes(const PreparedMesh& mesh) {
-    return mesh.alias_columns().size() * sizeof(gpu::AliasRec);
+std::size_t key_bytes(const SampleParams& params) {
+    return std::max<std::size_t>(params.face_keys.size_bytes(), sizeof(std::uint32_t));
 }
 
 void write_faces(const PreparedMesh& mesh, const SampleParams& params, std::span<std::byte> out) {
@@ -182,10 +190,10 @@ Result<Done> write_fans(const PreparedMesh& mesh, const SampleParams& params,
     return Done{};
 }
 
-void write_alias(std::span<const AliasColumn> columns, std::span<std::byte> out) {
-    for (std::size_t f = 0; f < columns.size(); ++f) {
-        const AliasColumn& column = columns[f];
-        store(out, f, gpu::AliasRec{column.threshold, column.alias});
+void write_keys(const SampleParams& params, std::span<std::byte> out) {
+    std::memset(out.data(), 0, out.size());
+    if (!params.face_keys.empty()) {
+        std::memcpy(out.data(), params.face_keys.data(), params.face_keys.size_bytes());
     }
 }
 

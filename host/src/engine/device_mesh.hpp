@@ -14,15 +14,19 @@ namespace geodisk {
 /// Cells of all faces together; more than 2^30 is an error naming the face.
 Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& params);
 
+/// The area of a face in units of the working distance, as kernels compute it.
+float face_area(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face);
+
 std::size_t face_bytes(const PreparedMesh& mesh);
 /// With a row of radii per face in a run of varying ones.
 std::size_t fan_bytes(const PreparedMesh& mesh, bool adaptive);
-std::size_t alias_bytes(const PreparedMesh& mesh);
+/// A word even where the caller gives no keys.
+std::size_t key_bytes(const SampleParams& params);
 
 // Each fills exactly its number of bytes.
 void write_faces(const PreparedMesh& mesh, const SampleParams& params, std::span<std::byte> out);
 Result<Done> write_fans(const PreparedMesh& mesh, const SampleParams& params,
                         std::span<std::byte> out);
-void write_alias(std::span<const AliasColumn> columns, std::span<std::byte> out);
+void write_keys(const SampleParams& params, std::span<std::byte> out);
 
 } // namespace geodisk

@@ -55,6 +55,9 @@ bool overlap(const BufferRange& a, const BufferRange& b) {
 Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
                              const DeviceLimits& limits) {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs.bytes[i] == 0) {
+            continue;
+        }
         if (auto checked = check_range(workspace[i], i, needs.bytes[i], limits); !checked) {
             return checked;
         }
@@ -72,19 +75,21 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 /// What the shaders rely on without looking.
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
     constexpr std::uint32_t kMost = 1u << 26;
-    const bool fine = plan.slots >= 1 && plan.window_capacity >= 2 &&
-                      std::has_single_bit(plan.window_capacity) &&
-                      std::has_single_bit(plan.table_capacity) && plan.list_capacity >= 4 &&
-                      plan.list_capacity % 4 == 0 && plan.lanes >= 1 && plan.lanes <= kMost &&
-                      plan.step_budget >= 1 && plan.detect_passes >= 1 &&
-                      plan.detect_passes <= 4096 && plan.sample_capacity >= 1 && plan.chunk >= 1 &&
-                      plan.slots <= kMost && plan.window_capacity <= kMost &&
-                      plan.table_capacity <= kMost && plan.list_capacity <= kMost;
+    const bool fine =
+        plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
+        std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
+        plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
+        plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
+        plan.detect_passes <= 4096 && plan.sample_capacity > plan.slots && plan.stages >= 1 &&
+        plan.stages <= gpu::kMostStages && plan.idle_capacity >= 1 && plan.idle_capacity <= kMost &&
+        plan.slots <= kMost && plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
+        plan.list_capacity <= kMost;
     if (!fine) {
         return Error{Status::invalid_argument,
-                     "the plan is not as RunPlan asks: slots, lanes, step_budget, detect_passes, "
-                     "sample_capacity and chunk at least 1, "
-                     "window_capacity and table_capacity powers of two, list_capacity a "
+                     "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
+                     "detect_passes, stages and idle_capacity at least 1, stages at most 15, "
+                     "sample_capacity more than slots, window_capacity and table_capacity powers "
+                     "of two, list_capacity a "
                      "multiple of 4, none of them 0 or more than 2^26"};
     }
     // Vulkan promises no more work groups.
@@ -108,10 +113,11 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
     if (auto checked = check_plan(plan, job.sampler->tuning); !checked) {
         return checked;
     }
-    if (plan.chunk != job.plan.chunk) {
-        return Error{Status::invalid_argument, "the plan's chunk is " + std::to_string(plan.chunk) +
-                                                   ", but the job was made for " +
-                                                   std::to_string(job.plan.chunk)};
+    if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
+        plan.sample_capacity != job.plan.sample_capacity) {
+        return Error{Status::invalid_argument,
+                     "the plan has other stages, idle_capacity or sample_capacity than the job was "
+                     "made for"};
     }
     const std::uint32_t most_slots = job.most_slots;
     if (plan.pool_bytes() > pool || plan.slots > most_slots) {
@@ -124,12 +130,20 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
     return Done{};
 }
 
-/// The buffer behind a binding.
-std::size_t bound_as(SetRole role, std::uint32_t binding) {
-    // The scan kernels work on whatever is bound as marks.
-    return role == SetRole::cell_scan && binding == gpu::kBindMarks ? gpu::kBindCells
-           : binding == gpu::kBindPoolTexels                        ? gpu::kBindPool
-                                                                    : binding;
+/// The buffer behind a binding; the scan kernels work on whatever is bound as cells.
+std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
+    if (binding == gpu::kBindCells) {
+        switch (role) {
+        case SetRole::workspace:
+        case SetRole::cell_scan:
+            return all_single ? gpu::kBindStarts : gpu::kBindCells;
+        case SetRole::start_scan:
+            return gpu::kBindStarts;
+        case SetRole::bucket_scan:
+            return gpu::kBindBuckets;
+        }
+    }
+    return binding == gpu::kBindPoolTexels ? gpu::kBindPool : binding;
 }
 
 /// Whether some kernel reads this buffer as texels.
@@ -154,9 +168,6 @@ Job::~Job() = default;
 const RunPlan& Job::plan() const noexcept {
     return impl_->plan;
 }
-std::uint32_t Job::candidates() const noexcept {
-    return impl_->push.candidates;
-}
 
 Job::Impl::~Impl() {
     if (sampler->abandoned) {
@@ -175,11 +186,13 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.window_capacity = plan.window_capacity;
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;
-    push.lanes = plan.lanes;
+    // In space each slot's own invocation computes its disk.
+    push.lanes = sampler->domain == Domain::surface ? plan.lanes : plan.slots;
     push.lane_rows = plan.lane_rows();
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
     push.step_budget = std::min(plan.step_budget, most_steps);
     push.sample_capacity = plan.sample_capacity;
+    push.idle_capacity = plan.idle_capacity;
 }
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
@@ -211,39 +224,56 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
     });
 }
 
-Result<Done> Job::set_chunk(std::uint32_t first, std::uint32_t count) noexcept {
+Result<Done> Job::set_stages(std::uint32_t first, std::uint32_t count) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (count == 0 || count > impl_->most_candidates) {
-            return Error{Status::invalid_argument, "a chunk of " + std::to_string(count) +
-                                                       " candidates is not of 1 to " +
-                                                       std::to_string(impl_->most_candidates) +
-                                                       ", which the workspace holds"};
-        }
-        if (std::uint64_t{first} + count > kMostCandidates) {
+        if (count == 0 || count > impl_->plan.stages) {
             return Error{Status::invalid_argument,
-                         "a chunk from candidate " + std::to_string(first) + " to " +
-                             std::to_string(std::uint64_t{first} + count - 1) +
-                             " goes beyond the last one, " + std::to_string(kMostCandidates - 1)};
+                         std::to_string(count) + " stages are not of 1 to " +
+                             std::to_string(impl_->plan.stages) + ", which the workspace holds"};
         }
-        impl_->push.first_rank = first;
-        impl_->push.candidates = count;
+        if (std::uint64_t{first} + count > std::uint64_t{1} << 32) {
+            return Error{Status::invalid_argument, "stages go beyond the last one, 4294967295"};
+        }
+        impl_->begin_stages(first, count);
         return Done{};
     });
 }
 
-Result<Done> Job::set_samples(const BufferRange& samples) noexcept {
+void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
+    push.first_stage = first;
+    push.stages = count;
+    push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
+    push.end_order = count << gpu::kPriorityBits;
+    push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(push.end_order - 1u)) -
+                        static_cast<std::uint32_t>(std::countr_zero(push.buckets));
+}
+
+std::array<VkDeviceSize, 3> Job::sample_bytes(std::uint32_t capacity) const noexcept {
+    return geodisk::sample_bytes(capacity, impl_->push.buckets);
+}
+
+Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples,
+                              const BufferRange& accepted, const BufferRange& buckets) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked = check_range(samples, gpu::kBindSamples, sizeof(gpu::SampleRec),
-                                       impl_->sampler->report.limits);
-            !checked) {
-            return checked;
+        const auto bytes = sample_bytes(capacity);
+        const std::array<std::pair<std::size_t, BufferRange>, 3> ranges{
+            {{gpu::kBindSamples, samples},
+             {gpu::kBindAccepted, accepted},
+             {gpu::kBindBuckets, buckets}}};
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            const auto& [role, range] = ranges[i];
+            if (auto checked = check_range(range, role, bytes[i], impl_->sampler->report.limits);
+                !checked) {
+                return checked;
+            }
         }
-        if (auto replaced = impl_->replace_buffer(gpu::kBindSamples, samples); !replaced) {
-            return replaced;
+        for (const auto& [role, range] : ranges) {
+            if (auto replaced = impl_->replace_buffer(role, range); !replaced) {
+                return replaced;
+            }
         }
-        impl_->plan.sample_capacity =
-            static_cast<std::uint32_t>(samples.size / sizeof(gpu::SampleRec));
-        impl_->push.sample_capacity = impl_->plan.sample_capacity;
+        impl_->plan.sample_capacity = capacity;
+        impl_->push.sample_capacity = capacity;
         return Done{};
     });
 }
@@ -263,24 +293,29 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
         }
         const Tolerances tolerances = tolerances_for(mesh, params, plan.chain);
         gpu::Push push{};
-        push.candidates = std::min(plan.chunk, *pool_size(mesh, params));
+        push.capacity = capacity_for(stages_of(mesh, params), plan.stages);
         push.stop_count = params.stop_count != 0 ? params.stop_count : kMostCandidates;
         push.faces = mesh.face_count();
+        push.has_keys = params.face_keys.empty() ? 0 : 1;
+        push.all_single = needs->bytes[gpu::kBindCells] == 0 ? 1 : 0;
         push.vertices = mesh.vertex_count();
-        push.cells = static_cast<std::uint32_t>(needs->bytes[gpu::kBindCells] / 4 - 1);
+        push.cells = push.all_single != 0
+                         ? 0
+                         : static_cast<std::uint32_t>(needs->bytes[gpu::kBindCells] / 4 - 2);
         push.seed_low = static_cast<std::uint32_t>(params.seed);
         push.seed_high = static_cast<std::uint32_t>(params.seed >> 32);
         push.limit = tolerances.limit;
         push.margin = tolerances.margin;
         push.slack = tolerances.slack;
         push.splits_once = mesh.statistics().nonmanifold_edges == 0 ? 1 : 0;
-        return Job::Impl::open(*impl_, plan, workspace, push, most_steps(impl_->report));
+        return Job::Impl::open(
+            *impl_, plan, workspace, push,
+            {stages_of(mesh, params), samples_per_area(), most_steps(impl_->report)});
     });
 }
 
 Result<Job> Job::Impl::open(const Sampler::Impl& sampler, const RunPlan& plan,
-                            const Workspace& workspace, const gpu::Push& push,
-                            std::uint32_t most_steps) {
+                            const Workspace& workspace, const gpu::Push& push, const OfJob& of) {
     if (auto checked = check_plan(plan, sampler.tuning); !checked) {
         return checked.error();
     }
@@ -288,10 +323,14 @@ Result<Job> Job::Impl::open(const Sampler::Impl& sampler, const RunPlan& plan,
     job->sampler = &sampler;
     job->workspace = workspace;
     job->most_slots = plan.slots;
-    job->most_candidates = push.candidates;
-    job->most_steps = most_steps;
+    job->most_steps = of.most_steps;
+    job->stages = of.stages;
+    job->samples_per_measure = of.samples_per_measure;
     job->push = push;
+    job->push.buckets = bucket_count(push.capacity);
     job->apply_plan(plan);
+    const std::uint32_t all = of.stages.throws != 0 ? plan.stages : of.stages.pool_stages();
+    job->begin_stages(0, std::min(plan.stages, all));
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         auto view = job->create_view(i, workspace[i]);
         if (!view) {
@@ -414,9 +453,10 @@ void Job::Impl::write_buffer(std::size_t buffer) const {
             if (!sampler->has(k) || !has_binding(binding.access, sampler->reads_texels())) {
                 continue;
             }
-            for (const SetRole role : {SetRole::workspace, SetRole::cell_scan}) {
-                if (bound_as(role, binding.number) == buffer) {
-                    write(role, k, binding);
+            for (std::size_t role = 0; role < kSetRoles; ++role) {
+                if (bound_as(static_cast<SetRole>(role), binding.number, push.all_single != 0) ==
+                    buffer) {
+                    write(static_cast<SetRole>(role), k, binding);
                 }
             }
         }

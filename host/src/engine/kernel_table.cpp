@@ -5,38 +5,40 @@
 namespace geodisk {
 namespace {
 
-#include "activate.spv.inc"
-#include "activate_texels.spv.inc"
-#include "bin_fill.spv.inc"
-#include "bin_fill_texels.spv.inc"
-#include "bin_place.spv.inc"
-#include "bin_place_texels.spv.inc"
-#include "block.spv.inc"
-#include "block_texels.spv.inc"
-#include "box_activate.spv.inc"
-#include "box_activate_texels.spv.inc"
-#include "box_candidates.spv.inc"
-#include "box_candidates_texels.spv.inc"
-#include "box_fill.spv.inc"
-#include "box_fill_texels.spv.inc"
-#include "candidates.spv.inc"
-#include "candidates_texels.spv.inc"
-#include "compact_fill.spv.inc"
-#include "compact_fill_texels.spv.inc"
-#include "compact_gather.spv.inc"
-#include "compact_gather_texels.spv.inc"
-#include "compact_mark.spv.inc"
-#include "compact_mark_texels.spv.inc"
+#include "begin_chunk.spv.inc"
+#include "begin_chunk_texels.spv.inc"
+#include "bin.spv.inc"
+#include "bin_texels.spv.inc"
+#include "box_bin.spv.inc"
+#include "box_bin_texels.spv.inc"
+#include "box_count.spv.inc"
+#include "box_count_texels.spv.inc"
+#include "box_draw.spv.inc"
+#include "box_draw_texels.spv.inc"
+#include "box_select.spv.inc"
+#include "box_select_texels.spv.inc"
+#include "count.spv.inc"
 #include "count_calls.spv.inc"
 #include "count_calls_texels.spv.inc"
+#include "count_orders.spv.inc"
+#include "count_orders_texels.spv.inc"
+#include "count_texels.spv.inc"
 #include "detect.spv.inc"
 #include "detect_texels.spv.inc"
-#include "find_idle.spv.inc"
-#include "find_idle_texels.spv.inc"
+#include "draw.spv.inc"
+#include "draw_texels.spv.inc"
 #include "grid_detect.spv.inc"
 #include "grid_detect_texels.spv.inc"
+#include "order_count.spv.inc"
+#include "order_count_texels.spv.inc"
+#include "order_place.spv.inc"
+#include "order_place_texels.spv.inc"
+#include "order_write.spv.inc"
+#include "order_write_texels.spv.inc"
 #include "resolve.spv.inc"
 #include "resolve_texels.spv.inc"
+#include "resume.spv.inc"
+#include "resume_texels.spv.inc"
 #include "rewind.spv.inc"
 #include "rewind_texels.spv.inc"
 #include "scan_add.spv.inc"
@@ -49,107 +51,112 @@ namespace {
 #include "select_texels.spv.inc"
 #include "self_test.spv.inc"
 #include "self_test_texels.spv.inc"
-#include "space_activate.spv.inc"
-#include "space_activate_texels.spv.inc"
-#include "space_candidates.spv.inc"
-#include "space_candidates_texels.spv.inc"
-#include "space_fill.spv.inc"
-#include "space_fill_texels.spv.inc"
+#include "space_bin.spv.inc"
+#include "space_bin_texels.spv.inc"
+#include "space_count.spv.inc"
+#include "space_count_texels.spv.inc"
+#include "space_draw.spv.inc"
+#include "space_draw_texels.spv.inc"
+#include "space_select.spv.inc"
+#include "space_select_texels.spv.inc"
 
 using namespace gpu;
 
-using enum Access;
+constexpr Access storage = Access::storage;
+constexpr Access read = Access::read;
+constexpr Access read_own = Access::read_own;
 
-constexpr Binding kCandidates[] = {{kBindFaces, read},     {kBindFans, read},
-                                   {kBindAlias, read},     {kBindCells, storage},
-                                   {kBindPlaces, storage}, {kBindMarks, storage}};
-constexpr Binding kScanData[] = {{kBindMarks, storage}, {kBindSums, storage}};
-constexpr Binding kScanAdd[] = {{kBindMarks, storage}, {kBindSums, read}};
+constexpr Binding kCount[] = {{kBindFaces, read},
+                              {kBindFans, read},
+                              {kBindKeys, read},
+                              {kBindCells, storage},
+                              {kBindStarts, storage}};
+constexpr Binding kScanBlocks[] = {{kBindCells, storage}, {kBindSums, storage}};
 constexpr Binding kScanSums[] = {{kBindSums, storage}};
-constexpr Binding kBinPlace[] = {
-    {kBindCells, read}, {kBindWeights, storage}, {kBindPlaces, storage}, {kBindMarks, read}};
-constexpr Binding kBinFill[] = {
-    {kBindFans, read}, {kBindAlias, read}, {kBindStates, storage}, {kBindWeights, storage}};
-constexpr Binding kFindIdle[] = {
-    {kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindSums, storage}};
+constexpr Binding kScanAdd[] = {{kBindCells, storage}, {kBindSums, read}};
+constexpr Binding kBin[] = {{kBindFaces, read},
+                            {kBindFans, read},
+                            {kBindKeys, read},
+                            {kBindCells, storage},
+                            {kBindStarts, read}};
+constexpr Binding kDraw[] = {
+    {kBindFaces, read},     {kBindFans, read},       {kBindKeys, read},      {kBindCells, storage},
+    {kBindStates, storage}, {kBindWeights, storage}, {kBindOrders, storage}, {kBindStarts, read}};
+constexpr Binding kBeginChunk[] = {{kBindStarts, read}, {kBindControl, storage}};
 constexpr Binding kSelect[] = {
-    {kBindSlots, storage}, {kBindControl, storage}, {kBindSums, read}, {kBindSamples, storage}};
-constexpr Binding kActivate[] = {
-    {kBindFans, read},     {kBindAlias, read},      {kBindStates, storage}, {kBindPlaces, read},
-    {kBindSlots, storage}, {kBindControl, storage}, {kBindMarks, storage}};
+    {kBindStates, storage},  {kBindWeights, read}, {kBindOrders, storage}, {kBindStarts, read},
+    {kBindControl, storage}, {kBindList, storage}, {kBindSamples, storage}};
 constexpr Binding kDetect[] = {
     {kBindFaces, read},   {kBindFans, read},       {kBindCells, read},
-    {kBindStates, read},  {kBindWeights, read},    {kBindSlots, storage},
+    {kBindStates, read},  {kBindWeights, read},    {kBindOrders, read},
     {kBindPool, storage}, {kBindControl, storage}, {kBindPoolTexels, read_own}};
-constexpr Binding kBlock[] = {
-    {kBindSlots, storage}, {kBindPool, read}, {kBindControl, storage}, {kBindMarks, read}};
 constexpr Binding kResolve[] = {{kBindStates, storage},
-                                {kBindSlots, storage},
+                                {kBindOrders, storage},
                                 {kBindPool, read},
                                 {kBindControl, storage},
-                                {kBindMarks, read}};
-constexpr Binding kCountCalls[] = {{kBindStates, read},
-                                   {kBindSlots, storage},
-                                   {kBindPool, read},
-                                   {kBindControl, storage},
-                                   {kBindMarks, read}};
-constexpr Binding kRewind[] = {{kBindStates, storage}, {kBindSlots, read}, {kBindControl, storage}};
-constexpr Binding kCompactMark[] = {
-    {kBindStates, read}, {kBindPlaces, read}, {kBindControl, storage}, {kBindMarks, storage}};
-constexpr Binding kCompactGather[] = {
-    {kBindControl, storage}, {kBindMarks, read}, {kBindSamples, storage}};
-constexpr Binding kCompactFill[] = {
-    {kBindFans, read}, {kBindAlias, read}, {kBindControl, storage}, {kBindSamples, storage}};
+                                {kBindAccepted, storage}};
+constexpr Binding kCountCalls[] = {
+    {kBindStates, read}, {kBindOrders, storage}, {kBindPool, read}, {kBindControl, storage}};
+constexpr Binding kRewind[] = {
+    {kBindStates, storage}, {kBindOrders, storage}, {kBindControl, storage}};
+constexpr Binding kResume[] = {{kBindControl, storage}};
+constexpr Binding kCountOrders[] = {{kBindOrders, read}, {kBindControl, storage}};
+constexpr Binding kOrderCount[] = {
+    {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
+constexpr Binding kOrderPlace[] = {
+    {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
+constexpr Binding kOrderWrite[] = {
+    {kBindControl, storage}, {kBindSamples, storage}, {kBindAccepted, read}, {kBindBuckets, read}};
 constexpr Binding kSelfTest[] = {{kBindSums, storage}};
-constexpr Binding kBoxCandidates[] = {
-    {kBindAxes, read}, {kBindCells, storage}, {kBindPlaces, storage}, {kBindMarks, storage}};
-constexpr Binding kBoxFill[] = {{kBindStates, storage}, {kBindPoints, storage}};
-constexpr Binding kSpaceCandidates[] = {{kBindFaces, read},     {kBindAxes, read},
-                                        {kBindAlias, read},     {kBindCells, storage},
-                                        {kBindPlaces, storage}, {kBindMarks, storage}};
-constexpr Binding kSpaceFill[] = {
-    {kBindFaces, read}, {kBindAlias, read}, {kBindStates, storage}, {kBindPoints, storage}};
-constexpr Binding kBoxActivate[] = {{kBindStates, storage},  {kBindPoints, storage},
-                                    {kBindPlaces, read},     {kBindSlots, storage},
-                                    {kBindControl, storage}, {kBindMarks, storage}};
-constexpr Binding kSpaceActivate[] = {
-    {kBindFaces, read},  {kBindAlias, read},    {kBindStates, storage},  {kBindPoints, storage},
-    {kBindPlaces, read}, {kBindSlots, storage}, {kBindControl, storage}, {kBindMarks, storage}};
+constexpr Binding kBoxCount[] = {{kBindAxes, read}, {kBindStarts, storage}};
+constexpr Binding kBoxBin[] = {{kBindAxes, read}, {kBindCells, storage}, {kBindStarts, read}};
+constexpr Binding kBoxDraw[] = {{kBindAxes, read},      {kBindCells, storage},
+                                {kBindStates, storage}, {kBindPoints, storage},
+                                {kBindOrders, storage}, {kBindStarts, read}};
+constexpr Binding kBoxSelect[] = {
+    {kBindAxes, read},   {kBindStates, storage},  {kBindPoints, storage}, {kBindOrders, storage},
+    {kBindStarts, read}, {kBindControl, storage}, {kBindList, storage},   {kBindSamples, storage}};
+constexpr Binding kSpaceCount[] = {{kBindFaces, read}, {kBindStarts, storage}};
+constexpr Binding kSpaceBin[] = {
+    {kBindFaces, read}, {kBindAxes, read}, {kBindCells, storage}, {kBindStarts, read}};
+constexpr Binding kSpaceDraw[] = {
+    {kBindFaces, read},     {kBindAxes, read},      {kBindCells, storage}, {kBindStates, storage},
+    {kBindPoints, storage}, {kBindOrders, storage}, {kBindStarts, read}};
+constexpr Binding kSpaceSelect[] = {
+    {kBindFaces, read},  {kBindStates, storage},  {kBindPoints, storage}, {kBindOrders, storage},
+    {kBindStarts, read}, {kBindControl, storage}, {kBindList, storage},   {kBindSamples, storage}};
 constexpr Binding kGridDetect[] = {
-    {kBindAxes, read},     {kBindCells, read},   {kBindStates, read},    {kBindPoints, read},
-    {kBindSlots, storage}, {kBindPool, storage}, {kBindControl, storage}};
+    {kBindAxes, read},   {kBindCells, read},   {kBindStates, read},    {kBindPoints, read},
+    {kBindOrders, read}, {kBindPool, storage}, {kBindControl, storage}};
 
 const std::array<KernelInfo, kKernels> kTable{{
-    {"candidates", k_candidates_spirv, k_candidates_texels_spirv, kCandidates, false,
-     Domain::surface},
-    {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanData, false},
+    {"count", k_count_spirv, k_count_texels_spirv, kCount, false, Domain::surface},
+    {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanBlocks, false},
     {"scan_sums", k_scan_sums_spirv, k_scan_sums_texels_spirv, kScanSums, false},
     {"scan_add", k_scan_add_spirv, k_scan_add_texels_spirv, kScanAdd, false},
-    {"bin_place", k_bin_place_spirv, k_bin_place_texels_spirv, kBinPlace, false},
-    {"bin_fill", k_bin_fill_spirv, k_bin_fill_texels_spirv, kBinFill, false, Domain::surface},
-    {"find_idle", k_find_idle_spirv, k_find_idle_texels_spirv, kFindIdle, false},
-    {"select", k_select_spirv, k_select_texels_spirv, kSelect, true},
-    {"activate", k_activate_spirv, k_activate_texels_spirv, kActivate, true, Domain::surface},
+    {"bin", k_bin_spirv, k_bin_texels_spirv, kBin, false, Domain::surface},
+    {"draw", k_draw_spirv, k_draw_texels_spirv, kDraw, false, Domain::surface},
+    {"begin_chunk", k_begin_chunk_spirv, k_begin_chunk_texels_spirv, kBeginChunk, true},
+    {"select", k_select_spirv, k_select_texels_spirv, kSelect, true, Domain::surface},
     {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true, Domain::surface},
-    {"block", k_block_spirv, k_block_texels_spirv, kBlock, true},
     {"resolve", k_resolve_spirv, k_resolve_texels_spirv, kResolve, true},
     {"count_calls", k_count_calls_spirv, k_count_calls_texels_spirv, kCountCalls, true},
     {"rewind", k_rewind_spirv, k_rewind_texels_spirv, kRewind, true},
-    {"compact_mark", k_compact_mark_spirv, k_compact_mark_texels_spirv, kCompactMark, false},
-    {"compact_gather", k_compact_gather_spirv, k_compact_gather_texels_spirv, kCompactGather,
-     false},
-    {"compact_fill", k_compact_fill_spirv, k_compact_fill_texels_spirv, kCompactFill, false,
-     Domain::on_surface},
+    {"resume", k_resume_spirv, k_resume_texels_spirv, kResume, true},
+    {"count_orders", k_count_orders_spirv, k_count_orders_texels_spirv, kCountOrders, false},
+    {"order_count", k_order_count_spirv, k_order_count_texels_spirv, kOrderCount, false},
+    {"order_place", k_order_place_spirv, k_order_place_texels_spirv, kOrderPlace, false},
+    {"order_write", k_order_write_spirv, k_order_write_texels_spirv, kOrderWrite, false},
     {"self_test", k_self_test_spirv, k_self_test_texels_spirv, kSelfTest, false},
-    {"box_candidates", k_box_candidates_spirv, k_box_candidates_texels_spirv, kBoxCandidates, false,
-     Domain::box},
-    {"box_fill", k_box_fill_spirv, k_box_fill_texels_spirv, kBoxFill, false, Domain::box},
-    {"space_candidates", k_space_candidates_spirv, k_space_candidates_texels_spirv,
-     kSpaceCandidates, false, Domain::space},
-    {"space_fill", k_space_fill_spirv, k_space_fill_texels_spirv, kSpaceFill, false, Domain::space},
-    {"box_activate", k_box_activate_spirv, k_box_activate_texels_spirv, kBoxActivate, true,
-     Domain::box},
-    {"space_activate", k_space_activate_spirv, k_space_activate_texels_spirv, kSpaceActivate, true,
+    {"box_count", k_box_count_spirv, k_box_count_texels_spirv, kBoxCount, false, Domain::box},
+    {"box_bin", k_box_bin_spirv, k_box_bin_texels_spirv, kBoxBin, false, Domain::box},
+    {"box_draw", k_box_draw_spirv, k_box_draw_texels_spirv, kBoxDraw, false, Domain::box},
+    {"box_select", k_box_select_spirv, k_box_select_texels_spirv, kBoxSelect, true, Domain::box},
+    {"space_count", k_space_count_spirv, k_space_count_texels_spirv, kSpaceCount, false,
+     Domain::space},
+    {"space_bin", k_space_bin_spirv, k_space_bin_texels_spirv, kSpaceBin, false, Domain::space},
+    {"space_draw", k_space_draw_spirv, k_space_draw_texels_spirv, kSpaceDraw, false, Domain::space},
+    {"space_select", k_space_select_spirv, k_space_select_texels_spirv, kSpaceSelect, true,
      Domain::space},
     {"grid_detect", k_grid_detect_spirv, k_grid_detect_texels_spirv, kGridDetect, true,
      Domain::in_space},
@@ -163,14 +170,14 @@ const KernelInfo& kernel_info(Kernel kernel) noexcept {
 
 DomainKernels kernels_of(Domain domain) noexcept {
     if (domain == Domain::box) {
-        return {Kernel::box_candidates, Kernel::box_fill, Kernel::box_activate,
+        return {Kernel::box_count, Kernel::box_bin, Kernel::box_draw, Kernel::box_select,
                 Kernel::grid_detect};
     }
     if (domain == Domain::space) {
-        return {Kernel::space_candidates, Kernel::space_fill, Kernel::space_activate,
+        return {Kernel::space_count, Kernel::space_bin, Kernel::space_draw, Kernel::space_select,
                 Kernel::grid_detect};
     }
-    return {Kernel::candidates, Kernel::bin_fill, Kernel::activate, Kernel::detect};
+    return {Kernel::count, Kernel::bin, Kernel::draw, Kernel::select, Kernel::detect};
 }
 
 } // namespace geodisk

@@ -12,41 +12,42 @@
 namespace geodisk {
 
 enum class Kernel : std::uint32_t {
-    candidates,
+    count,
     scan_blocks,
     scan_sums,
     scan_add,
-    bin_place,
-    bin_fill,
-    find_idle,
+    bin,
+    draw,
+    begin_chunk,
     select,
-    activate,
     detect,
-    block,
     resolve,
     count_calls,
     rewind,
-    compact_mark,
-    compact_gather,
-    compact_fill,
+    resume,
+    count_orders,
+    order_count,
+    order_place,
+    order_write,
     self_test,
-    box_candidates,
-    box_fill,
-    space_candidates,
-    space_fill,
-    box_activate,
-    space_activate,
+    box_count,
+    box_bin,
+    box_draw,
+    box_select,
+    space_count,
+    space_bin,
+    space_draw,
+    space_select,
     grid_detect,
 };
-inline constexpr std::size_t kKernels = 25;
+inline constexpr std::size_t kKernels = 27;
 
 /// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
 enum class Domain : std::uint8_t {
-    surface = 1,    ///< By geodesic distance.
-    box = 2,        ///< By straight-line distance, as all that follow.
-    space = 4,      ///< A surface in space.
-    on_surface = 5, ///< Of kernels: both with faces.
-    in_space = 6,   ///< Of kernels: both with a grid.
+    surface = 1,  ///< By geodesic distance.
+    box = 2,      ///< By straight-line distance, as all that follow.
+    space = 4,    ///< A surface in space.
+    in_space = 6, ///< Of kernels: both with a grid.
     any = 7,
 };
 
@@ -77,7 +78,7 @@ struct KernelInfo {
 
 /// The kernels that each domain has of its own.
 struct DomainKernels {
-    Kernel candidates, fill, activate, detect;
+    Kernel count, bin, draw, select, detect;
 };
 DomainKernels kernels_of(Domain domain) noexcept;
 
@@ -94,23 +95,21 @@ constexpr VkDescriptorType descriptor_type(Access access, bool texels) noexcept 
                                                 : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
 }
 
-/// The texels of the buffer with this number: words, pairs or rows of four.
+/// The texels of the buffer with this number: words, or rows of four.
 constexpr VkFormat texel_format(std::uint32_t buffer) noexcept {
     switch (buffer) {
     case gpu::kBindFaces:
     case gpu::kBindFans:
-    case gpu::kBindSlots:
     case gpu::kBindPool:
+    case gpu::kBindAccepted:
         return VK_FORMAT_R32G32B32A32_UINT;
-    case gpu::kBindAlias:
-        return VK_FORMAT_R32G32_UINT;
     default:
         return VK_FORMAT_R32_UINT;
     }
 }
 
 constexpr VkDeviceSize texel_bytes(VkFormat format) noexcept {
-    return format == VK_FORMAT_R32G32B32A32_UINT ? 16 : format == VK_FORMAT_R32G32_UINT ? 8 : 4;
+    return format == VK_FORMAT_R32G32B32A32_UINT ? 16 : 4;
 }
 
 } // namespace geodisk

@@ -27,19 +27,19 @@ constexpr double kMostSlots = (1u << 16) - 64;
 // Of a CPU, whose caches the lists of more would leave.
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
-constexpr std::uint64_t kIdleBytes = std::uint64_t{gpu::kFindMostGroups} * gpu::kFindLanes * 4;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
-// Darts of a chunk: at least so many, and per expected sample. The disks of earlier samples, which
-// every chunk takes anew, then cost a part of what the darts do; or about as much, where a run may
-// stop.
-constexpr double kLeastChunk = 1u << 16;
-constexpr double kMostChunk = 1024;
-constexpr double kChunkToStop = 64;
-// No more darts than need a list of conflicts of this part of the pool.
-constexpr double kListShare = 16;
+// Of candidates: deviations from what a stage expects that there is room for.
+constexpr double kDeviations = 8;
+// Idle candidates listed at once, for each slot: fewer lists, and longer ones to go through.
+constexpr std::uint32_t kIdlePerSlot = 32;
+constexpr std::uint32_t kLeastIdle = 4096;
+// Candidates for each range of orders by which samples are sorted.
+constexpr std::uint32_t kCandidatesPerBucket = 16;
+constexpr std::uint32_t kLeastBuckets = 256;
+constexpr std::uint32_t kMostBuckets = 1u << 22;
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
@@ -59,21 +59,6 @@ double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
     return samples;
 }
 
-/// As many candidates as one binding holds. Darts may be far more than a pool, so they are limited
-/// by the lists of conflicts, and where a count may stop them, to not many more than it needs.
-std::uint32_t wanted_chunk(const SampleParams& params, std::uint32_t candidates, double samples,
-                           double full, std::uint64_t pool_bytes, const DeviceReport& report) {
-    const double most = std::min<double>(
-        candidates, static_cast<double>(report.limits.max_storage_buffer_range / 4));
-    if (params.throws == 0 && params.stop_count == 0) {
-        return static_cast<std::uint32_t>(most);
-    }
-    const double wanted = darts_at_once(samples, params.stop_count != 0);
-    const double listed =
-        std::ceil(static_cast<double>(pool_bytes) / kListShare / (4 * kListPerCrowd) * full);
-    return static_cast<std::uint32_t>(std::min({most, wanted, listed}));
-}
-
 std::uint32_t cpu_lanes(const DeviceReport& report) {
     return std::max(1u, std::thread::hardware_concurrency()) *
            std::max(1u, report.limits.subgroup_size);
@@ -84,14 +69,14 @@ std::uint32_t wanted_lanes(std::uint32_t slots, const DeviceReport& report) {
     return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? std::min(slots, cpu_lanes(report)) : slots;
 }
 
-/// Bytes of the least pool that the plan can run with: a list and a block of lanes.
+/// Bytes of the least pool that the plan can run with: the fewest lists and a block of lanes.
 std::uint64_t least_pool(const RunPlan& plan) {
     return std::uint64_t{plan.pool_block} * plan.lane_rows() * 16 +
-           std::uint64_t{plan.list_capacity} * 4;
+           std::uint64_t{kLeastSlots} * plan.list_capacity * 4;
 }
 
-/// Slots and lanes as they fit the pool: a list and a block of lanes before all, then lists for the
-/// slots in at most half of it. No lanes if not even one block fits.
+/// Slots and lanes as they fit the pool: the fewest lists and a block of lanes before all, then
+/// lists for the slots in at most half of it. No lanes if not even one block fits.
 void fit(RunPlan& plan, std::uint64_t pool_bytes) {
     if (pool_bytes < least_pool(plan)) {
         plan.lanes = 0;
@@ -100,8 +85,8 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
     const std::uint64_t block = std::uint64_t{plan.pool_block} * plan.lane_rows() * 16;
     const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
     const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - block);
-    plan.slots =
-        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(for_lists / list, 1, plan.slots));
+    plan.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+        for_lists / list, kLeastSlots, std::max(kLeastSlots, plan.slots)));
     const std::uint64_t blocks = (pool_bytes - plan.slots * list) / block;
     plan.lanes = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
@@ -124,7 +109,8 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
                                        : "the disks of " + std::to_string(plan.pool_block) +
                                              " candidates side by side take ") +
                      std::to_string(std::uint64_t{plan.pool_block} * plan.lane_rows() * 16) +
-                     " bytes of the pool and a list of conflicts " +
+                     " bytes of the pool and each of the least " + std::to_string(kLeastSlots) +
+                     " lists of conflicts " +
                      std::to_string(std::uint64_t{plan.list_capacity} * 4) +
                      ", but the pool may take only " + std::to_string(pool_bytes)};
 }
@@ -132,14 +118,39 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
 } // namespace
 
 const char* to_string(BufferRole role) noexcept {
-    constexpr const char* kNames[kBufferRoles] = {"faces",   "fans",   "alias",  "cells", "states",
-                                                  "weights", "places", "slots",  "pool",  "control",
-                                                  "marks",   "sums",   "samples"};
+    constexpr const char* kNames[kBufferRoles] = {
+        "faces", "fans",    "keys", "cells", "states",  "weights",  "orders", "starts",
+        "pool",  "control", "list", "sums",  "samples", "accepted", "buckets"};
     return kNames[static_cast<std::size_t>(role)];
 }
 
-double darts_at_once(double samples, bool may_stop) noexcept {
-    return std::max(kLeastChunk, std::ceil((may_stop ? kChunkToStop : kMostChunk) * samples));
+// Of darts the largest stage there may be.
+std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept {
+    double expected = at_once * stages.expected(0);
+    if (stages.throws != 0) {
+        double all = 0;
+        for (std::uint32_t s = 0; all < 2.0 * stages.throws && s < gpu::kMostDartStages; ++s) {
+            expected = stages.expected(s);
+            all += expected;
+        }
+    }
+    const double most = std::ceil(expected + kDeviations * std::sqrt(expected) + 64);
+    return static_cast<std::uint32_t>(std::min<double>(most, kMostCandidates));
+}
+
+std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept {
+    if (stages.throws != 0) {
+        return 1;
+    }
+    std::uint32_t at_once = stages.pool_stages();
+    while (at_once > 1 && capacity_for(stages, at_once) > most_candidates) {
+        --at_once;
+    }
+    return at_once;
+}
+
+std::uint32_t bucket_count(std::uint32_t capacity) noexcept {
+    return std::clamp(std::bit_ceil(capacity / kCandidatesPerBucket), kLeastBuckets, kMostBuckets);
 }
 
 std::uint32_t pow2_at_least(double x) {
@@ -149,7 +160,9 @@ std::uint32_t pow2_at_least(double x) {
 // Where both cannot be had, a CPU rather waits than computes disks for losers.
 std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    const double least = cpu ? std::clamp<double>(disks / 8, 8, cpu_lanes(report)) : 64;
+    const double least =
+        cpu ? std::clamp<double>(disks / 8, kLeastSlots, std::max(kLeastSlots, cpu_lanes(report)))
+            : 64;
     const auto slots = static_cast<std::uint32_t>(
         std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
     // No lane is to wait for the others with its last one.
@@ -158,14 +171,20 @@ std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceRepo
 }
 
 // Borders, creases and thin parts hold more samples than their area tells. Where the device cannot
-// bind that much, as many as it can, but never fewer than are expected.
-std::uint32_t wanted_sample_capacity(std::uint32_t candidates, double samples,
-                                     std::uint32_t stop_count, const DeviceReport& report) {
+// bind that much, as many as it can, but never fewer than are expected. A batch begins only where
+// there is room for all of it.
+std::uint32_t wanted_sample_capacity(double samples, std::uint32_t stop_count, std::uint32_t slots,
+                                     const DeviceReport& report) {
     const auto bound =
         static_cast<double>(report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec));
-    double capacity = std::min<double>(candidates, std::ceil(1.5 * samples) + 64);
+    double capacity = std::ceil(1.5 * samples) + 64;
     capacity = stop_count != 0 ? std::min<double>(capacity, stop_count) : capacity;
-    return static_cast<std::uint32_t>(std::min(capacity, std::max(bound, std::ceil(samples))));
+    return static_cast<std::uint32_t>(
+        std::min(capacity + slots, std::max(bound, std::ceil(samples) + slots)));
+}
+
+std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) noexcept {
+    return std::clamp(kIdlePerSlot * slots, kLeastIdle, std::max(kLeastIdle, capacity));
 }
 
 std::uint32_t most_steps(const DeviceReport& report) noexcept {
@@ -176,6 +195,8 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     const auto replace = [](std::uint32_t& field, std::uint32_t value) {
         field = value != 0 ? value : field;
     };
+    // A batch needs room for all of its samples.
+    plan.sample_capacity += wanted.slots;
     replace(plan.slots, wanted.slots);
     replace(plan.window_capacity, wanted.window_capacity);
     replace(plan.table_capacity, wanted.table_capacity);
@@ -186,7 +207,8 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.sample_capacity, wanted.sample_capacity);
     replace(plan.chain, wanted.chain);
     replace(plan.pool_block, wanted.pool_block);
-    replace(plan.chunk, wanted.chunk);
+    replace(plan.stages, wanted.stages);
+    replace(plan.idle_capacity, wanted.idle_capacity);
     return plan;
 }
 
@@ -222,22 +244,24 @@ Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& 
             return candidates.error();
         }
         const DeviceReport& report = impl_->report;
+        const Stages stages = stages_of(mesh, params);
         const double full = samples_when_full(mesh, params);
         const double disks = expected_samples(mesh, params);
         const double faces_per_disk = 2.0 * mesh.face_count() / full;
         RunPlan plan;
         plan.pool_block = impl_->tuning.pool_block;
-        plan.chunk = wanted_chunk(params, *candidates, disks, full, pool_bytes, report);
+        plan.stages = stages_at_once(stages, report.limits.max_storage_buffer_range / 4);
+        const std::uint32_t capacity = capacity_for(stages, plan.stages);
         plan.slots = wanted_slots(disks, impl_->tuning.batches, report);
         plan.lanes = wanted_lanes(plan.slots, report);
         // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
         const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
         plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces_per_disk);
         plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces_per_disk);
-        plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * plan.chunk / full));
+        plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * capacity / full));
         plan.step_budget = most_steps(report);
-        plan.sample_capacity =
-            wanted_sample_capacity(*candidates, disks, params.stop_count, report);
+        plan.sample_capacity = wanted_sample_capacity(disks, params.stop_count, plan.slots, report);
+        plan.idle_capacity = wanted_idle_capacity(plan.slots, capacity);
         plan.chain = provided_chain(mesh, params.min_distance);
         auto fitting = fitted(plan, pool_bytes, report.limits);
         if (fitting) {
@@ -292,11 +316,15 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
         if (!cells) {
             return cells.error();
         }
-        WorkspaceNeeds needs = needs_of_run(std::min(plan.chunk, *candidates), *cells, plan);
+        const std::uint32_t capacity = capacity_for(stages_of(mesh, params), plan.stages);
+        WorkspaceNeeds needs =
+            needs_of_run(capacity, std::uint64_t{mesh.face_count()} * plan.stages,
+                         *cells == mesh.face_count() ? 0 : *cells, plan);
         needs.bytes[gpu::kBindFaces] = face_bytes(mesh);
         needs.bytes[gpu::kBindFans] = fan_bytes(mesh, impl_->adaptive);
-        needs.bytes[gpu::kBindAlias] = alias_bytes(mesh);
-        const std::string what = "for " + std::to_string(*candidates) + " candidates and " +
+        needs.bytes[gpu::kBindKeys] = key_bytes(params);
+        needs.bytes[gpu::kBindWeights] = std::uint64_t{capacity} * 4;
+        const std::string what = "for " + std::to_string(capacity) + " candidates and " +
                                  std::to_string(mesh.face_count()) + " faces";
         if (auto checked = check_needs(needs, what, impl_->report); !checked) {
             return checked.error();
@@ -305,27 +333,37 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
     });
 }
 
-WorkspaceNeeds needs_of_run(std::uint64_t candidates, std::uint64_t cells, const RunPlan& plan) {
-    const std::uint64_t scanned = std::max(candidates, cells + 1);
+WorkspaceNeeds needs_of_run(std::uint64_t capacity, std::uint64_t units, std::uint64_t cells,
+                            const RunPlan& plan) {
+    const std::uint32_t buckets = bucket_count(static_cast<std::uint32_t>(capacity));
+    const std::uint64_t scanned = std::max({units + 1, cells + 2, std::uint64_t{buckets} + 2});
     WorkspaceNeeds needs;
-    needs.bytes[gpu::kBindCells] = (cells + 1) * 4;
-    for (const std::uint32_t per_candidate :
-         {gpu::kBindStates, gpu::kBindWeights, gpu::kBindPlaces, gpu::kBindMarks}) {
-        needs.bytes[per_candidate] = candidates * 4;
-    }
-    needs.bytes[gpu::kBindSlots] = plan.slots * sizeof(gpu::SlotRec);
+    needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
+    needs.bytes[gpu::kBindStates] = capacity * 4;
+    needs.bytes[gpu::kBindOrders] = capacity * 4;
+    needs.bytes[gpu::kBindStarts] = (units + 1) * 4;
     needs.bytes[gpu::kBindPool] = plan.pool_bytes();
-    needs.bytes[gpu::kBindControl] = sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * 4;
-    needs.bytes[gpu::kBindSums] = std::max(blocks_of(scanned) * 4, kIdleBytes);
-    needs.bytes[gpu::kBindSamples] = std::uint64_t{plan.sample_capacity} * sizeof(gpu::SampleRec);
+    needs.bytes[gpu::kBindControl] =
+        sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
+    needs.bytes[gpu::kBindList] = std::uint64_t{plan.idle_capacity} * 4;
+    needs.bytes[gpu::kBindSums] = blocks_of(scanned) * 4;
+    const auto samples = sample_bytes(plan.sample_capacity, buckets);
+    needs.bytes[gpu::kBindSamples] = samples[0];
+    needs.bytes[gpu::kBindAccepted] = samples[1];
+    needs.bytes[gpu::kBindBuckets] = samples[2];
     return needs;
+}
+
+std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept {
+    const VkDeviceSize records = VkDeviceSize{capacity} * sizeof(gpu::SampleRec);
+    return {records, records, (VkDeviceSize{buckets} + 2 + capacity) * 4};
 }
 
 Result<Done> check_needs(const WorkspaceNeeds& needs, const std::string& what,
                          const DeviceReport& report) {
     const std::uint64_t limit = report.limits.max_storage_buffer_range;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindAlias;
+        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindKeys;
         if (needs.bytes[i] > limit) {
             return Error{
                 Status::device_lacks,

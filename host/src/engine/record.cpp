@@ -15,10 +15,6 @@
 namespace geodisk {
 namespace {
 
-// Chains of conflicts are short: two passes decide nearly every batch, and what they leave goes on
-// in the next round.
-constexpr std::uint32_t kResolvePasses = 2;
-
 class Recorder {
   public:
     Recorder(VkCommandBuffer commands, const Sampler::Impl& sampler, const Job::Impl& job)
@@ -31,8 +27,18 @@ class Recorder {
         barrier_compute_to_compute(sampler_.vk, commands_);
     }
 
-    void dispatch_per_candidate(Kernel kernel) {
-        dispatch(kernel, groups_for(job_.push.candidates, sampler_.tuning.local_size), job_.push);
+    void dispatch_per_unit(Kernel kernel) {
+        const std::uint64_t units = std::uint64_t{job_.push.faces} * job_.push.stages;
+        dispatch(kernel, groups_for(units, sampler_.tuning.local_size), job_.push);
+    }
+
+    void dispatch_per_candidate(Kernel kernel, std::uint32_t per_group, const gpu::Push& push) {
+        dispatch(kernel, groups_for(push.capacity, per_group), push);
+    }
+
+    void dispatch_per_sample(Kernel kernel) {
+        const std::uint32_t most = std::max(job_.push.sample_capacity, job_.push.slots);
+        dispatch(kernel, groups_for(most, sampler_.tuning.local_size), job_.push);
     }
 
     /// The size is what `select` left at this offset of the control record.
@@ -41,18 +47,6 @@ class Recorder {
         const BufferRange& control = range(BufferRole::control);
         sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset + offset);
         barrier_compute_to_compute(sampler_.vk, commands_);
-    }
-
-    /// Geodesic disks are for lanes to share, straight ones are all alike.
-    void dispatch_detect() {
-        const bool has_lanes = sampler_.domain == Domain::surface;
-        dispatch_indirect(kernels_of(sampler_.domain).detect,
-                          has_lanes ? offsetof(gpu::ControlRec, detect_x)
-                                    : offsetof(gpu::ControlRec, groups_x));
-    }
-
-    void dispatch_per_slot(Kernel kernel) {
-        dispatch_indirect(kernel, offsetof(gpu::ControlRec, groups_x));
     }
 
     /// What was recorded since the last mark belongs to this stage.
@@ -77,14 +71,16 @@ class Recorder {
         sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset, size, 0);
     }
 
-    /// What was accepted so far is settled; the rest of the control record is made ready for more.
-    void settle() const {
+    void fill_control(std::size_t first, std::size_t size, std::uint32_t word) const {
         const BufferRange& control = range(BufferRole::control);
-        const VkBufferCopy copy{control.offset + offsetof(gpu::ControlRec, accepted),
-                                control.offset + offsetof(gpu::ControlRec, settled),
-                                sizeof gpu::ControlRec::settled};
+        sampler_.vk.vkCmdFillBuffer(commands_, control.buffer, control.offset + first, size, word);
+    }
+
+    /// Copies a word of the control record to another.
+    void copy_control(std::size_t from, std::size_t to) const {
+        const BufferRange& control = range(BufferRole::control);
+        const VkBufferCopy copy{control.offset + from, control.offset + to, 4};
         sampler_.vk.vkCmdCopyBuffer(commands_, control.buffer, control.buffer, 1, &copy);
-        fill(BufferRole::control, offsetof(gpu::ControlRec, accepted));
     }
 
   private:
@@ -124,43 +120,50 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
     Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
     const DomainKernels own = kernels_of(impl_->domain);
-    const std::uint32_t starts = push.cells + 1;
-    if (push.first_rank == 0) {
-        recorder.fill(BufferRole::control, sizeof(gpu::ControlRec) + VkDeviceSize{push.slots} * 4);
+    const bool has_cells = push.all_single == 0;
+    if (push.first_stage == 0) {
+        recorder.fill_control(0, sizeof(gpu::ControlRec), 0);
         recorder.fill(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
     } else {
+        // What was accepted so far is settled, and in order.
         barrier_compute_to_transfer(impl_->vk, commands);
-        recorder.settle();
+        recorder.copy_control(offsetof(gpu::ControlRec, accepted),
+                              offsetof(gpu::ControlRec, settled));
+        recorder.copy_control(offsetof(gpu::ControlRec, accepted),
+                              offsetof(gpu::ControlRec, ordered));
+        recorder.fill_control(0, offsetof(gpu::ControlRec, accepted), 0);
     }
-    recorder.fill(BufferRole::cells, VkDeviceSize{starts} * 4);
+    if (has_cells) {
+        recorder.fill(BufferRole::cells, (VkDeviceSize{push.cells} + 2) * 4);
+    }
     barrier_transfer_to_compute(impl_->vk, commands);
-    recorder.dispatch_per_candidate(own.candidates);
-    recorder.mark(Stage::draw);
-    recorder.scan(starts, SetRole::cell_scan);
-    recorder.dispatch_per_candidate(Kernel::bin_place);
-    recorder.dispatch_per_candidate(own.fill);
+    recorder.dispatch_per_unit(own.count);
+    recorder.scan(push.faces * push.stages + 1, SetRole::start_scan);
+    recorder.mark(Stage::count);
+    if (has_cells) {
+        recorder.dispatch_per_candidate(own.bin, gpu::kDrawBlock, push);
+        recorder.scan(push.cells + 2, SetRole::cell_scan);
+    }
     recorder.mark(Stage::bin);
+    recorder.dispatch_per_candidate(own.draw, gpu::kDrawBlock, push);
+    recorder.dispatch(Kernel::begin_chunk, {1, 1}, push);
+    recorder.mark(Stage::draw);
 }
 
 void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
                             std::uint32_t rounds) const noexcept {
     Recorder recorder(commands, *impl_, *job.impl_);
-    const gpu::Push& push = job.impl_->push;
+    const DomainKernels own = kernels_of(impl_->domain);
     for (std::uint32_t round = 0; round < rounds; ++round) {
-        recorder.dispatch_indirect(Kernel::find_idle, offsetof(gpu::ControlRec, find_x));
-        recorder.dispatch(Kernel::select, {1, 1}, push);
-        recorder.dispatch_per_slot(kernels_of(impl_->domain).activate);
+        recorder.dispatch_indirect(own.select, offsetof(gpu::ControlRec, select_x));
         recorder.mark(Stage::select);
         for (std::uint32_t pass = 0; pass < job.impl_->plan.detect_passes; ++pass) {
-            recorder.dispatch_detect();
+            recorder.dispatch_indirect(own.detect, offsetof(gpu::ControlRec, detect_x));
         }
         recorder.mark(Stage::detect);
-        recorder.dispatch_per_slot(Kernel::block);
-        for (std::uint32_t pass = 0; pass < kResolvePasses; ++pass) {
-            recorder.dispatch_per_slot(Kernel::resolve);
-        }
+        recorder.dispatch_indirect(Kernel::resolve, offsetof(gpu::ControlRec, groups_x));
         for (std::uint32_t pass = 0; pass < impl_->count_passes(); ++pass) {
-            recorder.dispatch_per_slot(Kernel::count_calls);
+            recorder.dispatch_indirect(Kernel::count_calls, offsetof(gpu::ControlRec, count_x));
         }
         recorder.mark(Stage::resolve);
     }
@@ -169,29 +172,45 @@ void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
 void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noexcept {
     // The batch was selected with the slots of an earlier plan, never fewer than now.
     Recorder recorder(commands, *impl_, *job.impl_);
-    const BufferRange& slots = job.impl_->workspace[static_cast<std::size_t>(BufferRole::slots)];
     // No lane has a slot, and no row of a table a disk.
     recorder.fill(BufferRole::pool, VkDeviceSize{job.impl_->push.first_list_row} * 16);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch(Kernel::rewind,
-                      groups_for(slots.size / sizeof(gpu::SlotRec), impl_->tuning.slot_local_size),
+                      groups_for(job.impl_->most_slots, impl_->tuning.slot_local_size),
                       job.impl_->push);
+    recorder.dispatch(Kernel::resume, {1, 1}, job.impl_->push);
 }
 
 void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noexcept {
     Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    recorder.dispatch_per_candidate(Kernel::compact_mark);
-    recorder.scan(push.candidates, SetRole::workspace);
-    recorder.dispatch_per_candidate(Kernel::compact_gather);
-    // In boxes the ranks say all.
-    if (impl_->domain != Domain::box) {
-        recorder.dispatch(
-            Kernel::compact_fill,
-            groups_for(std::min(push.sample_capacity, push.candidates), impl_->tuning.local_size),
-            push);
-    }
+    barrier_compute_to_transfer(impl_->vk, commands);
+    recorder.fill_control(offsetof(gpu::ControlRec, first_open), 4, gpu::kNoOrder);
+    recorder.fill(BufferRole::buckets, (VkDeviceSize{push.buckets} + 2) * 4);
+    barrier_transfer_to_compute(impl_->vk, commands);
+    recorder.dispatch_per_sample(Kernel::order_count);
+    recorder.scan(push.buckets + 2, SetRole::bucket_scan);
+    recorder.dispatch_per_sample(Kernel::order_place);
+    recorder.dispatch_per_sample(Kernel::order_write);
+    barrier_compute_to_transfer(impl_->vk, commands);
+    recorder.copy_control(offsetof(gpu::ControlRec, next_ordered),
+                          offsetof(gpu::ControlRec, ordered));
+    barrier_transfer_to_compute(impl_->vk, commands);
     recorder.mark(Stage::gather);
+}
+
+void Job::Impl::record_restart(VkCommandBuffer commands) const {
+    Recorder(commands, *sampler, *this).dispatch(Kernel::begin_chunk, {1, 1}, push);
+}
+
+void Job::Impl::record_count(VkCommandBuffer commands, std::uint32_t end_order) const {
+    Recorder recorder(commands, *sampler, *this);
+    gpu::Push counted = push;
+    counted.end_order = end_order;
+    barrier_compute_to_transfer(sampler->vk, commands);
+    recorder.fill_control(offsetof(gpu::ControlRec, below), 4, 0);
+    barrier_transfer_to_compute(sampler->vk, commands);
+    recorder.dispatch_per_candidate(Kernel::count_orders, gpu::kSelectBlock, counted);
 }
 
 } // namespace geodisk

@@ -21,21 +21,18 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Recorded dispatches per round: find_idle, select, activate, block and two passes of resolve; and
-// those of detect.
-constexpr std::uint32_t kDispatchesPerRound = 6;
+// Recorded dispatches per round, besides those of detect: select and resolve.
+constexpr std::uint32_t kDispatchesPerRound = 2;
 constexpr std::uint32_t kDispatchesToBegin = 6;
+constexpr std::uint32_t kDispatchesToBin = 4;
 constexpr std::uint32_t kDispatchesToFinish = 6;
 // Submissions start small and grow towards this time, so that no watchdog bites and progress and
 // cancellation stay prompt.
 constexpr double kTargetSeconds = 0.1;
 constexpr std::uint32_t kMostRounds = 256;
 constexpr std::uint32_t kMostPasses = 64;
-// Darts of the first chunk of a run that stops at a count, for each sample of it: those that half
-// of a full surface takes, or nearly all of it; and at least.
-constexpr double kDartsWhileSparse = 4;
-constexpr double kDartsWhileFull = 20;
-constexpr double kLeastFirstChunk = 4096;
+// Counts of candidates before an order until that of a number of darts is found.
+constexpr std::uint32_t kMostGuesses = 64;
 constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 
 constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
@@ -114,13 +111,22 @@ class Run {
     Result<Done> upload();
     Result<Done> upload_buffer(BufferRole role);
     Result<Done> sample(const ProgressCallback& progress);
+    Result<Done> begin_chunk();
+    Result<Done> cut_darts();
     Result<Done> decide_chunk(const ProgressCallback& progress);
     Result<Done> gather_chunk();
-    std::uint32_t chunk_size() const;
+    std::uint32_t stages_left() const;
     bool has_all() const {
-        return source_.stop_count() != 0 && control_.accepted == source_.stop_count();
+        return source_.stop_count() != 0 && control_.accepted >= source_.stop_count();
     }
+    double expected_candidates() const {
+        return source_.stages().throws != 0 ? source_.stages().throws : source_.stages().pool();
+    }
+    Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
     Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
+    Result<std::uint32_t> count_before(std::uint32_t order);
+    Result<std::uint32_t> darts_until(std::uint32_t order);
+    Result<Done> act_on_overflow();
     Result<Done> grow();
     Result<Done> detect_longer();
     Result<Done> enlarge_samples();
@@ -132,9 +138,9 @@ class Run {
     std::optional<Job> job_;
     std::uint32_t slots_ = 0; ///< Of the first plan.
     std::uint32_t lanes_ = 0;
-    std::uint32_t candidates_ = 0; ///< Of all chunks.
-    std::uint32_t thrown_ = 0;     ///< Candidates of the chunks before this one.
-    bool begun_ = false;           ///< The chunk's candidates are drawn.
+    std::uint32_t next_stage_ = 0;  ///< The first behind those of this chunk.
+    std::uint64_t thrown_ = 0;      ///< Candidates of the chunks before this one.
+    std::uint64_t chunk_darts_ = 0; ///< Candidates of this chunk that take part.
     gpu::ControlRec control_{};
     RunReport report_;
 };
@@ -145,7 +151,7 @@ Result<Done> Run::prepare(std::uint32_t chain) {
         return plan.error();
     }
     const std::uint64_t in_memory = runner_.memory_for_candidates() / source_.bytes_per_candidate();
-    plan->chunk = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(in_memory, 1, plan->chunk));
+    plan->stages = std::min(plan->stages, stages_at_once(source_.stages(), in_memory));
     *plan = overridden(*plan, runner_.options.plan);
     plan->chain = std::max(plan->chain, chain);
     if (plan->pool_bytes() > runner_.options.pool_bytes) {
@@ -185,7 +191,6 @@ Result<Done> Run::prepare(std::uint32_t chain) {
     }
     slots_ = plan->slots;
     lanes_ = plan->lanes;
-    candidates_ = source_.candidates();
     report_.guard = source_.guard(*plan);
     return Done{};
 }
@@ -215,7 +220,7 @@ Result<Done> Run::upload_buffer(BufferRole role) {
 }
 
 Result<Done> Run::upload() {
-    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::alias}) {
+    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::keys}) {
         if (auto done = upload_buffer(role); !done) {
             return done.error();
         }
@@ -223,21 +228,11 @@ Result<Done> Run::upload() {
     return Done{};
 }
 
-Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
+/// Records, and reads the control record afterwards.
+Result<Done> Run::submit(const std::function<void(VkCommandBuffer)>& record) {
     const DeviceTable& vk = runner_.engine().vk;
     auto done = runner_.run_timed([&](VkCommandBuffer commands) {
-        if (!begun_) {
-            runner_.sampler.record_begin(commands, *job_);
-            report_.dispatches += kDispatchesToBegin;
-            begun_ = true;
-        }
-        if (rewind) {
-            runner_.sampler.record_rewind(commands, *job_);
-            ++report_.dispatches;
-        }
-        runner_.sampler.record_rounds(commands, *job_, rounds);
-        report_.dispatches += rounds * (kDispatchesPerRound + job_->plan().detect_passes +
-                                        runner_.engine().count_passes());
+        record(commands);
         barrier_compute_to_transfer(vk, commands);
         const VkBufferCopy copy{0, 0, sizeof control_};
         vk.vkCmdCopyBuffer(commands, memory_.buffers[index_of(BufferRole::control)].handle(),
@@ -252,6 +247,30 @@ Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
         return Error{Status::internal, "the device did not write its control record"};
     }
     return Done{};
+}
+
+Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
+    return submit([&](VkCommandBuffer commands) {
+        if (rewind) {
+            runner_.sampler.record_rewind(commands, *job_);
+            report_.dispatches += 2;
+        }
+        runner_.sampler.record_rounds(commands, *job_, rounds);
+        report_.dispatches += rounds * (kDispatchesPerRound + job_->plan().detect_passes +
+                                        runner_.engine().count_passes());
+    });
+}
+
+/// Candidates of the chunk that are of lower order.
+Result<std::uint32_t> Run::count_before(std::uint32_t order) {
+    auto counted = submit([&](VkCommandBuffer commands) {
+        Job::Impl::of(*job_).record_count(commands, order);
+        ++report_.dispatches;
+    });
+    if (!counted) {
+        return counted.error();
+    }
+    return control_.below;
 }
 
 Result<Done> Run::grow() {
@@ -289,82 +308,160 @@ Result<Done> Run::detect_longer() {
     return job_->set_plan(plan);
 }
 
+/// Room for half as many samples again, and a batch.
 Result<Done> Run::enlarge_samples() {
-    const VkDeviceSize bytes = VkDeviceSize{control_.accepted} * sizeof(gpu::SampleRec);
-    if (bytes > runner_.sampler.report().limits.max_storage_buffer_range) {
+    const DeviceLimits& limits = runner_.sampler.report().limits;
+    const std::uint64_t most = limits.max_storage_buffer_range / sizeof(gpu::SampleRec);
+    const std::uint64_t least = std::uint64_t{control_.accepted} + job_->plan().slots + 1;
+    const std::uint64_t capacity = std::min(least + control_.accepted / 2, std::max(most, least));
+    if (capacity > most) {
         return Error{Status::device_lacks,
-                     "the " + std::to_string(control_.accepted) + " samples take " +
-                         std::to_string(bytes) + " bytes, but " + runner_.sampler.report().name +
-                         " binds at most " +
-                         std::to_string(runner_.sampler.report().limits.max_storage_buffer_range) +
+                     "the " + std::to_string(control_.accepted) + " samples so far take " +
+                         std::to_string(capacity * sizeof(gpu::SampleRec)) + " bytes, but " +
+                         runner_.sampler.report().name + " binds at most " +
+                         std::to_string(limits.max_storage_buffer_range) +
                          "; raise the minimum distance"};
     }
-    auto larger = runner_.allocate(bytes, kWorkspaceUsage, MemoryKind::device);
-    if (!larger) {
-        return larger.error();
+    constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
+    const auto bytes = job_->sample_bytes(static_cast<std::uint32_t>(capacity));
+    std::array<DeviceBuffer, kRoles.size()> larger;
+    for (std::size_t i = 0; i < kRoles.size(); ++i) {
+        auto buffer = runner_.allocate(bytes[i], kWorkspaceUsage, MemoryKind::device);
+        if (!buffer) {
+            return buffer.error();
+        }
+        larger[i] = std::move(*buffer);
     }
-    DeviceBuffer& samples = memory_.buffers[index_of(BufferRole::samples)];
-    if (control_.settled > 0) {
-        const DeviceTable& vk = runner_.engine().vk;
+    const DeviceTable& vk = runner_.engine().vk;
+    if (control_.accepted > 0) {
         auto copied = runner_.submitter->run([&](VkCommandBuffer commands) {
-            const VkBufferCopy copy{0, 0, VkDeviceSize{control_.settled} * sizeof(gpu::SampleRec)};
-            vk.vkCmdCopyBuffer(commands, samples.handle(), larger->handle(), 1, &copy);
+            const VkBufferCopy copy{0, 0, VkDeviceSize{control_.accepted} * sizeof(gpu::SampleRec)};
+            for (std::size_t i = 0; i < 2; ++i) {
+                vk.vkCmdCopyBuffer(commands, memory_.buffers[index_of(kRoles[i])].handle(),
+                                   larger[i].handle(), 1, &copy);
+            }
             barrier_transfer_to_compute(vk, commands);
         });
         if (!copied) {
             if (runner_.submitter->abandoned()) {
-                larger->abandon();
+                for (DeviceBuffer& buffer : larger) {
+                    buffer.abandon();
+                }
             }
             return copied;
         }
     }
-    samples = std::move(*larger);
-    return job_->set_samples({samples.handle(), 0, samples.size()});
+    for (std::size_t i = 0; i < kRoles.size(); ++i) {
+        std::swap(memory_.buffers[index_of(kRoles[i])], larger[i]);
+    }
+    const auto range = [this](BufferRole role) -> BufferRange {
+        const DeviceBuffer& buffer = memory_.buffers[index_of(role)];
+        return {buffer.handle(), 0, buffer.size()};
+    };
+    return job_->set_samples(static_cast<std::uint32_t>(capacity), range(kRoles[0]),
+                             range(kRoles[1]), range(kRoles[2]));
 }
 
-/// A run that may stop starts with as many as should do, and then doubles what was thrown.
-std::uint32_t Run::chunk_size() const {
-    const std::uint32_t most = std::min(job_->plan().chunk, candidates_ - thrown_);
-    const std::uint32_t stop_count = source_.stop_count();
-    if (stop_count == 0) {
-        return most;
+/// Stages to draw next.
+std::uint32_t Run::stages_left() const {
+    const Stages& stages = source_.stages();
+    if (has_all()) {
+        return 0;
     }
-    const double per_sample = stop_count < source_.room() / 2 ? kDartsWhileSparse : kDartsWhileFull;
-    const double wanted =
-        std::max({kLeastFirstChunk, per_sample * stop_count, static_cast<double>(thrown_)});
-    return static_cast<std::uint32_t>(std::min<double>(most, wanted));
+    if (stages.throws != 0) {
+        return thrown_ < stages.throws ? 1 : 0;
+    }
+    return std::min(stages.pool_stages() - next_stage_, job_->plan().stages);
 }
 
 Result<Done> Run::sample(const ProgressCallback& progress) {
-    while (thrown_ < candidates_ && !has_all()) {
-        const std::uint32_t size = chunk_size();
-        if (auto chunk = job_->set_chunk(thrown_, size); !chunk) {
+    for (std::uint32_t count = stages_left(); count > 0; count = stages_left()) {
+        if (auto chunk = job_->set_stages(next_stage_, count); !chunk) {
             return chunk;
         }
-        begun_ = false;
-        control_.done = 0;
+        next_stage_ += count;
+        if (auto begun = begin_chunk(); !begun) {
+            return begun;
+        }
         if (auto decided = decide_chunk(progress); !decided) {
             return decided;
         }
         if (auto gathered = gather_chunk(); !gathered) {
             return gathered;
         }
-        thrown_ += size;
+        thrown_ += chunk_darts_;
         ++report_.chunks;
     }
     return Done{};
 }
 
+Result<Done> Run::begin_chunk() {
+    auto begun = submit([&](VkCommandBuffer commands) {
+        runner_.sampler.record_begin(commands, *job_);
+        report_.dispatches += kDispatchesToBegin;
+        report_.dispatches += Job::Impl::of(*job_).push.all_single != 0 ? 0 : kDispatchesToBin;
+    });
+    if (!begun) {
+        return begun;
+    }
+    if ((control_.overflow & gpu::kOverflowCandidates) != 0) {
+        return Error{Status::internal, "a stage has " + std::to_string(control_.drawn) +
+                                           " candidates, and there is room for " +
+                                           std::to_string(Job::Impl::of(*job_).push.capacity)};
+    }
+    chunk_darts_ = control_.drawn;
+    const std::uint32_t throws = source_.stages().throws;
+    return throws != 0 && thrown_ + control_.drawn > throws ? cut_darts() : Result<Done>(Done{});
+}
+
+/// Finds the order below which there are just as many darts as are to be thrown.
+Result<Done> Run::cut_darts() {
+    const auto wanted = static_cast<std::uint32_t>(source_.stages().throws - thrown_);
+    std::uint64_t low = 0, high = Job::Impl::of(*job_).push.end_order;
+    std::uint64_t low_count = 0, high_count = control_.drawn;
+    for (std::uint32_t guess = 0; high_count != wanted && low_count != wanted; ++guess) {
+        // Orders are spread evenly, so a few guesses by proportion do; halves where they do not.
+        const double part = guess < kMostGuesses / 4
+                                ? static_cast<double>(wanted - low_count) /
+                                      static_cast<double>(high_count - low_count)
+                                : 0.5;
+        const auto step = static_cast<std::uint64_t>(part * static_cast<double>(high - low));
+        const std::uint64_t middle = low + std::clamp<std::uint64_t>(step, 1, high - low - 1);
+        const auto count = count_before(static_cast<std::uint32_t>(middle));
+        if (!count) {
+            return count.error();
+        }
+        (*count < wanted ? low : high) = middle;
+        (*count < wanted ? low_count : high_count) = *count;
+        if (high - low <= 1) {
+            break; // Several of one order: they all take part.
+        }
+    }
+    const bool at_low = low_count == wanted;
+    chunk_darts_ = at_low ? low_count : high_count;
+    Job::Impl::of(*job_).push.end_order = static_cast<std::uint32_t>(at_low ? low : high);
+    return submit([&](VkCommandBuffer commands) {
+        Job::Impl::of(*job_).record_restart(commands);
+        ++report_.dispatches;
+    });
+}
+
 Result<Done> Run::decide_chunk(const ProgressCallback& progress) {
     std::uint32_t rounds = 1;
     bool rewind = false;
+    if (control_.overflow != 0) {
+        rewind = true;
+        if (auto acted = act_on_overflow(); !acted) {
+            return acted;
+        }
+    }
     while (control_.done == 0) {
         const auto start = Clock::now();
         const std::uint32_t batches = control_.iterations;
         if (auto done = run_rounds(rounds, rewind); !done) {
             return done.error();
         }
-        if (control_.unfinished > 0 && rounds >= 2 * (control_.iterations - batches)) {
+        if (control_.incomplete > 0 && rounds >= 2 * (control_.iterations - batches)) {
             if (auto more = detect_longer(); !more) {
                 return more;
             }
@@ -375,37 +472,44 @@ Result<Done> Run::decide_chunk(const ProgressCallback& progress) {
                                              : rounds;
         rewind = control_.overflow != 0;
         if (rewind) {
-            if (auto grown = grow(); !grown) {
-                return grown.error();
+            if (auto acted = act_on_overflow(); !acted) {
+                return acted;
             }
         }
-        if (progress && !progress({thrown_ + control_.next_rank, candidates_, control_.accepted})) {
+        const double decided = static_cast<double>(control_.first_order) /
+                               Job::Impl::of(*job_).push.end_order *
+                               static_cast<double>(chunk_darts_);
+        const double all = expected_candidates();
+        if (progress && !progress({static_cast<std::uint32_t>(
+                                       std::min(static_cast<double>(thrown_) + decided, all)),
+                                   static_cast<std::uint32_t>(all), control_.accepted})) {
             return Error{Status::cancelled, "cancelled"};
         }
     }
     return Done{};
 }
 
+Result<Done> Run::act_on_overflow() {
+    return (control_.overflow & gpu::kOverflowSamples) != 0 ? enlarge_samples() : grow();
+}
+
 Result<Done> Run::gather_chunk() {
-    if (control_.accepted > job_->plan().sample_capacity) {
-        if (auto enlarged = enlarge_samples(); !enlarged) {
-            return enlarged;
-        }
-    }
-    const DeviceTable& vk = runner_.engine().vk;
     report_.dispatches += kDispatchesToFinish;
-    return runner_.run_timed([&](VkCommandBuffer commands) {
-        runner_.sampler.record_finish(commands, *job_);
-        barrier_compute_to_transfer(vk, commands);
-    });
+    return submit(
+        [&](VkCommandBuffer commands) { runner_.sampler.record_finish(commands, *job_); });
+}
+
+/// Candidates of the last chunk up to one of this order.
+Result<std::uint32_t> Run::darts_until(std::uint32_t order) {
+    return count_before(order + 1);
 }
 
 Result<std::vector<gpu::SampleRec>> Run::read_samples() {
-    std::vector<gpu::SampleRec> samples(control_.accepted);
+    std::vector<gpu::SampleRec> samples(control_.ready);
     const DeviceTable& vk = runner_.engine().vk;
     const std::size_t per_part = memory_.staging.bytes().size() / sizeof(gpu::SampleRec);
-    for (std::size_t first = 0; first < control_.accepted; first += per_part) {
-        const std::size_t count = std::min<std::size_t>(per_part, control_.accepted - first);
+    for (std::size_t first = 0; first < samples.size(); first += per_part) {
+        const std::size_t count = std::min(per_part, samples.size() - first);
         auto done = runner_.submitter->run([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{first * sizeof(gpu::SampleRec), 0,
                                     count * sizeof(gpu::SampleRec)};
@@ -442,7 +546,15 @@ Result<RunResult> Run::go(const ProgressCallback& progress, std::uint32_t chain)
         return samples.error();
     }
     report_.seconds.readback = seconds_since(start);
-    report_.candidates = has_all() ? samples->back().rank + 1 : candidates_;
+    if (has_all()) {
+        thrown_ -= chunk_darts_;
+        const auto darts = darts_until(samples->back().order);
+        if (!darts) {
+            return darts.error();
+        }
+        thrown_ += *darts;
+    }
+    report_.candidates = static_cast<std::uint32_t>(thrown_);
     report_.iterations = control_.iterations;
     report_.disks = control_.disks;
     report_.windows = wide(control_.windows_low, control_.windows_high);
@@ -565,8 +677,7 @@ SampleSet to_samples(const RunResult& result) {
     set.samples.reserve(result.samples.size());
     for (const gpu::SampleRec& record : result.samples) {
         set.samples.push_back(
-            {record.rank,
-             record.face,
+            {record.face,
              {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
     }
     return set;

@@ -66,14 +66,11 @@ struct RunMemory {
 class RunSource {
   public:
     virtual ~RunSource() = default;
-    /// Of all chunks.
-    virtual std::uint32_t candidates() const = 0;
+    virtual const Stages& stages() const = 0;
     /// Of device memory, about.
     virtual std::uint64_t bytes_per_candidate() const = 0;
     /// Samples to stop at; 0 for none.
     virtual std::uint32_t stop_count() const { return 0; }
-    /// Samples that there should be room for.
-    virtual double room() const = 0;
     virtual Result<RunPlan> plan(std::uint64_t pool_bytes) const = 0;
     virtual Result<WorkspaceNeeds> needs(const RunPlan& plan) const = 0;
     virtual Result<Job> make_job(const RunPlan& plan, const Workspace& workspace) const = 0;
@@ -86,14 +83,11 @@ class RunSource {
 class SurfaceSource : public RunSource {
   public:
     SurfaceSource(const Sampler& sampler, const PreparedMesh& mesh, const SampleParams& params)
-        : sampler_(sampler), mesh_(mesh), params_(params) {}
+        : sampler_(sampler), mesh_(mesh), params_(params), stages_(stages_of(mesh, params)) {}
 
-    std::uint32_t candidates() const override { return *pool_size(mesh_, params_); }
+    const Stages& stages() const override { return stages_; }
     std::uint64_t bytes_per_candidate() const override { return 16; }
     std::uint32_t stop_count() const override { return params_.stop_count; }
-    double room() const override {
-        return expected_count(effective_area(mesh_, params_), params_.min_distance);
-    }
     Result<RunPlan> plan(std::uint64_t pool_bytes) const override {
         return sampler_.plan_run(mesh_, params_, pool_bytes);
     }
@@ -104,7 +98,7 @@ class SurfaceSource : public RunSource {
         return sampler_.make_job(mesh_, params_, plan, workspace);
     }
     Result<std::vector<std::byte>> bytes(BufferRole role) const override {
-        std::vector<std::byte> bytes(sampler_.mesh_bytes_size(mesh_, role));
+        std::vector<std::byte> bytes(sampler_.mesh_bytes_size(mesh_, params_, role));
         if (!bytes.empty()) {
             if (auto written = sampler_.mesh_bytes(mesh_, params_, role, bytes); !written) {
                 return written.error();
@@ -120,6 +114,7 @@ class SurfaceSource : public RunSource {
     const Sampler& sampler_;
     const PreparedMesh& mesh_;
     const SampleParams& params_;
+    Stages stages_;
 };
 
 struct RunResult {

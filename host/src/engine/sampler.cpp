@@ -203,14 +203,15 @@ Result<Done> Sampler::Impl::create_pipeline(Kernel kernel) {
     return Done{};
 }
 
-std::size_t Sampler::mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) const noexcept {
+std::size_t Sampler::mesh_bytes_size(const PreparedMesh& mesh, const SampleParams& params,
+                                     BufferRole role) const noexcept {
     switch (role) {
     case BufferRole::faces:
         return face_bytes(mesh);
     case BufferRole::fans:
         return fan_bytes(mesh, impl_->adaptive);
-    case BufferRole::alias:
-        return alias_bytes(mesh);
+    case BufferRole::keys:
+        return key_bytes(params);
     default:
         return 0;
     }
@@ -219,7 +220,7 @@ std::size_t Sampler::mesh_bytes_size(const PreparedMesh& mesh, BufferRole role) 
 Result<Done> Sampler::mesh_bytes(const PreparedMesh& mesh, const SampleParams& params,
                                  BufferRole role, std::span<std::byte> out) const noexcept {
     return guarded([&]() -> Result<Done> {
-        if (out.size() != mesh_bytes_size(mesh, role) || out.empty()) {
+        if (out.size() != mesh_bytes_size(mesh, params, role) || out.empty()) {
             return Error{Status::invalid_argument, "not a mesh buffer, or not of its size"};
         }
         if (auto checked = impl_->check_radii(params); !checked) {
@@ -235,9 +236,7 @@ Result<Done> Sampler::mesh_bytes(const PreparedMesh& mesh, const SampleParams& p
         case BufferRole::fans:
             return write_fans(mesh, params, out);
         default:
-            write_alias(params.radii != nullptr ? params.radii->alias_columns()
-                                                : mesh.alias_columns(),
-                        out);
+            write_keys(params, out);
             return Done{};
         }
     });

@@ -50,8 +50,8 @@ struct Sampler::Impl {
 };
 
 /// A descriptor set of a job: a kernel over the workspace, or a scan kernel over another buffer.
-enum class SetRole : std::uint32_t { workspace, cell_scan };
-inline constexpr std::size_t kSetRoles = 2;
+enum class SetRole : std::uint32_t { workspace, cell_scan, start_scan, bucket_scan };
+inline constexpr std::size_t kSetRoles = 4;
 
 class StageClock;
 
@@ -63,18 +63,26 @@ struct Job::Impl {
     Workspace workspace{};
     /// Of the workspace's buffers that some kernel reads as texels.
     std::array<VkBufferView, kBufferRoles> views{};
-    std::uint32_t most_slots = 0;      ///< What the slot and control buffers hold.
-    std::uint32_t most_candidates = 0; ///< What the buffers of candidates hold.
-    std::uint32_t most_steps = 0;      ///< Steps that a dispatch of detect may safely take.
+    std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
+    std::uint32_t most_steps = 0; ///< Steps that a dispatch of detect may safely take.
+    Stages stages;
+    double samples_per_measure = 0; ///< Expected, per unit of area or volume.
     RunPlan plan;
     gpu::Push push{};
 
-    /// Writes the descriptor sets of a workspace that is large enough. `push` is what the plan does
-    /// not tell.
+    /// What a domain tells of a job besides its push block.
+    struct OfJob {
+        Stages stages;
+        double samples_per_measure;
+        std::uint32_t most_steps;
+    };
+    /// Writes the descriptor sets of a workspace that is large enough. `push` is what neither the
+    /// plan nor the stages tell.
     static Result<Job> open(const Sampler::Impl& sampler, const RunPlan& plan,
-                            const Workspace& workspace, const gpu::Push& push,
-                            std::uint32_t most_steps);
+                            const Workspace& workspace, const gpu::Push& push, const OfJob& of);
+    void begin_stages(std::uint32_t first, std::uint32_t count);
     static Impl& of(Job& job) { return *job.impl_; }
+    static const Impl& of(const Job& job) { return *job.impl_; }
     ~Impl();
     Result<Done> write_sets();
     Result<VkBufferView> create_view(std::size_t buffer, const BufferRange& range) const;
@@ -83,6 +91,10 @@ struct Job::Impl {
     void write_buffer(std::size_t buffer) const;
     Result<Done> replace_buffer(std::size_t buffer, const BufferRange& range);
     void apply_plan(const RunPlan& new_plan);
+    /// Counts the candidates of lower order into ControlRec::below; none may be active.
+    void record_count(VkCommandBuffer commands, std::uint32_t end_order) const;
+    /// Sets out the first batch anew, after a change of the push block.
+    void record_restart(VkCommandBuffer commands) const;
 };
 
 /// Work groups for `count` invocations, folded over two dimensions where one is not enough.

@@ -110,7 +110,7 @@ Result<Done> Runner::Impl::check_rounding() {
     write.pBufferInfo = &buffer;
     vk.vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
     gpu::Push push{};
-    push.candidates = kVectors;
+    push.scan_count = kVectors;
     const auto record = [&](VkCommandBuffer commands) {
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_impl.pipelines[k]);
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,

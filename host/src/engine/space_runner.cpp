@@ -54,9 +54,8 @@ Result<SampleSet> SpaceRunner::sample_and_wait(const MeshView& view, const Prepa
                                                const SampleParams& params,
                                                const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SampleSet> {
-        const auto candidates = pool_size(mesh, params);
-        if (!candidates) {
-            return candidates.error();
+        if (auto checked = pool_size(mesh, params); !checked) {
+            return checked.error();
         }
         if (params.radii != nullptr) {
             return Error{Status::invalid_argument,
@@ -65,7 +64,7 @@ Result<SampleSet> SpaceRunner::sample_and_wait(const MeshView& view, const Prepa
         if (auto checked = check_view(view, mesh); !checked) {
             return checked.error();
         }
-        const SpaceSource source(impl_->engine(), view, mesh, params, *candidates,
+        const SpaceSource source(impl_->engine(), view, mesh, params,
                                  impl_->memory_for_candidates());
         if (!(source.guard({}) <= kWidestGuard)) {
             return Error{Status::invalid_argument,

@@ -60,14 +60,14 @@ std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
 
 } // namespace
 
-SpaceFrame::SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
-                       std::uint32_t candidates)
+SpaceFrame::SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params)
     : normals(vertex_normals(view)) {
     box.min_distance = params.min_distance;
     box.seed = params.seed;
     // Of darts, too.
+    const Stages stages = stages_of(mesh, params);
     box.pool_ratio =
-        candidates / std::max(1.0, expected_count(mesh.statistics().area, params.min_distance));
+        (stages.throws != 0 ? stages.throws : stages.pool()) / std::max(1.0, stages.samples);
     box.extents.assign(3, 0);
     vertices.resize(view.positions.size() / 3);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -97,12 +97,13 @@ double SpaceFrame::guard() const {
 }
 
 SpaceSource::SpaceSource(const Sampler::Impl& sampler, const MeshView& view,
-                         const PreparedMesh& mesh, SpaceFrame frame, std::uint32_t candidates,
-                         VkDeviceSize memory, std::uint32_t stop_count)
-    : BoxSource(sampler, frame.box, candidates, memory,
+                         const PreparedMesh& mesh, const SampleParams& params, SpaceFrame frame,
+                         VkDeviceSize memory)
+    : BoxSource(sampler, frame.box, memory,
                 {sampler.takes_curves ? 6u : 3u, // Normals as well.
-                 kInDisk * frame.box.pool_ratio, frame.guard(), stop_count}),
-      view_(view), mesh_(mesh), frame_(std::move(frame)) {}
+                 kInDisk * frame.box.pool_ratio, frame.guard(), finest_axes(frame.box),
+                 stages_of(mesh, params), samples_per_area(), params.stop_count}),
+      view_(view), mesh_(mesh), params_(params), frame_(std::move(frame)) {}
 
 std::size_t SpaceSource::corner_bytes() const {
     return std::size_t{mesh_.face_count()} * gpu::kSpaceRows * 16;
@@ -114,19 +115,12 @@ Result<WorkspaceNeeds> SpaceSource::needs(const RunPlan& plan) const {
         return needs;
     }
     needs->bytes[gpu::kBindFaces] = corner_bytes();
-    needs->bytes[gpu::kBindAlias] = alias_bytes(mesh_);
-    const std::string what = "for " + std::to_string(candidates_) + " candidates and " +
+    const std::string what = "for " + std::to_string(capacity(plan)) + " candidates and " +
                              std::to_string(mesh_.face_count()) + " faces in space";
     if (auto checked = check_needs(*needs, what, sampler_.report); !checked) {
         return checked.error();
     }
     return needs;
-}
-
-gpu::Push SpaceSource::push() const {
-    gpu::Push push = BoxSource::push();
-    push.faces = mesh_.face_count();
-    return push;
 }
 
 Result<std::vector<std::byte>> SpaceSource::bytes(BufferRole role) const {
@@ -138,11 +132,13 @@ Result<std::vector<std::byte>> SpaceSource::bytes(BufferRole role) const {
             std::memcpy(bytes.data() + row * 16, frame_.vertices[vertex].data(), 12);
             std::memcpy(bytes.data() + (row + 3) * 16, frame_.normals[vertex].data(), 12);
         }
-        return bytes;
-    }
-    if (role == BufferRole::alias) {
-        std::vector<std::byte> bytes(alias_bytes(mesh_));
-        write_alias(mesh_.alias_columns(), bytes);
+        for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
+            std::byte* const row = bytes.data() + std::size_t{face} * gpu::kSpaceRows * 16;
+            const float area = face_area(mesh_, params_, face);
+            const std::uint32_t key = params_.face_keys.empty() ? face : params_.face_keys[face];
+            std::memcpy(row + 12, &area, 4);
+            std::memcpy(row + 28, &key, 4);
+        }
         return bytes;
     }
     return BoxSource::bytes(role);

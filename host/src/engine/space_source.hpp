@@ -18,33 +18,31 @@ struct SpaceFrame {
     std::vector<std::array<std::uint32_t, 3>> vertices;
     std::vector<std::array<float, 3>> normals; ///< Of the vertices.
 
-    SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
-               std::uint32_t candidates);
+    SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params);
     /// Of conflicts, in minimum distances; covers that candidates are rounded to the frame.
     double guard() const;
 };
 
 class SpaceSource : public BoxSource {
   public:
-    /// `candidates` is pool_size() of the mesh. `view`, `mesh`, and the sampler, made for surfaces
-    /// in space, must outlive the source.
+    /// `view`, `mesh`, `params` and the sampler, made for surfaces in space, must outlive the
+    /// source.
     SpaceSource(const Sampler::Impl& sampler, const MeshView& view, const PreparedMesh& mesh,
-                const SampleParams& params, std::uint32_t candidates, VkDeviceSize memory)
-        : SpaceSource(sampler, view, mesh, SpaceFrame(view, mesh, params, candidates), candidates,
-                      memory, params.stop_count) {}
+                const SampleParams& params, VkDeviceSize memory)
+        : SpaceSource(sampler, view, mesh, params, SpaceFrame(view, mesh, params), memory) {}
 
     Result<WorkspaceNeeds> needs(const RunPlan& plan) const override;
     Result<std::vector<std::byte>> bytes(BufferRole role) const override;
 
   private:
     SpaceSource(const Sampler::Impl& sampler, const MeshView& view, const PreparedMesh& mesh,
-                SpaceFrame frame, std::uint32_t candidates, VkDeviceSize memory,
-                std::uint32_t stop_count);
-    gpu::Push push() const override;
+                const SampleParams& params, SpaceFrame frame, VkDeviceSize memory);
+    std::uint64_t drawn_by() const override { return mesh_.face_count(); }
     std::size_t corner_bytes() const;
 
     const MeshView& view_;
     const PreparedMesh& mesh_;
+    const SampleParams& params_;
     SpaceFrame frame_;
 };
 

@@ -13,7 +13,7 @@ constexpr std::uint32_t kQueries = 4096;
 } // namespace
 
 const char* to_string(Stage stage) noexcept {
-    constexpr const char* kNames[kStages] = {"draw",   "bin",     "select",
+    constexpr const char* kNames[kStages] = {"count",  "bin",     "draw",  "select",
                                              "detect", "resolve", "gather"};
     return kNames[static_cast<std::size_t>(stage)];
 }

@@ -91,9 +91,8 @@ bool repeats_vertex(std::span<const std::uint32_t> face) {
 
 /// Fills in all faces, their edges by `place(f, edges)`, block by block.
 template <typename Place>
-UninitializedVector<double>
-place_all(std::span<const std::uint32_t> triangles, UninitializedVector<HalfEdge>& half_edges,
-          UninitializedVector<Link>& links, MeshStatistics& statistics, const Place& place) {
+void place_all(std::span<const std::uint32_t> triangles, UninitializedVector<HalfEdge>& half_edges,
+               UninitializedVector<Link>& links, MeshStatistics& statistics, const Place& place) {
     const std::size_t faces = triangles.size() / 3;
     half_edges.resize(triangles.size());
     links.resize(triangles.size());
@@ -132,24 +131,22 @@ place_all(std::span<const std::uint32_t> triangles, UninitializedVector<HalfEdge
         statistics.longest_edge = std::max(statistics.longest_edge, block.longest_edge);
     }
     statistics.area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    return areas;
 }
 
 template <std::size_t kAxes>
-UninitializedVector<double>
-place_vertices(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-               UninitializedVector<Link>& links, MeshStatistics& statistics) {
+void place_vertices(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
+                    UninitializedVector<Link>& links, MeshStatistics& statistics) {
     const std::size_t faces = mesh.triangles.size() / 3;
     constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
-    return place_all(
-        mesh.triangles, half_edges, links, statistics, [&](std::size_t f, HalfEdge(&edges)[3]) {
-            if (f + kAhead < faces) {
-                for (const std::uint32_t v : mesh.triangles.subspan(3 * (f + kAhead), 3)) {
-                    prefetch(&mesh.positions[std::size_t{v} * mesh.dimension]);
-                }
-            }
-            place_face<kAxes>(mesh, mesh.triangles.subspan(3 * f, 3), edges);
-        });
+    place_all(mesh.triangles, half_edges, links, statistics,
+              [&](std::size_t f, HalfEdge(&edges)[3]) {
+                  if (f + kAhead < faces) {
+                      for (const std::uint32_t v : mesh.triangles.subspan(3 * (f + kAhead), 3)) {
+                          prefetch(&mesh.positions[std::size_t{v} * mesh.dimension]);
+                      }
+                  }
+                  place_face<kAxes>(mesh, mesh.triangles.subspan(3 * f, 3), edges);
+              });
 }
 
 /// Twice the area of a triangle with these sides, 0 where they only just reach each other or, by
@@ -186,29 +183,25 @@ void place_apex(double next, double previous, double twice_area, HalfEdge& edge)
 
 } // namespace
 
-UninitializedVector<double> place_faces(const MeshView& mesh,
-                                        UninitializedVector<HalfEdge>& half_edges,
-                                        UninitializedVector<Link>& links,
-                                        MeshStatistics& statistics) {
-    return mesh.dimension <= 3 ? place_vertices<3>(mesh, half_edges, links, statistics)
-                               : place_vertices<8>(mesh, half_edges, links, statistics);
+void place_faces(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
+                 UninitializedVector<Link>& links, MeshStatistics& statistics) {
+    mesh.dimension <= 3 ? place_vertices<3>(mesh, half_edges, links, statistics)
+                        : place_vertices<8>(mesh, half_edges, links, statistics);
 }
 
-UninitializedVector<double> place_faces(const LengthMeshView& mesh,
-                                        UninitializedVector<HalfEdge>& half_edges,
-                                        UninitializedVector<Link>& links,
-                                        MeshStatistics& statistics) {
-    return place_all(mesh.triangles, half_edges, links, statistics,
-                     [&](std::size_t f, HalfEdge(&edges)[3]) {
-                         const auto lengths = mesh.lengths.subspan(3 * f, 3);
-                         const double twice_area = double_area(lengths[0], lengths[1], lengths[2]);
-                         for (std::uint32_t k = 0; k < 3; ++k) {
-                             edges[k].length = lengths[k];
-                             place_apex(lengths[next_in_face(k)], lengths[previous_in_face(k)],
-                                        twice_area, edges[k]);
-                             place_angle(edges[k]);
-                         }
-                     });
+void place_faces(const LengthMeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
+                 UninitializedVector<Link>& links, MeshStatistics& statistics) {
+    place_all(mesh.triangles, half_edges, links, statistics,
+              [&](std::size_t f, HalfEdge(&edges)[3]) {
+                  const auto lengths = mesh.lengths.subspan(3 * f, 3);
+                  const double twice_area = double_area(lengths[0], lengths[1], lengths[2]);
+                  for (std::uint32_t k = 0; k < 3; ++k) {
+                      edges[k].length = lengths[k];
+                      place_apex(lengths[next_in_face(k)], lengths[previous_in_face(k)], twice_area,
+                                 edges[k]);
+                      place_angle(edges[k]);
+                  }
+              });
 }
 
 } // namespace geodisk

@@ -9,18 +9,14 @@
 namespace geodisk {
 
 /// Fills `half_edges` with the half-edges of all faces and everything that the face alone
-/// determines, and `links` with their links, each alone; returns the faces' areas and adds up
-/// `area`, `longest_edge`, `triangles`, `zero_area_faces` and `repeated_index_faces`.
+/// determines, and `links` with their links, each alone; adds up `area`, `longest_edge`,
+/// `triangles`, `zero_area_faces` and `repeated_index_faces`.
 ///
 /// A face that names a vertex twice gets neither lengths nor area: its sides must neither widen the
 /// tolerances nor take cells. The mesh must have passed check_mesh().
-UninitializedVector<double> place_faces(const MeshView& mesh,
-                                        UninitializedVector<HalfEdge>& half_edges,
-                                        UninitializedVector<Link>& links,
-                                        MeshStatistics& statistics);
-UninitializedVector<double> place_faces(const LengthMeshView& mesh,
-                                        UninitializedVector<HalfEdge>& half_edges,
-                                        UninitializedVector<Link>& links,
-                                        MeshStatistics& statistics);
+void place_faces(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
+                 UninitializedVector<Link>& links, MeshStatistics& statistics);
+void place_faces(const LengthMeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
+                 UninitializedVector<Link>& links, MeshStatistics& statistics);
 
 } // namespace geodisk

@@ -6,7 +6,6 @@
 #include <new>
 #include <vector>
 
-#include "mesh/alias_table.hpp"
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/face_frames.hpp"
@@ -119,8 +118,7 @@ Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh) {
     PreparedMesh result;
     MeshStatistics& statistics = result.statistics_;
     UninitializedVector<Link> links;
-    const UninitializedVector<double> areas =
-        place_faces(mesh, result.half_edges_, links, statistics);
+    place_faces(mesh, result.half_edges_, links, statistics);
     result.fans_.resize(vertices_of(mesh));
     connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
     const auto extent = measure_extent(mesh, result.half_edges_, result.fans_, statistics);
@@ -130,7 +128,6 @@ Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh) {
     if (!has_area(statistics.area, *extent)) {
         return Error{Status::mesh_rejected, "no face has area: all are degenerate"};
     }
-    result.alias_ = build_alias_table(areas, statistics.area);
     return result;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "mesh/alias_table.hpp"
 #include "mesh/inverse_square.hpp"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
@@ -77,21 +76,16 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
             field.factors_.push_back(values[edge.origin]);
             field.spreads_.push_back(spreads[edge.origin]);
         }
-        // Within a face, candidates are proposed in proportion to 1 / s^3, with s linear from
-        // spread to spread, and kept with probability s^3 / g^2. For 1 / g^2 in the end, this is
-        // the weight of the face.
-        std::vector<double> weights(mesh.face_count());
-        double total = 0;
+        field.densities_.reserve(mesh.face_count());
         for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
             const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * f];
             const double area = 0.5 * edge.length * edge.apex_y;
             const float* const g = &field.factors_[std::size_t{3} * f];
-            const float* const s = &field.spreads_[std::size_t{3} * f];
-            weights[f] = area / (double{s[0]} * double{s[1]} * double{s[2]});
-            total += weights[f];
-            field.effective_area_ += area * mean_inverse_square(g[0], g[1], g[2]);
+            const double density = mean_inverse_square(g[0], g[1], g[2]);
+            field.densities_.push_back(static_cast<float>(density));
+            field.largest_density_ = std::max(field.largest_density_, field.densities_.back());
+            field.effective_area_ += area * density;
         }
-        field.alias_ = build_alias_table(weights, total);
         return field;
     });
 }

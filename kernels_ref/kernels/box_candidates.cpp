@@ -1,0 +1,241 @@
+#include "kernels/box_candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "geodisk/params.hpp"
+#include "geodisk/uninitialized.hpp"
+#include "kernels/dart_order.hpp"
+#include "kernels/poisson.hpp"
+#include "lib/rng.hpp"
+
+namespace geodisk::ref {
+namespace {
+
+constexpr std::uint64_t kWholeAxis = std::uint64_t{1} << 32;
+/// In the counters of a cell's own seed.
+constexpr std::uint32_t kCellCounter = 0xB0C5;
+/// Where a candidate's counter has its index, that of the cell's count has this.
+constexpr std::uint32_t kCountCounter = 0xffffffff;
+/// Sides shorter than a step of the unit count as that.
+constexpr double kShortestSide = 0x1p-31;
+constexpr double kMinimumPool = 64;
+/// Samples to a box of side D far from any border, by dimension (host/docs/boxes.md).
+constexpr double kDensities[gpu::kMostAxes] = {0.726, 0.601, 0.540, 0.523, 0.545, 0.597};
+
+/// A width or length as 32 bits hold it.
+std::uint32_t wrapped(std::uint64_t steps) {
+    return static_cast<std::uint32_t>(steps);
+}
+
+LatticeAxis periodic_axis(double extent, double unit) {
+    const double cells = std::max(1.0, std::floor(extent / unit));
+    const auto count = static_cast<std::uint32_t>(cells);
+    const std::uint64_t width = kWholeAxis / count;
+    return {extent * 0x1p-32, kWholeAxis, count, wrapped(width),
+            wrapped(kWholeAxis - (count - 1) * width)};
+}
+
+/// How many bits of a coordinate make a unit.
+int unit_bits(double side) {
+    if (side < 1) {
+        return 31;
+    }
+    return side < 65536 ? 16 : 16 - static_cast<int>(std::ceil(std::log2(side / 65536)));
+}
+
+LatticeAxis open_axis(double extent, double unit) {
+    const int bits = unit_bits(extent / unit);
+    const double length = std::max(1.0, std::floor(std::ldexp(extent / unit, bits)));
+    const auto steps = static_cast<std::uint64_t>(length);
+    const std::uint64_t width = std::uint64_t{1} << bits;
+    const std::uint64_t cells = (steps + width - 1) / width;
+    return {std::ldexp(unit, -bits), steps, static_cast<std::uint32_t>(cells), wrapped(width),
+            wrapped(steps - (cells - 1) * width)};
+}
+
+/// In units of the lattice, to the power of the dimension.
+double volume_of(const BoxParams& box) {
+    const double unit = box_unit(box);
+    double volume = 1;
+    for (const double side : box.extents) {
+        volume *= std::max(side / unit, kShortestSide);
+    }
+    return volume;
+}
+
+/// Samples expected per unit of volume. More than their density in short boxes, whose borders
+/// hold more; by a power of two, so that boxes of about one size have the same candidates.
+double sample_density(BoxParams box, double volume) {
+    box.min_distance = box_unit(box);
+    const double density = kDensities[box.extents.size() - 1];
+    const double more = std::log2(expected_count(box) / (density * volume));
+    return density * std::exp2(std::max(0.0, std::round(more)));
+}
+
+using Cell = std::array<std::uint32_t, gpu::kMostAxes>;
+
+std::uint64_t seed_of(const std::array<std::uint32_t, 4>& words) {
+    return words[0] | std::uint64_t{words[1]} << 32;
+}
+
+std::uint64_t cell_seed(std::uint64_t seed, const Cell& cell, std::size_t dimension) {
+    const std::uint64_t first = seed_of(philox(seed, {cell[0], cell[1], cell[2], kCellCounter}));
+    return dimension > 3 ? seed_of(philox(first, {cell[3], cell[4], cell[5], kCellCounter}))
+                         : first;
+}
+
+std::uint32_t width_of(const LatticeAxis& axis, std::uint32_t cell) {
+    return cell + 1 == axis.cells ? axis.last_width : axis.width;
+}
+
+float float_of(std::uint32_t width) {
+    return width == 0
+               ? 4294967296.0f
+               : static_cast<float>(width >> 16) * 65536.0f + static_cast<float>(width & 65535u);
+}
+
+/// Candidates that a cell expects in a stage.
+float mean_of(const BoxLattice& lattice, std::span<const float> steps, const Cell& cell,
+              float intensity) {
+    float mean = intensity;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        mean = mean * (float_of(width_of(lattice.axes[i], cell[i])) * steps[i]);
+    }
+    return mean;
+}
+
+struct Draw {
+    std::uint32_t priority;
+    BoxPoint point;
+};
+
+Draw draw_candidate(const BoxLattice& lattice, const Cell& cell, std::uint64_t seed,
+                    std::uint32_t stage, std::uint32_t k) {
+    const std::size_t dimension = lattice.axes.size();
+    const auto first = philox(seed, {k, stage, 0, 0});
+    std::array<std::uint32_t, 4> second{};
+    if (dimension > 3) {
+        second = philox(seed, {k, stage, 1, 0});
+    }
+    const BoxPoint words{first[1], first[2], first[3], second[0], second[1], second[2]};
+    Draw draw{first[0] >> (32 - kPriorityBits), {}};
+    for (std::size_t i = 0; i < dimension; ++i) {
+        const LatticeAxis& axis = lattice.axes[i];
+        const std::uint32_t width = width_of(axis, cell[i]);
+        const std::uint32_t inside =
+            width == 0 ? words[i]
+                       : static_cast<std::uint32_t>(std::uint64_t{words[i]} * width >> 32);
+        draw.point[i] = cell[i] * axis.width + inside;
+    }
+    return draw;
+}
+
+/// The cell after another one, the first axis running fastest.
+void advance(Cell& cell, const BoxLattice& lattice) {
+    for (std::size_t i = 0; i < lattice.axes.size() && ++cell[i] == lattice.axes[i].cells; ++i) {
+        cell[i] = 0;
+    }
+}
+
+/// The candidates of a pool as they are drawn, and the darts of each stage.
+struct Drawn {
+    std::vector<BoxPoint> points;
+    std::vector<std::vector<Dart>> stages;
+};
+
+Drawn draw_cells(const BoxParams& box, const BoxLattice& lattice) {
+    const float intensity = stage_intensity(box);
+    std::vector<float> steps;
+    for (std::size_t i = 0; i < lattice.axes.size(); ++i) {
+        steps.push_back(static_cast<float>(lattice.relative_step(i)));
+    }
+    Drawn drawn{{}, std::vector<std::vector<Dart>>(pool_stages(box))};
+    // A little more than there will be, most often.
+    const double expected = 1.01 * static_cast<double>(intensity) * volume_of(box);
+    drawn.points.reserve(static_cast<std::size_t>(expected) * drawn.stages.size());
+    for (std::vector<Dart>& stage : drawn.stages) {
+        stage.reserve(static_cast<std::size_t>(expected));
+    }
+    Cell cell{};
+    for (std::uint64_t i = lattice.cell_count(); i > 0; --i, advance(cell, lattice)) {
+        const std::uint64_t seed = cell_seed(box.seed, cell, lattice.axes.size());
+        const float mean = mean_of(lattice, steps, cell, intensity);
+        for (std::uint32_t stage = 0; stage < drawn.stages.size(); ++stage) {
+            const auto random = philox(seed, {kCountCounter, stage, 0, 0});
+            const std::uint32_t count = poisson(mean, random[0], random[1]);
+            for (std::uint32_t k = 0; k < count; ++k) {
+                const Draw draw = draw_candidate(lattice, cell, seed, stage, k);
+                const auto number = static_cast<std::uint32_t>(drawn.points.size());
+                drawn.stages[stage].push_back(make_dart(draw.priority, number));
+                drawn.points.push_back(draw.point);
+            }
+        }
+    }
+    return drawn;
+}
+
+} // namespace
+
+double box_unit(const BoxParams& box) {
+    const double longest = *std::max_element(box.extents.begin(), box.extents.end());
+    double sum = 0;
+    for (const double side : box.extents) {
+        sum += (side / longest) * (side / longest);
+    }
+    return std::min(box.min_distance, 1.01 * longest * std::sqrt(sum));
+}
+
+BoxLattice::BoxLattice(const BoxParams& box) : unit(box_unit(box)), is_periodic(box.is_periodic) {
+    for (const double extent : box.extents) {
+        axes.push_back(box.is_periodic ? periodic_axis(extent, unit) : open_axis(extent, unit));
+    }
+}
+
+BoxLattice BoxLattice::finest(const BoxParams& box) {
+    BoxLattice lattice(box);
+    for (std::size_t i = 0; i < lattice.axes.size(); ++i) {
+        lattice.axes[i] = {box.extents[i] * 0x1p-32, kWholeAxis, 1, 0, 0};
+    }
+    return lattice;
+}
+
+std::uint64_t BoxLattice::cell_count() const {
+    std::uint64_t count = 1;
+    for (const LatticeAxis& axis : axes) {
+        count *= axis.cells;
+    }
+    return count;
+}
+
+std::uint32_t pool_stages(const BoxParams& box) {
+    const double volume = volume_of(box);
+    const double samples = sample_density(box, volume) * volume;
+    return Stages{samples, std::max(box.pool_ratio, kMinimumPool / samples), 0}.pool_stages();
+}
+
+float stage_intensity(const BoxParams& box) {
+    const double volume = volume_of(box);
+    const double density = sample_density(box, volume);
+    const double ratio = std::max(box.pool_ratio, kMinimumPool / (density * volume));
+    return static_cast<float>(ratio / pool_stages(box) * density);
+}
+
+BoxCandidates draw_in_box(const BoxParams& box) {
+    Drawn drawn = draw_cells(box, BoxLattice(box));
+    BoxCandidates candidates;
+    candidates.points.reserve(drawn.points.size());
+    candidates.words.reserve(drawn.points.size());
+    UninitializedVector<Dart> scratch;
+    for (std::uint32_t stage = 0; stage < drawn.stages.size(); ++stage) {
+        scratch.resize(drawn.stages[stage].size());
+        for (const Dart dart : sort_darts(drawn.stages[stage], scratch)) {
+            candidates.points.push_back(drawn.points[candidate_of(dart)]);
+            candidates.words.push_back(order_word(stage, priority_of(dart)));
+        }
+    }
+    return candidates;
+}
+
+} // namespace geodisk::ref

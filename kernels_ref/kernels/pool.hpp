@@ -1,0 +1,39 @@
+// The candidates of a job: drawn face by face, in cells, and listed in dart order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geodisk/params.hpp"
+#include "kernels/bins.hpp"
+#include "lib/surface.hpp"
+
+namespace geodisk::ref {
+
+/// A candidate's rank is its position in dart order: by stage, priority, face and weights.
+template <class Real>
+struct Pool {
+    Bins<Real> bins;
+    std::vector<std::uint32_t> words;  ///< In the order of the bins, see order_word().
+    std::vector<std::uint32_t> places; ///< In the bins, by rank.
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(places.size()); }
+    FacePoint<Real> candidate(std::uint32_t rank) const { return bins.points[places[rank]]; }
+    std::uint32_t word(std::uint32_t rank) const { return words[places[rank]]; }
+    std::vector<FacePoint<Real>> by_rank() const;
+    /// The ranks, in the order of the bins.
+    std::vector<std::uint32_t> ranks() const;
+};
+
+/// All candidates of `stages` stages of a job on `mesh`, from `first` on. `surface` is that of the
+/// mesh and the parameters.
+template <class Real>
+Pool<Real> draw_stages(const Surface<Real>& surface, const PreparedMesh& mesh,
+                       const SampleParams& params, std::uint32_t first, std::uint32_t stages);
+
+/// All candidates of a job: the stages of a pool, or its first `params.throws` darts.
+template <class Real>
+Pool<Real> draw_pool(const Surface<Real>& surface, const PreparedMesh& mesh,
+                     const SampleParams& params);
+
+} // namespace geodisk::ref

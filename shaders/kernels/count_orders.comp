@@ -1,0 +1,32 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// How many candidates come before push.end_order, where darts are counted. To be run while none is
+// active. kSelectBlock candidates to a work group.
+// reads: orders   writes: control
+
+#include "../lib/prelude.glsl"
+
+layout(local_size_x = kWideLanes) in;
+
+GEODISK_WORDS(kBindOrders, orders);
+GEODISK_CONTROL;
+
+shared uint group_below;
+
+void main() {
+    if (gl_LocalInvocationID.x == 0u) {
+        group_below = 0u;
+    }
+    barrier();
+    uint begin = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kSelectBlock;
+    uint end = min(begin + kSelectBlock, min(control.drawn, push.capacity));
+    uint below = 0u;
+    for (uint place = begin + gl_LocalInvocationID.x; place < end; place += kWideLanes) {
+        below += word_at(orders, place) < push.end_order ? 1u : 0u;
+    }
+    atomicAdd(group_below, below);
+    barrier();
+    if (gl_LocalInvocationID.x == 0u) {
+        atomicAdd(control.below, group_below);
+    }
+}

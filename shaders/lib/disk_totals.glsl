@@ -1,0 +1,46 @@
+// What the disks completed in a dispatch took, summed over each work group before it goes to the
+// control record.
+#ifndef GEODISK_DISK_TOTALS_GLSL
+#define GEODISK_DISK_TOTALS_GLSL
+
+struct DiskTotals {
+    uint disks;
+    uint windows;
+    uint tested;
+    uint most_waiting;
+    uint most_vertices;
+    uint most_conflicts;
+};
+
+const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u);
+
+DiskTotals own_disks; // of this invocation
+shared DiskTotals group_disks;
+
+// Every invocation of the group must call it.
+void sum_disks() {
+    bool is_first = gl_LocalInvocationID.x == 0u;
+    if (is_first) {
+        group_disks = kNoDisks;
+    }
+    barrier();
+    if (own_disks.disks > 0u) {
+        atomicAdd(group_disks.disks, own_disks.disks);
+        atomicAdd(group_disks.windows, own_disks.windows);
+        atomicAdd(group_disks.tested, own_disks.tested);
+        atomicMax(group_disks.most_waiting, own_disks.most_waiting);
+        atomicMax(group_disks.most_vertices, own_disks.most_vertices);
+        atomicMax(group_disks.most_conflicts, own_disks.most_conflicts);
+    }
+    barrier();
+    if (is_first && group_disks.disks > 0u) {
+        atomicAdd(control.disks, group_disks.disks);
+        GEODISK_ADD_WIDE(control.windows_low, control.windows_high, group_disks.windows)
+        GEODISK_ADD_WIDE(control.tested_low, control.tested_high, group_disks.tested)
+        atomicMax(control.most_waiting, group_disks.most_waiting);
+        atomicMax(control.most_vertices, group_disks.most_vertices);
+        atomicMax(control.most_conflicts, group_disks.most_conflicts);
+    }
+}
+
+#endif

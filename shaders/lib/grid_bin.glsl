@@ -1,0 +1,19 @@
+// Counts the candidates of every head of a grid's table of cells, one entry behind that of the head, see
+// bin.comp. Needs draw_point(unit, number, record).
+#ifndef GEODISK_GRID_BIN_GLSL
+#define GEODISK_GRID_BIN_GLSL
+
+#include "each_drawn.glsl"
+#include "grid_head.glsl"
+
+GEODISK_BUFFER(kBindCells, coherent, uint, cells);
+
+void visit(uint unit, uint number) {
+    uvec4 record;
+    uint point[kMostAxes] = draw_point(unit, number - word_at(starts, unit), record);
+    atomicAdd(cells[head_of(point) + 1u], 1u);
+}
+
+void main() { visit_each(); }
+
+#endif
