@@ -99,8 +99,9 @@ struct Sides {
 struct Setup {
     double count, ratio, pool_ratio;
 
+    /// At least as many as a device takes.
     std::uint32_t slots() const {
-        return static_cast<std::uint32_t>(std::clamp(count / ratio, 1.0, 4e9));
+        return static_cast<std::uint32_t>(std::clamp(count / ratio, double{kLeastSlots}, 4e9));
     }
 };
 

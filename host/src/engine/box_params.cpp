@@ -106,7 +106,8 @@ Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
     }
     const Stages stages = stages_of(box);
     if (!(stages.per_sample(0) * samples_per_volume(box) <= kLargestIntensity)) {
-        return invalid("sides of the box are too short beside the minimum distance; leave them out");
+        return invalid(
+            "sides of the box are too short beside the minimum distance; leave them out");
     }
     const double wanted = std::ceil(stages.pool());
     if (!(wanted <= kMostCandidates)) {
