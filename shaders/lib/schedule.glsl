@@ -83,11 +83,11 @@ void begin_batch() {
     if (!settled) {
         control.list_count = min(control.list_count, push.idle_capacity);
         control.list_end = min(control.list_end, control.list_left);
-        // Where too many were due, what is left is denser than it seemed: the next batch ends before
+        // By those just listed, or else by the batch. Where too many were due, the next one ends before
         // this one.
-        bool is_crowded = control.due > push.slots;
-        uint idle = control.due + (is_crowded ? 0u : control.waiting);
-        uint end = is_crowded ? control.batch_end : max(control.list_end, control.batch_end);
+        bool is_listed = control.mode == kSelectPool && control.due <= push.slots;
+        uint idle = control.due + (is_listed ? control.waiting : 0u);
+        uint end = is_listed ? max(control.list_end, control.batch_end) : control.batch_end;
         float span = float(end - control.first_order);
         precise float spacing = span / max(float(idle), 0.5);
         control.spacing = spacing;

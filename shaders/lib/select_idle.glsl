@@ -35,7 +35,7 @@ void select_settled(uint begin) {
     }
 }
 
-uint place_at(uint index) { return control.mode == kSelectPool ? index : list[index]; }
+uint place_at(uint index) { return control.mode == kSelectPool ? index : list[2u * index]; }
 
 void give_slots(uint first, uint bits) {
     if (bits == 0u) {
@@ -66,7 +66,8 @@ void list_idle(uint first, uint bits) {
         uint place = first + uint(findLSB(bits)) * kWideLanes;
         bits &= bits - 1u;
         if (at < push.idle_capacity) {
-            list[at] = place;
+            list[2u * at] = place;
+            list[2u * at + 1u] = orders[place];
         } else {
             atomicMin(control.list_left, orders[place]);
         }
@@ -78,18 +79,22 @@ void select_idle(uint begin) {
     bool from_pool = control.mode == kSelectPool;
     uint count = from_pool ? control.drawn : control.list_count;
     uint first = begin + gl_LocalInvocationID.x;
+    uint first_order = control.first_order;
     uint batch_end = control.batch_end;
-    uint list_end = control.list_end;
+    uint last = from_pool ? control.list_end : batch_end;
     uint due = 0u;
     uint idle = 0u;
     uint end = min(begin + kSelectBlock, count);
     uint bit = 1u;
     for (uint index = first; index < end; index += kWideLanes) {
-        uint place = from_pool ? index : list[index];
-        uint order = orders[place];
-        bool is_idle = order < list_end && (states[place] & kStateMask) == kIdle;
-        idle |= is_idle ? bit : 0u;
-        due |= is_idle && order < batch_end ? bit : 0u;
+        // States lie far apart, so only those that matter are looked at.
+        uint order = from_pool ? orders[index] : list[2u * index + 1u];
+        if (order >= first_order && order < last) {
+            uint place = from_pool ? index : list[2u * index];
+            bool is_idle = (states[place] & kStateMask) == kIdle;
+            idle |= is_idle ? bit : 0u;
+            due |= is_idle && order < batch_end ? bit : 0u;
+        }
         bit <<= 1;
     }
     if (from_pool) {

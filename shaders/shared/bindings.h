@@ -33,7 +33,8 @@ GEODISK_CONST uint kBindStarts = 7u;     // for each face or box cell, stage by 
 GEODISK_CONST uint kBindPool = 8u;       // a slice per lane: LaneRec, windows, events, vertex table;
                                          // then a list of conflicts per slot
 GEODISK_CONST uint kBindControl = 9u;    // ControlRec, then SlotRec per slot of an active candidate
-GEODISK_CONST uint kBindList = 10u;      // places of candidates that were idle and come next
+GEODISK_CONST uint kBindList = 10u;      // candidates that were idle and come next, a pair of place and
+                                         // order each
 GEODISK_CONST uint kBindSums = 11u;      // block sums of the scans
 GEODISK_CONST uint kBindSamples = 12u;   // SampleRec per accepted candidate, in dart order
 GEODISK_CONST uint kBindAccepted = 13u;  // the same as they were accepted

@@ -93,7 +93,7 @@ struct ControlRec {
     uint list_left;        // lowest order that the list had no room for
     uint first_left;       // lowest order that found no slot; slots of no lower one are void
     uint due;              // candidates that asked for a slot
-    uint waiting;          // idle candidates in the list that are not due
+    uint waiting;          // idle candidates just listed that are not due
     uint selected_groups;  // work groups of select that are done
     float spacing;         // orders for each idle candidate
     uint next_sample;      // every lower one of the settled samples has rejected or is about to

@@ -345,7 +345,7 @@ WorkspaceNeeds needs_of_run(std::uint64_t capacity, std::uint64_t units, std::ui
     needs.bytes[gpu::kBindPool] = plan.pool_bytes();
     needs.bytes[gpu::kBindControl] =
         sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
-    needs.bytes[gpu::kBindList] = std::uint64_t{plan.idle_capacity} * 4;
+    needs.bytes[gpu::kBindList] = std::uint64_t{plan.idle_capacity} * 8;
     needs.bytes[gpu::kBindSums] = blocks_of(scanned) * 4;
     const auto samples = sample_bytes(plan.sample_capacity, buckets);
     needs.bytes[gpu::kBindSamples] = samples[0];
