@@ -53,6 +53,19 @@ void prepare_select() {
     control.count_x = 0u;
 }
 
+// Sets out what comes next, if anything does and there is room for its samples.
+void go_on() {
+    bool is_enough = control.accepted >= push.stop_count || control.drawn == 0u;
+    bool settled = control.next_sample < control.settled;
+    if (is_enough || (!settled && control.first_order >= push.end_order)) {
+        control.done = 1u;
+    } else if (control.accepted + push.slots > push.sample_capacity) {
+        atomicOr(control.overflow, kOverflowSamples);
+    } else {
+        prepare_select();
+    }
+}
+
 // Goes on behind a batch that is decided, or was empty.
 void end_batch() {
     if (control.mode == kSelectSettled) {
@@ -64,15 +77,7 @@ void end_batch() {
     control.groups_x = 0u;
     control.count_x = 0u;
     control.slots_used = 0u;
-    bool is_enough = control.accepted >= push.stop_count;
-    bool settled = control.next_sample < control.settled;
-    if (is_enough || (!settled && control.first_order >= push.end_order)) {
-        control.done = 1u;
-    } else if (control.accepted + push.slots > push.sample_capacity) {
-        atomicOr(control.overflow, kOverflowSamples);
-    } else {
-        prepare_select();
-    }
+    go_on();
 }
 
 // Begins the batch that select has put into the slots.
@@ -128,14 +133,7 @@ void begin_chunk(uint drawn) {
     control.first_order = 0u;
     control.list_end = 0u;
     control.next_sample = 0u;
-    bool is_enough = control.accepted >= push.stop_count;
-    if (drawn == 0u || is_enough) {
-        control.done = 1u;
-    } else if (control.accepted + push.slots > push.sample_capacity) {
-        atomicOr(control.overflow, kOverflowSamples);
-    } else {
-        prepare_select();
-    }
+    go_on();
 }
 
 #endif

@@ -241,7 +241,7 @@ void check_finishes_in_box(const RunPlan& plan, bool is_tight = false) {
     }
     std::vector<std::array<double, 3>> points;
     for (const gpu::SampleRec& s : finish_often(run, ref::pool_stages(box))) {
-        sample_point(box, s, points.emplace_back());
+        sample_point(box.seed, draw_axes(box), s, points.emplace_back());
     }
     const ref::BoxPool<float> pool(box);
     const ref::BoxLattice lattice(box);

@@ -146,7 +146,7 @@ struct Twin {
     /// Whether these are the words of the sample that a candidate becomes.
     bool is_sample(std::uint32_t rank, const gpu::SampleRec& record) const {
         std::vector<double> point(box.extents.size());
-        sample_point(box, record, point);
+        sample_point(box.seed, draw_axes(box), record, point);
         const auto stage = std::bit_cast<std::uint32_t>(record.weight2);
         return record.order == candidates.words[rank] &&
                stage == record.order >> gpu::kPriorityBits &&

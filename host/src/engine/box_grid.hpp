@@ -47,8 +47,8 @@ DrawAxes finest_axes(const BoxParams& box) noexcept;
 Stages stages_of(const BoxParams& box) noexcept;
 double samples_per_volume(const BoxParams& box) noexcept;
 
-/// The coordinates of a sample of a box.
-void sample_point(const BoxParams& box, const gpu::SampleRec& sample,
+/// The coordinates of a sample of a box whose draw_axes() these are; as many as the box has sides.
+void sample_point(std::uint64_t seed, const DrawAxes& axes, const gpu::SampleRec& sample,
                   std::span<double> point) noexcept;
 
 /// Cells at least half a distance wide, in a table of about as many heads as there are cells, or

@@ -147,12 +147,11 @@ Stages stages_of(const BoxParams& box) noexcept {
     return {samples, std::max(box.pool_ratio, kMinimumPool / samples), 0};
 }
 
-void sample_point(const BoxParams& box, const gpu::SampleRec& sample,
+void sample_point(std::uint64_t job_seed, const DrawAxes& axes, const gpu::SampleRec& sample,
                   std::span<double> point) noexcept {
     const auto number = std::bit_cast<std::uint32_t>(sample.weight1);
     const auto stage = std::bit_cast<std::uint32_t>(sample.weight2);
-    const std::size_t n = box.extents.size();
-    const DrawAxes axes = draw_axes(box);
+    const std::size_t n = point.size();
     std::array<std::uint32_t, kMostBoxDimensions> at{};
     std::uint32_t cell = sample.face;
     for (std::size_t i = 0; i < n; ++i) {
@@ -162,7 +161,7 @@ void sample_point(const BoxParams& box, const gpu::SampleRec& sample,
     const auto seed_of = [](const std::array<std::uint32_t, 4>& words) {
         return words[0] | std::uint64_t{words[1]} << 32;
     };
-    std::uint64_t seed = seed_of(philox(box.seed, {at[0], at[1], at[2], gpu::kCellSeed}));
+    std::uint64_t seed = seed_of(philox(job_seed, {at[0], at[1], at[2], gpu::kCellSeed}));
     if (n > 3) {
         seed = seed_of(philox(seed, {at[3], at[4], at[5], gpu::kCellSeed}));
     }

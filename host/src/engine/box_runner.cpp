@@ -59,8 +59,9 @@ Result<BoxSampleSet> BoxRunner::sample_and_wait(const BoxParams& box,
         }
         BoxSampleSet set{dimension(), {}, result->report};
         set.points.resize(result->samples.size() * dimension());
+        const DrawAxes axes = draw_axes(box);
         for (std::size_t i = 0; i < result->samples.size(); ++i) {
-            sample_point(box, result->samples[i],
+            sample_point(box.seed, axes, result->samples[i],
                          std::span(set.points).subspan(i * dimension(), dimension()));
         }
         return set;

@@ -111,8 +111,7 @@ Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& 
     return static_cast<std::uint32_t>(cells);
 }
 
-float face_area(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face) {
-    const double unit = working_distance(mesh, params);
+float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
     const float height = previous_length(mesh, 3 * face, unit) * direction(edge.sine);
     return 0.5f * (scaled(edge.length, unit) * height);

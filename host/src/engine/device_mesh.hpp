@@ -14,8 +14,8 @@ namespace geodisk {
 /// Cells of all faces together; more than 2^30 is an error naming the face.
 Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& params);
 
-/// The area of a face in units of the working distance, as kernels compute it.
-float face_area(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face);
+/// The area of a face in units of working_distance(), which is `unit`, as kernels compute it.
+float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit);
 
 std::size_t face_bytes(const PreparedMesh& mesh);
 /// With a row of radii per face in a run of varying ones.

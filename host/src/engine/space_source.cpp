@@ -132,9 +132,10 @@ Result<std::vector<std::byte>> SpaceSource::bytes(BufferRole role) const {
             std::memcpy(bytes.data() + row * 16, frame_.vertices[vertex].data(), 12);
             std::memcpy(bytes.data() + (row + 3) * 16, frame_.normals[vertex].data(), 12);
         }
+        const double unit = working_distance(mesh_, params_);
         for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
             std::byte* const row = bytes.data() + std::size_t{face} * gpu::kSpaceRows * 16;
-            const float area = face_area(mesh_, params_, face);
+            const float area = face_area(mesh_, face, unit);
             const std::uint32_t key = params_.face_keys.empty() ? face : params_.face_keys[face];
             std::memcpy(row + 12, &area, 4);
             std::memcpy(row + 28, &key, 4);
