@@ -28,6 +28,7 @@ GEODISK_CONTROL;
 uint at_hand[kMostAtHand];
 uint hands;
 uint decided; // by this invocation
+uint fewer;   // idle or active candidates
 
 // One that nothing blocks any more, or for good. Without room it waits for its own invocation.
 void take_up(uint slot) {
@@ -66,7 +67,10 @@ void tell(uint other, bool is_rejected) {
 }
 
 // An idle candidate in the disk of an accepted one.
-void reject(uint place) { atomicOr(states[place], kRejected); }
+void reject(uint place) {
+    bool is_first = (atomicOr(states[place], kRejected) & kStateMask) != kRejected;
+    fewer += is_first ? 1u : 0u;
+}
 
 // One that was active when it was listed. Its order word is its slot; or its order again, once it is
 // decided, or was found to be void, which is idle.
@@ -90,6 +94,7 @@ void finish(uint slot, bool is_rejected) {
     if (place == kNoPlace) {
         return;
     }
+    ++fewer;
     atomicXor(states[place], kActive ^ (is_rejected ? kRejected : kAccepted));
     if (!kCountCalls) {
         orders[place] = slots[slot].order;
@@ -167,8 +172,12 @@ void main() {
     uint slot = gl_GlobalInvocationID.x;
     hands = 0u;
     decided = 0u;
+    fewer = 0u;
     if (slot < control.slots_used && control.incomplete == 0u) {
         decide_from(slot);
+    }
+    if (fewer > 0u) {
+        atomicAdd(control.idle, 0u - fewer);
     }
     memoryBarrierBuffer();
     // Whoever decides the last one sets out the next batch.

@@ -34,7 +34,8 @@ DrawCell load_draw_cell(uint cell) {
     return c;
 }
 
-uint count_in_cell(uint cell, uint stage) {
+// How many a cell expects in each stage.
+float mean_count(uint cell) {
     DrawCell c = load_draw_cell(cell);
     float mean = push.intensity;
     for (uint i = 0u; i < kDimension; ++i) {
@@ -44,7 +45,13 @@ uint count_in_cell(uint cell, uint stage) {
         precise float less = mean * (steps * load_axis(i).unit);
         mean = less;
     }
-    uvec4 random = philox(c.seed, uvec4(kCountNumber, push.first_stage + stage, 0u, 0u));
+    return mean;
+}
+
+// How many it has that expects so many.
+uint count_of(uint cell, uint stage, float mean) {
+    uvec4 random =
+        philox(load_draw_cell(cell).seed, uvec4(kCountNumber, push.first_stage + stage, 0u, 0u));
     return poisson(mean, random.x, random.y);
 }
 

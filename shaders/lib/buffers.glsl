@@ -34,6 +34,17 @@
 #define own_row_at(name, i) name[i]
 #endif
 
+// Words that are read, by word_before, before any invocation of the dispatch writes them.
+#ifdef GEODISK_TEXELS
+#define GEODISK_WORDS_BEFORE(number, texels_number, name)                                          \
+    layout(set = 0, binding = number, std430) buffer name##_buffer { uint name[]; };               \
+    layout(set = 0, binding = texels_number) uniform usamplerBuffer name##_texels
+#define word_before(name, i) texelFetch(name##_texels, int(i)).x
+#else
+#define GEODISK_WORDS_BEFORE(number, texels_number, name) GEODISK_BUFFER(number, , uint, name)
+#define word_before(name, i) name[i]
+#endif
+
 // The run's record with the slots behind it; shared by all work groups of a dispatch, so only atomics
 // touch what another invocation may write.
 #define GEODISK_CONTROL                                                                            \

@@ -52,14 +52,14 @@ Candidate draw_candidate(uint face, uint stage, uint number) {
     return c;
 }
 
-// How many candidates a face of this area has.
-uint count_candidates(uint face, uint stage, float area) {
+// How many candidates a face of this area expects in each stage.
+float mean_in(uint face, float area) {
     precise float mean = push.intensity * area;
     if (kAdaptive) {
         precise float denser = mean * face_spreads(face).w;
         mean = denser;
     }
-    return count_of(face, stage, mean);
+    return mean;
 }
 
 #endif

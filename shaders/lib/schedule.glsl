@@ -5,16 +5,26 @@
 
 layout(constant_id = kSpecLocalSize) const uint kSlotLocalSize = 64u;
 
-// Of the list of idle candidates, filled on average.
-const float kListFill = 0.8;
+GEODISK_BUFFER(kBindList, , uint, list);
+
+// Of the places of the list of idle candidates, filled on average.
+const float kListFill = 0.75;
 
 uint groups_of_slots(uint count) { return (count + kSlotLocalSize - 1u) / kSlotLocalSize; }
 
-// The order up to which so many idle candidates are expected, from `order` on.
-uint order_after(uint order, float idle) {
-    precise float ahead = idle * control.spacing;
-    float left = float(push.end_order - order);
-    return ahead >= left ? push.end_order : order + max(uint(ahead), 1u);
+// Ranges of orders that the list is kept by.
+uint list_ranges() { return (push.idle_capacity + kListRange - 1u) / kListRange; }
+// Where the places of a range lie in the list: behind the number of them.
+uint list_head(uint range) { return range * (kListRange + 1u); }
+
+// The order up to which so many idle candidates are expected, from `first` on: disks reject them
+// whatever their order.
+uint order_after(uint first, float idle) {
+    precise float spacing = float((push.stages << kPriorityBits) - first) /
+                            max(float(control.idle), 1.0);
+    precise float ahead = idle * spacing;
+    float left = float(push.end_order - first);
+    return ahead >= left ? push.end_order : first + max(uint(ahead), 1u);
 }
 
 // So few that mostly all of them find a slot: one that finds none cuts the batch short.
@@ -23,27 +33,50 @@ float wanted_idle() {
     return wanted;
 }
 
+// An end for orders from `first` on, which so many idle candidates are expected to be below.
+uint end_after(uint first, float idle) {
+    return first + min(order_after(first, idle) - first, control.longest_span);
+}
+
+// Sets select out on all candidates, to list the idle ones from `first` on anew.
+void prepare_list(uint first) {
+    uint ranges = list_ranges();
+    precise float filled = kListFill * float(ranges * kListRange);
+    control.list_end = end_after(first, filled);
+    control.list_first = first;
+    control.list_width = (control.list_end - first - 1u) / ranges + 1u;
+    control.list_left = kNoOrder;
+    for (uint range = 0u; range < ranges; ++range) {
+        list[list_head(range)] = 0u;
+    }
+}
+
 // Sets the next select out on the batch after first_order.
 void prepare_select() {
-    bool settled = control.next_sample < control.settled;
     uint first = control.first_order;
-    uint mode = settled ? kSelectSettled : (first < control.list_end ? kSelectList : kSelectPool);
-    if (mode == kSelectPool) {
-        control.list_end = order_after(first, kListFill * float(push.idle_capacity));
-        control.list_count = 0u;
-        control.list_left = kNoOrder;
+    uint groups;
+    if (control.next_sample < control.settled) {
+        control.mode = kSelectSettled;
+        groups = (push.slots + kSelectBlock - 1u) / kSelectBlock;
+    } else {
+        uint end = end_after(first, wanted_idle());
+        bool is_fresh = control.list_first == first && control.list_end > first;
+        if (end > control.list_end && !is_fresh) {
+            control.mode = kSelectPool;
+            prepare_list(first);
+            groups = (control.drawn + kSelectBlock - 1u) / kSelectBlock;
+        } else {
+            control.mode = kSelectList;
+            control.batch_end = min(end, control.list_end);
+            control.first_range = (first - control.list_first) / control.list_width;
+            uint last = (control.batch_end - 1u - control.list_first) / control.list_width;
+            groups = last - control.first_range + 1u;
+        }
     }
-    control.mode = mode;
-    control.batch_end = min(order_after(first, wanted_idle()), control.list_end);
     control.first_left = kNoOrder;
     control.due = 0u;
-    control.waiting = 0u;
     control.selected_groups = 0u;
     control.slots_used = 0u;
-    uint count = mode == kSelectSettled ? push.slots
-                                        : (mode == kSelectList ? control.list_count : control.drawn);
-    // One at least: it also goes on where the list is empty.
-    uint groups = max((count + kSelectBlock - 1u) / kSelectBlock, 1u);
     uint rows = (groups + 65534u) / 65535u;
     control.select_x = (groups + rows - 1u) / rows;
     control.select_y = rows;
@@ -80,23 +113,17 @@ void end_batch() {
     go_on();
 }
 
+// Where not even the first candidate found room, the next batch or list spans less.
+void limit_span(bool is_stuck, uint end) {
+    uint span = end - control.first_order;
+    control.longest_span = is_stuck ? max(span / 2u, 1u) : kNoOrder;
+}
+
 // Begins the batch that select has put into the slots.
 void begin_batch() {
-    bool settled = control.mode == kSelectSettled;
     uint used = min(control.due, push.slots);
     control.select_x = 0u;
-    if (!settled) {
-        control.list_count = min(control.list_count, push.idle_capacity);
-        control.list_end = min(control.list_end, control.list_left);
-        // By those just listed, or else by the batch. Where too many were due, the next one ends before
-        // this one.
-        bool is_listed = control.mode == kSelectPool && control.due <= push.slots;
-        uint idle = control.due + (is_listed ? control.waiting : 0u);
-        uint end = is_listed ? max(control.list_end, control.batch_end) : control.batch_end;
-        float span = float(end - control.first_order);
-        precise float spacing = span / max(float(idle), 0.5);
-        control.spacing = spacing;
-    }
+    limit_span(control.first_left <= control.first_order, control.batch_end);
     if (used == 0u) {
         end_batch();
         return;
@@ -118,6 +145,18 @@ void begin_batch() {
     control.count_z = 1u;
 }
 
+// What comes after select: a batch from the list that it has filled, or the batch that it has put into
+// the slots.
+void go_on_selected() {
+    if (control.mode == kSelectPool) {
+        limit_span(control.list_left <= control.first_order, control.list_end);
+        control.list_end = min(control.list_end, control.list_left);
+        prepare_select();
+    } else {
+        begin_batch();
+    }
+}
+
 // Begins a chunk with so many candidates.
 void begin_chunk(uint drawn) {
     control.abi = kAbi;
@@ -127,9 +166,8 @@ void begin_chunk(uint drawn) {
         atomicOr(control.overflow, kOverflowCandidates);
         return;
     }
-    precise float spacing =
-        float(push.stages << kPriorityBits) / max(float(drawn), 0.5);
-    control.spacing = spacing;
+    control.idle = drawn;
+    control.longest_span = kNoOrder;
     control.first_order = 0u;
     control.list_end = 0u;
     control.next_sample = 0u;

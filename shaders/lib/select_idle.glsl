@@ -1,21 +1,24 @@
 // Readies the slots for the next batch (paper section 4.2): all idle candidates below some order, or
-// samples of earlier chunks, whose disks are to reject candidates of this one. kSelectBlock entries of
-// the pool, of the list, or of the samples to a work group; the last group to be done begins the batch.
+// samples of earlier chunks, whose disks are to reject candidates of this one. Idle candidates are
+// found in a list by ranges of their orders, which a dispatch of its own fills now and then. To a work
+// group goes a range, or kSelectBlock candidates or samples; the last one to be done sets out what
+// comes next.
 // Needs sample_at(place, order), the four words of a sample, and settle_point(slot, record).
 #ifndef GEODISK_SELECT_IDLE_GLSL
 #define GEODISK_SELECT_IDLE_GLSL
 
-layout(local_size_x = kWideLanes) in;
+layout(local_size_x = kSelectLanes) in;
 
-GEODISK_BUFFER(kBindStates, , uint, states);
-GEODISK_BUFFER(kBindOrders, , uint, orders);
-GEODISK_BUFFER(kBindList, , uint, list);
+GEODISK_WORDS_BEFORE(kBindStates, kBindStatesTexels, states);
+GEODISK_WORDS_BEFORE(kBindOrders, kBindOrdersTexels, orders);
 GEODISK_BUFFER(kBindSamples, readonly, uvec4, samples);
 GEODISK_CONTROL;
 
 #include "schedule.glsl"
 
-shared uint group_waiting;
+shared uint group_places[kListRange]; // of candidates that are due
+shared uint group_due;
+shared uint group_slot;               // of the first of them
 
 void fill_slot(uint slot, uint place, uvec4 record) {
     slots[slot] = SlotRec(place, kSlotReady, 0u, 0u, record.x, record.y, record.z, record.w, 0u, 0u,
@@ -25,7 +28,7 @@ void fill_slot(uint slot, uint place, uvec4 record) {
 void select_settled(uint begin) {
     uint taken = min(push.slots, control.settled - control.next_sample);
     uint end = min(begin + kSelectBlock, taken);
-    for (uint slot = begin + gl_LocalInvocationID.x; slot < end; slot += kWideLanes) {
+    for (uint slot = begin + gl_LocalInvocationID.x; slot < end; slot += kSelectLanes) {
         uvec4 record = samples[control.next_sample + slot];
         fill_slot(slot, kNoPlace, record);
         settle_point(slot, record);
@@ -35,17 +38,66 @@ void select_settled(uint begin) {
     }
 }
 
-uint place_at(uint index) { return control.mode == kSelectPool ? index : list[2u * index]; }
+bool is_idle(uint place) { return (word_before(states, place) & kStateMask) == kIdle; }
 
-void give_slots(uint first, uint bits) {
-    if (bits == 0u) {
-        return;
+void list_one(uint place, uint order) {
+    uint head = list_head((order - control.list_first) / control.list_width);
+    uint at = atomicAdd(list[head], 1u);
+    if (at < kListRange) {
+        list[head + 1u + at] = place;
+    } else {
+        atomicMin(control.list_left, order);
     }
-    uint slot = atomicAdd(control.due, uint(bitCount(bits)));
+}
+
+// Lists the idle ones of a block of all candidates. States lie far apart, so only those are read whose
+// orders matter.
+void list_idle(uint begin) {
+    uint end = min(begin + kSelectBlock, control.drawn);
+    uint first_order = control.list_first;
+    uint list_end = control.list_end;
+    for (uint first = begin + gl_LocalInvocationID.x; first < end; first += 32u * kSelectLanes) {
+        uint bits = 0u;
+        uint place = first;
+        for (uint i = 0u; i < 32u && place < end; ++i) {
+            uint order = word_before(orders, place);
+            bits |= order >= first_order && order < list_end ? 1u << i : 0u;
+            place += kSelectLanes;
+        }
+        while (bits != 0u) {
+            place = first + uint(findLSB(bits)) * kSelectLanes;
+            bits &= bits - 1u;
+            if (is_idle(place)) {
+                list_one(place, word_before(orders, place));
+            }
+        }
+    }
+}
+
+// Finds those of a range of the list that are due.
+void find_due(uint head) {
+    uint count = min(list[head], kListRange);
+    uint first = head + 1u + gl_LocalInvocationID.x;
+    uint bits = 0u;
+    for (uint i = 0u; i * kSelectLanes + gl_LocalInvocationID.x < count; ++i) {
+        uint place = list[first + i * kSelectLanes];
+        uint order = word_before(orders, place);
+        bool is_due = order >= control.first_order && order < control.batch_end && is_idle(place);
+        bits |= is_due ? 1u << i : 0u;
+    }
+    uint at = atomicAdd(group_due, uint(bitCount(bits)));
     while (bits != 0u) {
-        uint place = place_at(first + uint(findLSB(bits)) * kWideLanes);
-        uint order = orders[place];
+        group_places[at] = list[first + uint(findLSB(bits)) * kSelectLanes];
         bits &= bits - 1u;
+        ++at;
+    }
+}
+
+void give_slots() {
+    for (uint i = gl_LocalInvocationID.x; i < group_due; i += kSelectLanes) {
+        uint slot = group_slot + i;
+        uint place = group_places[i];
+        uint order = orders[place];
         if (slot < push.slots) {
             fill_slot(slot, place, sample_at(place, order));
             states[place] |= kActive;
@@ -53,80 +105,37 @@ void give_slots(uint first, uint bits) {
         } else {
             atomicMin(control.first_left, order);
         }
-        ++slot;
     }
-}
-
-void list_idle(uint first, uint bits) {
-    if (bits == 0u) {
-        return;
-    }
-    uint at = atomicAdd(control.list_count, uint(bitCount(bits)));
-    while (bits != 0u) {
-        uint place = first + uint(findLSB(bits)) * kWideLanes;
-        bits &= bits - 1u;
-        if (at < push.idle_capacity) {
-            list[2u * at] = place;
-            list[2u * at + 1u] = orders[place];
-        } else {
-            atomicMin(control.list_left, orders[place]);
-        }
-        ++at;
-    }
-}
-
-void select_idle(uint begin) {
-    bool from_pool = control.mode == kSelectPool;
-    uint count = from_pool ? control.drawn : control.list_count;
-    uint first = begin + gl_LocalInvocationID.x;
-    uint first_order = control.first_order;
-    uint batch_end = control.batch_end;
-    uint last = from_pool ? control.list_end : batch_end;
-    uint due = 0u;
-    uint idle = 0u;
-    uint end = min(begin + kSelectBlock, count);
-    uint bit = 1u;
-    for (uint index = first; index < end; index += kWideLanes) {
-        // States lie far apart, so only those that matter are looked at.
-        uint order = from_pool ? orders[index] : list[2u * index + 1u];
-        if (order >= first_order && order < last) {
-            uint place = from_pool ? index : list[2u * index];
-            bool is_idle = (states[place] & kStateMask) == kIdle;
-            idle |= is_idle ? bit : 0u;
-            due |= is_idle && order < batch_end ? bit : 0u;
-        }
-        bit <<= 1;
-    }
-    if (from_pool) {
-        list_idle(first, idle);
-    }
-    atomicAdd(group_waiting, uint(bitCount(idle & ~due)));
-    give_slots(first, due);
 }
 
 void main() {
-    if (gl_LocalInvocationID.x == 0u) {
-        group_waiting = 0u;
+    bool is_first = gl_LocalInvocationID.x == 0u;
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint mode = control.mode;
+    if (is_first) {
+        group_due = 0u;
     }
     barrier();
-    uint begin = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kSelectBlock;
-    if (control.mode == kSelectSettled) {
-        select_settled(begin);
+    if (mode == kSelectSettled) {
+        select_settled(group * kSelectBlock);
+    } else if (mode == kSelectPool) {
+        list_idle(group * kSelectBlock);
     } else {
-        select_idle(begin);
+        find_due(list_head(control.first_range + group));
     }
     barrier();
-    if (gl_LocalInvocationID.x == 0u) {
-        atomicAdd(control.waiting, group_waiting);
+    if (is_first) {
+        group_slot = atomicAdd(control.due, group_due);
     }
+    barrier();
+    give_slots();
     memoryBarrierBuffer();
     barrier();
     uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    bool is_last = gl_LocalInvocationID.x == 0u &&
-                   atomicAdd(control.selected_groups, 1u) == groups - 1u;
+    bool is_last = is_first && atomicAdd(control.selected_groups, 1u) == groups - 1u;
     memoryBarrierBuffer();
     if (is_last) {
-        begin_batch();
+        go_on_selected();
     }
 }
 

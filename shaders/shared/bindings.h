@@ -33,16 +33,18 @@ GEODISK_CONST uint kBindStarts = 7u;     // for each face or box cell, stage by 
 GEODISK_CONST uint kBindPool = 8u;       // a slice per lane: LaneRec, windows, events, vertex table;
                                          // then a list of conflicts per slot
 GEODISK_CONST uint kBindControl = 9u;    // ControlRec, then SlotRec per slot of an active candidate
-GEODISK_CONST uint kBindList = 10u;      // candidates that were idle and come next, a pair of place and
-                                         // order each
+GEODISK_CONST uint kBindList = 10u;      // candidates that come next: for each range of orders how many
+                                         // there are, then kListRange places
 GEODISK_CONST uint kBindSums = 11u;      // block sums of the scans
 GEODISK_CONST uint kBindSamples = 12u;   // SampleRec per accepted candidate, in dart order
 GEODISK_CONST uint kBindAccepted = 13u;  // the same as they were accepted
 GEODISK_CONST uint kBindBuckets = 14u;   // while samples are put in order: where the samples of each
                                          // range of orders start; then the samples by range
-// The pool a second time, as a texel buffer, see lib/buffers.glsl.
+// Buffers a second time, as texel buffers, see lib/buffers.glsl.
 GEODISK_CONST uint kBindPoolTexels = 15u;
-GEODISK_CONST uint kBindCount = 16u;
+GEODISK_CONST uint kBindStatesTexels = 16u;
+GEODISK_CONST uint kBindOrdersTexels = 17u;
+GEODISK_CONST uint kBindCount = 18u;
 
 GEODISK_END_SHARED
 

@@ -127,7 +127,7 @@ GEODISK_CONST uint kScanPerRow = 12u;      // candidates
 GEODISK_CONST uint kIterationsPerTrip =
     1u + kCornersPerTrip + 3u * kMostProbes + 6u + kRowsPerTrip * (1u + kScanPerRow);
 // A step: once every few trips a lane that is done takes its next slot.
-GEODISK_CONST uint kTripsPerStep = 8u;
+GEODISK_CONST uint kTripsPerStep = 16u;
 GEODISK_CONST uint kClearPerStep = 64u;    // rows of the vertex table
 GEODISK_CONST uint kBlocksPerStep = 16u;   // active conflicts of a complete disk
 GEODISK_CONST uint kIterationsPerStep =
@@ -176,9 +176,13 @@ GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
 // many each, side by side.
 GEODISK_CONST uint kWideLanes = 128u;
 GEODISK_CONST uint kDrawPerLane = 8u;
-GEODISK_CONST uint kSelectPerLane = 32u;
 GEODISK_CONST uint kDrawBlock = 1024u;
+// Of select: few lanes, since most of a group's have no candidate to put into a slot.
+GEODISK_CONST uint kSelectLanes = 32u;
 GEODISK_CONST uint kSelectBlock = 4096u;
+// Places for a range of orders in the list of idle candidates.
+GEODISK_CONST uint kListRange = 256u;
+GEODISK_CONST uint kMostListed = 0x800000u;
 
 // Words that one work group of the scan covers: so many lanes, so many words each.
 GEODISK_CONST uint kScanLanes = 128u;

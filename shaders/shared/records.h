@@ -89,13 +89,15 @@ struct ControlRec {
     uint first_order;      // all of lower order are decided or active
     uint batch_end;        // idle candidates of lower order are due
     uint list_end;         // the list holds all idle candidates from first_order up to it
-    uint list_count;
+    uint list_first;       // from this order on; the list is kept by ranges of orders
+    uint list_width;       // of a range
     uint list_left;        // lowest order that the list had no room for
+    uint first_range;      // that select goes through
+    uint longest_span;     // most orders of a batch
     uint first_left;       // lowest order that found no slot; slots of no lower one are void
     uint due;              // candidates that asked for a slot
-    uint waiting;          // idle candidates just listed that are not due
     uint selected_groups;  // work groups of select that are done
-    float spacing;         // orders for each idle candidate
+    uint idle;             // candidates not decided, nor active
     uint next_sample;      // every lower one of the settled samples has rejected or is about to
     uint slots_used;       // slots of the active batch
     uint next_slot;        // the first that no lane has taken yet
@@ -143,7 +145,7 @@ static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 264 && offsetof(ControlRec, calls_high) == 260);
+static_assert(sizeof(ControlRec) == 272 && offsetof(ControlRec, calls_high) == 268);
 } // namespace geodisk::gpu
 #endif
 

@@ -157,7 +157,8 @@ struct RunPlan {
     std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
     std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it.
     std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
-    std::uint32_t idle_capacity = 0;   ///< Candidates found at once that come next.
+    std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
+                                       ///< at most 2^23.
 
     /// A lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;

@@ -75,22 +75,23 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 /// What the shaders rely on without looking.
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
     constexpr std::uint32_t kMost = 1u << 26;
-    const bool fine =
-        plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
-        std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
-        plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
-        plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
-        plan.detect_passes <= 4096 && plan.sample_capacity > plan.slots && plan.stages >= 1 &&
-        plan.stages <= gpu::kMostStages && plan.idle_capacity >= 1 && plan.idle_capacity <= kMost &&
-        plan.slots <= kMost && plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
-        plan.list_capacity <= kMost;
+    const bool fine = plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
+                      std::has_single_bit(plan.window_capacity) &&
+                      std::has_single_bit(plan.table_capacity) && plan.list_capacity >= 4 &&
+                      plan.list_capacity % 4 == 0 && plan.lanes >= 1 && plan.lanes <= kMost &&
+                      plan.step_budget >= 1 && plan.detect_passes >= 1 &&
+                      plan.detect_passes <= 4096 && plan.sample_capacity > plan.slots &&
+                      plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
+                      plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed &&
+                      plan.slots <= kMost && plan.window_capacity <= kMost &&
+                      plan.table_capacity <= kMost && plan.list_capacity <= kMost;
     if (!fine) {
         return Error{Status::invalid_argument,
                      "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
                      "detect_passes, stages and idle_capacity at least 1, stages at most 15, "
                      "sample_capacity more than slots, window_capacity and table_capacity powers "
                      "of two, list_capacity a "
-                     "multiple of 4, none of them 0 or more than 2^26"};
+                     "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
     }
     // Vulkan promises no more work groups.
     const std::uint64_t most_slots = std::uint64_t{65535} * tuning.slot_local_size;
@@ -143,7 +144,16 @@ std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
             return gpu::kBindBuckets;
         }
     }
-    return binding == gpu::kBindPoolTexels ? gpu::kBindPool : binding;
+    switch (binding) {
+    case gpu::kBindPoolTexels:
+        return gpu::kBindPool;
+    case gpu::kBindStatesTexels:
+        return gpu::kBindStates;
+    case gpu::kBindOrdersTexels:
+        return gpu::kBindOrders;
+    default:
+        return binding;
+    }
 }
 
 /// Whether some kernel reads this buffer as texels.

@@ -65,6 +65,7 @@ using namespace gpu;
 constexpr Access storage = Access::storage;
 constexpr Access read = Access::read;
 constexpr Access read_own = Access::read_own;
+constexpr Access read_before = Access::read_before;
 
 constexpr Binding kCount[] = {{kBindFaces, read},
                               {kBindFans, read},
@@ -82,24 +83,28 @@ constexpr Binding kBin[] = {{kBindFaces, read},
 constexpr Binding kDraw[] = {
     {kBindFaces, read},     {kBindFans, read},       {kBindKeys, read},      {kBindCells, storage},
     {kBindStates, storage}, {kBindWeights, storage}, {kBindOrders, storage}, {kBindStarts, read}};
-constexpr Binding kBeginChunk[] = {{kBindStarts, read}, {kBindControl, storage}};
-constexpr Binding kSelect[] = {
-    {kBindStates, storage},  {kBindWeights, read}, {kBindOrders, storage}, {kBindStarts, read},
-    {kBindControl, storage}, {kBindList, storage}, {kBindSamples, storage}};
+constexpr Binding kBeginChunk[] = {
+    {kBindStarts, read}, {kBindControl, storage}, {kBindList, storage}};
+constexpr Binding kSelect[] = {{kBindStates, storage},          {kBindWeights, read},
+                               {kBindOrders, storage},          {kBindStarts, read},
+                               {kBindControl, storage},         {kBindList, storage},
+                               {kBindSamples, storage},         {kBindStatesTexels, read_before},
+                               {kBindOrdersTexels, read_before}};
 constexpr Binding kDetect[] = {
     {kBindFaces, read},   {kBindFans, read},       {kBindCells, read},
     {kBindStates, read},  {kBindWeights, read},    {kBindOrders, read},
     {kBindPool, storage}, {kBindControl, storage}, {kBindPoolTexels, read_own}};
-constexpr Binding kResolve[] = {{kBindStates, storage},
-                                {kBindOrders, storage},
-                                {kBindPool, read},
-                                {kBindControl, storage},
-                                {kBindAccepted, storage}};
-constexpr Binding kCountCalls[] = {
-    {kBindStates, read}, {kBindOrders, storage}, {kBindPool, read}, {kBindControl, storage}};
+constexpr Binding kResolve[] = {{kBindStates, storage}, {kBindOrders, storage},
+                                {kBindPool, read},      {kBindControl, storage},
+                                {kBindList, storage},   {kBindAccepted, storage}};
+constexpr Binding kCountCalls[] = {{kBindStates, read},
+                                   {kBindOrders, storage},
+                                   {kBindPool, read},
+                                   {kBindControl, storage},
+                                   {kBindList, storage}};
 constexpr Binding kRewind[] = {
     {kBindStates, storage}, {kBindOrders, storage}, {kBindControl, storage}};
-constexpr Binding kResume[] = {{kBindControl, storage}};
+constexpr Binding kResume[] = {{kBindControl, storage}, {kBindList, storage}};
 constexpr Binding kCountOrders[] = {{kBindOrders, read}, {kBindControl, storage}};
 constexpr Binding kOrderCount[] = {
     {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
@@ -113,18 +118,32 @@ constexpr Binding kBoxBin[] = {{kBindAxes, read}, {kBindCells, storage}, {kBindS
 constexpr Binding kBoxDraw[] = {{kBindAxes, read},      {kBindCells, storage},
                                 {kBindStates, storage}, {kBindPoints, storage},
                                 {kBindOrders, storage}, {kBindStarts, read}};
-constexpr Binding kBoxSelect[] = {
-    {kBindAxes, read},   {kBindStates, storage},  {kBindPoints, storage}, {kBindOrders, storage},
-    {kBindStarts, read}, {kBindControl, storage}, {kBindList, storage},   {kBindSamples, storage}};
+constexpr Binding kBoxSelect[] = {{kBindAxes, read},
+                                  {kBindStates, storage},
+                                  {kBindPoints, storage},
+                                  {kBindOrders, storage},
+                                  {kBindStarts, read},
+                                  {kBindControl, storage},
+                                  {kBindList, storage},
+                                  {kBindSamples, storage},
+                                  {kBindStatesTexels, read_before},
+                                  {kBindOrdersTexels, read_before}};
 constexpr Binding kSpaceCount[] = {{kBindFaces, read}, {kBindStarts, storage}};
 constexpr Binding kSpaceBin[] = {
     {kBindFaces, read}, {kBindAxes, read}, {kBindCells, storage}, {kBindStarts, read}};
 constexpr Binding kSpaceDraw[] = {
     {kBindFaces, read},     {kBindAxes, read},      {kBindCells, storage}, {kBindStates, storage},
     {kBindPoints, storage}, {kBindOrders, storage}, {kBindStarts, read}};
-constexpr Binding kSpaceSelect[] = {
-    {kBindFaces, read},  {kBindStates, storage},  {kBindPoints, storage}, {kBindOrders, storage},
-    {kBindStarts, read}, {kBindControl, storage}, {kBindList, storage},   {kBindSamples, storage}};
+constexpr Binding kSpaceSelect[] = {{kBindFaces, read},
+                                    {kBindStates, storage},
+                                    {kBindPoints, storage},
+                                    {kBindOrders, storage},
+                                    {kBindStarts, read},
+                                    {kBindControl, storage},
+                                    {kBindList, storage},
+                                    {kBindSamples, storage},
+                                    {kBindStatesTexels, read_before},
+                                    {kBindOrdersTexels, read_before}};
 constexpr Binding kGridDetect[] = {
     {kBindAxes, read},   {kBindCells, read},   {kBindStates, read},    {kBindPoints, read},
     {kBindOrders, read}, {kBindPool, storage}, {kBindControl, storage}};

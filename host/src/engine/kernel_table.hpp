@@ -53,9 +53,11 @@ enum class Domain : std::uint8_t {
 
 /// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
 enum class Access : std::uint8_t {
-    storage,  ///< As a storage buffer.
-    read,     ///< Only reads it: as a texel buffer in the variant that reads texels.
-    read_own, ///< Reads back what the invocation wrote: a texel buffer, in that variant alone.
+    storage, ///< As a storage buffer.
+    read,    ///< Only reads it: as a texel buffer in the variant that reads texels.
+    /// Reads through a second binding, in the variant that reads texels alone:
+    read_own,    ///< what the invocation wrote;
+    read_before, ///< what nobody has written yet.
 };
 
 struct Binding {
@@ -86,13 +88,13 @@ const KernelInfo& kernel_info(Kernel kernel) noexcept;
 
 /// Whether a variant has a binding.
 constexpr bool has_binding(Access access, bool texels) noexcept {
-    return texels || access != Access::read_own;
+    return texels || access == Access::storage || access == Access::read;
 }
 
 constexpr VkDescriptorType descriptor_type(Access access, bool texels) noexcept {
     return !texels || access == Access::storage ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-           : access == Access::read             ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-                                                : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+           : access == Access::read_own         ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
+                                                : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 }
 
 /// The texels of the buffer with this number: words, or rows of four.

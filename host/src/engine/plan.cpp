@@ -33,8 +33,12 @@ constexpr double kLeastList = 8;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
 // Of candidates: deviations from what a stage expects that there is room for.
 constexpr double kDeviations = 8;
-// Idle candidates listed at once, for each slot: fewer lists, and longer ones to go through.
+// Slots left free on average, in square roots of their number.
+constexpr double kSlotMargin = 1.5;
+// Idle candidates listed at once, for each slot, and candidates for each of them: the more, the
+// fewer times all candidates are gone through.
 constexpr std::uint32_t kIdlePerSlot = 32;
+constexpr std::uint32_t kCandidatesPerIdle = 16;
 constexpr std::uint32_t kLeastIdle = 4096;
 // Candidates for each range of orders by which samples are sorted.
 constexpr std::uint32_t kCandidatesPerBucket = 16;
@@ -163,8 +167,10 @@ std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceRepo
     const double least =
         cpu ? std::clamp<double>(disks / 8, kLeastSlots, std::max(kLeastSlots, cpu_lanes(report)))
             : 64;
+    // Besides those that a batch aims at, see lib/schedule.glsl.
+    const double aim = disks / batches;
     const auto slots = static_cast<std::uint32_t>(
-        std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
+        std::clamp(aim + kSlotMargin * std::sqrt(aim), least, cpu ? kMostCpuSlots : kMostSlots));
     // No lane is to wait for the others with its last one.
     const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
     return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
@@ -184,7 +190,8 @@ std::uint32_t wanted_sample_capacity(double samples, std::uint32_t stop_count, s
 }
 
 std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) noexcept {
-    return std::clamp(kIdlePerSlot * slots, kLeastIdle, std::max(kLeastIdle, capacity));
+    const std::uint32_t wanted = std::max(kIdlePerSlot * slots, capacity / kCandidatesPerIdle);
+    return std::clamp(wanted, kLeastIdle, gpu::kMostListed);
 }
 
 std::uint32_t most_steps(const DeviceReport& report) noexcept {
@@ -345,7 +352,8 @@ WorkspaceNeeds needs_of_run(std::uint64_t capacity, std::uint64_t units, std::ui
     needs.bytes[gpu::kBindPool] = plan.pool_bytes();
     needs.bytes[gpu::kBindControl] =
         sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
-    needs.bytes[gpu::kBindList] = std::uint64_t{plan.idle_capacity} * 8;
+    const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
+    needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
     needs.bytes[gpu::kBindSums] = blocks_of(scanned) * 4;
     const auto samples = sample_bytes(plan.sample_capacity, buckets);
     needs.bytes[gpu::kBindSamples] = samples[0];

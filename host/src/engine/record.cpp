@@ -27,9 +27,8 @@ class Recorder {
         barrier_compute_to_compute(sampler_.vk, commands_);
     }
 
-    void dispatch_per_unit(Kernel kernel) {
-        const std::uint64_t units = std::uint64_t{job_.push.faces} * job_.push.stages;
-        dispatch(kernel, groups_for(units, sampler_.tuning.local_size), job_.push);
+    void dispatch_per_face(Kernel kernel) {
+        dispatch(kernel, groups_for(job_.push.faces, sampler_.tuning.local_size), job_.push);
     }
 
     void dispatch_per_candidate(Kernel kernel, std::uint32_t per_group, const gpu::Push& push) {
@@ -137,7 +136,7 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
         recorder.fill(BufferRole::cells, (VkDeviceSize{push.cells} + 2) * 4);
     }
     barrier_transfer_to_compute(impl_->vk, commands);
-    recorder.dispatch_per_unit(own.count);
+    recorder.dispatch_per_face(own.count);
     recorder.scan(push.faces * push.stages + 1, SetRole::start_scan);
     recorder.mark(Stage::count);
     if (has_cells) {
