@@ -529,6 +529,8 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::stages, 0);
         check(&RunPlan::stages, 16);
         check(&RunPlan::idle_capacity, 0);
+        check(&RunPlan::idle_capacity, (1u << 23) + 1);
+        check(&RunPlan::chain, 1u << 31);
 
         RunPlan larger = good.plan();
         larger.window_capacity *= 2;

@@ -14,6 +14,7 @@
 #include "engine/box_grid.hpp"
 #include "kernels/grid.hpp"
 #include "kernels/resolve.hpp"
+#include "support/device_abilities.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -258,7 +259,11 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     }
 }
 
-const SamplerOptions kOnCpu{{0, 0, 1, 0, Reads::texels}, Rounding::native};
+/// As a CPU runs the kernels, as far as this device can.
+SamplerOptions on_cpu() {
+    const DeviceReport& report = shared_context().report();
+    return {{0, 0, 1, 0, reads_of(report).back()}, roundings_of(report).back()};
+}
 const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
 
 } // namespace
@@ -267,7 +272,7 @@ TEST_SUITE("boxes") {
     TEST_CASE("step by step in one to six dimensions") {
         for (std::size_t n = 1; n <= 6; ++n) {
             CAPTURE(n);
-            step_through(unit_box(n, n < 5 ? 300 : 120, n % 2 == 0), kOnCpu, 64);
+            step_through(unit_box(n, n < 5 ? 300 : 120, n % 2 == 0), on_cpu(), 64);
             step_through(unit_box(n, n < 5 ? 300 : 120, n % 2 == 1), kOnGpu, 32);
         }
     }
@@ -275,13 +280,13 @@ TEST_SUITE("boxes") {
     TEST_CASE("step by step where cells are fewer than a disk reaches, or share heads") {
         for (const bool is_periodic : {false, true}) {
             CAPTURE(is_periodic);
-            step_through(box_of({1, 0.2, 3}, 200, is_periodic), kOnCpu, 32);
+            step_through(box_of({1, 0.2, 3}, 200, is_periodic), on_cpu(), 32);
             BoxParams shared = unit_box(6, 1000, is_periodic);
             shared.pool_ratio = 2; // A table that cannot hold all cells.
-            step_through(shared, kOnCpu, 64);
+            step_through(shared, on_cpu(), 64);
         }
         // A side shorter than a step.
-        step_through(box_of({1, 1e-11, 7}, 200, false), kOnCpu, 32);
+        step_through(box_of({1, 1e-11, 7}, 200, false), on_cpu(), 32);
         // One, two, three and four cells around.
         for (const double distance : {1.0, 0.9, 0.6, 0.45}) {
             BoxParams box = unit_box(2, 10, true);
@@ -358,7 +363,7 @@ TEST_SUITE("boxes") {
                 options.time_stages = true;
                 CHECK(same(options));
             }
-            for (const Reads reads : {Reads::storage, Reads::texels}) {
+            for (const Reads reads : reads_of(shared_context().report())) {
                 RunnerOptions options;
                 options.sampler.tuning.reads = reads;
                 options.sampler.tuning.pool_block = 4;
@@ -450,7 +455,7 @@ TEST_SUITE("boxes") {
         ContextOptions options;
         options.validation = true;
         Context context = expect(Context::create(options));
-        for (const Reads reads : {Reads::storage, Reads::texels}) {
+        for (const Reads reads : reads_of(context.report())) {
             RunnerOptions tight;
             tight.sampler.tuning.reads = reads;
             tight.plan.list_capacity = 4;

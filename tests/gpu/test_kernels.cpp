@@ -13,6 +13,7 @@
 #include "kernels/pool.hpp"
 #include "kernels/resolve.hpp"
 #include "sets.hpp"
+#include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
 
@@ -288,11 +289,17 @@ SamplerOptions counting_calls(SamplerOptions options) {
     return options;
 }
 
-// The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively. Without
-// calls of CheckStatus being counted, and with.
-const SamplerOptions kOnCpu = counting_calls({{0, 0, 1, 0, Reads::texels}, Rounding::native});
+// The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively, as far as
+// this device can. Without calls of CheckStatus being counted, and with.
+SamplerOptions on_cpu() {
+    const DeviceReport& report = shared_context().report();
+    return counting_calls({{0, 0, 1, 0, reads_of(report).back()}, roundings_of(report).back()});
+}
 const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
-const SamplerOptions kPlain = counting_calls({{0, 64, 32, 0, Reads::storage}, Rounding::native});
+SamplerOptions on_native_gpu() {
+    return counting_calls(
+        {{0, 64, 32, 0, Reads::storage}, roundings_of(shared_context().report()).back()});
+}
 
 /// Capacities so large that no disk overflows.
 RunPlan roomy_plan(std::uint32_t slots) {
@@ -348,23 +355,23 @@ void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& 
 TEST_SUITE("kernels") {
     TEST_CASE("step by step on a torus knot") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 16));
-        for (const SamplerOptions& options : {kOnCpu, kOnGpu, kPlain}) {
+        for (const SamplerOptions& options : {on_cpu(), kOnGpu, on_native_gpu()}) {
             step_through(mesh, 400, options, 64);
         }
     }
 
     TEST_CASE("step by step on a cube of 12 triangles, many cells each") {
         const PreparedMesh mesh = prepared(builtin("cube", 1));
-        for (const SamplerOptions& options : {kOnCpu, kOnGpu}) {
+        for (const SamplerOptions& options : {on_cpu(), kOnGpu}) {
             step_through(mesh, 3000, options, 256);
         }
     }
 
     TEST_CASE("step by step where the surface is no manifold, one-sided or folded") {
-        step_through(prepared(builtin("moebius", 8)), 300, kOnCpu, 32);
+        step_through(prepared(builtin("moebius", 8)), 300, on_cpu(), 32);
         step_through(prepared(builtin("folded-sheet", 8)), 300, kOnGpu, 32);
         if (const auto mesh = shared_mesh("meshes/cycloidal_43k.ply")) {
-            step_through(prepared(*mesh), 1000, kOnCpu, 128);
+            step_through(prepared(*mesh), 1000, on_cpu(), 128);
         }
         if (const auto mesh = shared_mesh("meshes/tray_4k5.ply")) {
             step_through(prepared(*mesh), 1000, kOnGpu, 128);
@@ -372,22 +379,23 @@ TEST_SUITE("kernels") {
     }
 
     TEST_CASE("step by step with disks so large that every vertex is near") {
-        step_through(prepared(builtin("icosphere", 3)), 1e-4, kOnCpu, 16);
-        step_through(prepared(builtin("terrain", 16)), 1e-4, kOnCpu, 64);
+        step_through(prepared(builtin("icosphere", 3)), 1e-4, on_cpu(), 16);
+        step_through(prepared(builtin("terrain", 16)), 1e-4, on_cpu(), 64);
     }
 
     TEST_CASE("step by step through stages, each begun by the samples before it") {
         const PreparedMesh knot = prepared(builtin("torus-knot", 16));
-        for (const SamplerOptions& options : {kOnCpu, kOnGpu}) {
+        for (const SamplerOptions& options : {on_cpu(), kOnGpu}) {
             step_through(knot, 400, options, 64, {{0, 1}, {1, 2}, {3, 1}});
         }
-        step_through(prepared(builtin("folded-sheet", 8)), 300, kPlain, 9, {{0, 3}, {3, 1}});
-        step_through(prepared(builtin("cube", 1)), 2000, kOnCpu, 64, {{0, 1}, {1, 3}});
+        step_through(prepared(builtin("folded-sheet", 8)), 300, on_native_gpu(), 9,
+                     {{0, 3}, {3, 1}});
+        step_through(prepared(builtin("cube", 1)), 2000, on_cpu(), 64, {{0, 1}, {1, 3}});
     }
 
     TEST_CASE("step by step where the numbers of stages end") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
-        step_through(mesh, 200, kOnCpu, 64, {{0, 1}, {0xfffffff0, 2}});
+        step_through(mesh, 200, on_cpu(), 64, {{0, 1}, {0xfffffff0, 2}});
     }
 
     TEST_CASE("step by step with candidates that faces have by keys of the caller") {
@@ -398,7 +406,7 @@ TEST_SUITE("kernels") {
         }
         SampleParams params = params_for(mesh, 400);
         params.face_keys = keys;
-        step_through(mesh, params, kOnCpu, roomy_plan(64));
+        step_through(mesh, params, on_cpu(), roomy_plan(64));
         step_through(mesh, params, kOnGpu, roomy_plan(64));
     }
 
@@ -411,7 +419,7 @@ TEST_SUITE("kernels") {
         plan.table_capacity = 256;
         plan.lanes = 16;
         plan.list_capacity = gpu::kListPerDispatch + 2048;
-        step_through(mesh, params, kOnCpu, plan);
+        step_through(mesh, params, on_cpu(), plan);
     }
 
     TEST_CASE("step by step with radii that vary") {
@@ -421,19 +429,19 @@ TEST_SUITE("kernels") {
             const PreparedMesh mesh = prepared(shape);
             const RadiusField wavy = radius_field(mesh, wavy_factors(shape, 0.1));
             const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.02));
-            step_through(mesh, 600, kOnCpu, 64, {}, &wavy);
+            step_through(mesh, 600, on_cpu(), 64, {}, &wavy);
             step_through(mesh, 600, kOnGpu, 64, {}, &rough);
-            step_through(mesh, 600, kOnCpu, 64, {{0, 1}, {1, 3}}, &rough);
+            step_through(mesh, 600, on_cpu(), 64, {{0, 1}, {1, 3}}, &rough);
         }
         const TestMesh cube = builtin("cube", 1);
         const PreparedMesh mesh = prepared(cube);
         const RadiusField rough = radius_field(mesh, rough_factors(cube, 0.05));
-        step_through(mesh, 3000, kOnCpu, 256, {}, &rough);
-        step_through(mesh, 40, kPlain, 16, {}, &rough);
+        step_through(mesh, 3000, on_cpu(), 256, {}, &rough);
+        step_through(mesh, 40, on_native_gpu(), 16, {}, &rough);
     }
 
     TEST_CASE("step by step with as few candidates at a time as may be") {
-        step_through(prepared(builtin("icosphere", 2)), 60, kOnCpu, kLeastSlots);
+        step_through(prepared(builtin("icosphere", 2)), 60, on_cpu(), kLeastSlots);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "device_run.hpp"
 #include "sets.hpp"
+#include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
 #include "support/replay.hpp"
@@ -241,7 +242,7 @@ TEST_SUITE("invariance") {
             CAPTURE(batches);
             CHECK(same(options));
         }
-        for (const Reads reads : {Reads::storage, Reads::texels}) {
+        for (const Reads reads : reads_of(shared_context().report())) {
             RunnerOptions options;
             options.sampler.tuning.reads = reads;
             CHECK(same(options));

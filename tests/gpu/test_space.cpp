@@ -13,6 +13,7 @@
 #include "kernels/pool.hpp"
 #include "kernels/space.hpp"
 #include "sets.hpp"
+#include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
 
@@ -155,7 +156,7 @@ TEST_SUITE("space") {
         const TestMesh mesh = builtin("torus-knot", 16);
         const SampleParams params = params_for(prepared(mesh), 500);
         const auto want = twin_set(mesh, params, Metric::approximate);
-        for (const Reads reads : {Reads::storage, Reads::texels}) {
+        for (const Reads reads : reads_of(shared_context().report())) {
             RunnerOptions options;
             options.sampler.tuning.reads = reads;
             options.sampler.rounding = Rounding::emulated;
@@ -239,7 +240,7 @@ TEST_SUITE("space") {
         Context context = expect(Context::create(options));
         const TestMesh mesh = builtin("torus-knot", 8);
         const SampleParams params = params_for(prepared(mesh), 200);
-        for (const Reads reads : {Reads::storage, Reads::texels}) {
+        for (const Reads reads : reads_of(context.report())) {
             RunnerOptions run;
             run.sampler.tuning.reads = reads;
             run.plan.stages = 1;

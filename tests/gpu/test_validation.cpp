@@ -3,6 +3,7 @@
 
 #include "device_run.hpp"
 #include "sets.hpp"
+#include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
 
@@ -18,7 +19,7 @@ TEST_SUITE("validation") {
         const SampleParams params = params_for(mesh, 300);
         const RadiusField radii = radius_field(mesh, wavy_factors(knot, 0.2));
         const SampleParams varying = params_for(mesh, 300, 1, &radii);
-        for (const Reads reads : {Reads::storage, Reads::texels}) {
+        for (const Reads reads : reads_of(context.report())) {
             // Slices that overflow bring in the rewind as well.
             RunnerOptions tight;
             tight.sampler.tuning.reads = reads;

@@ -2,6 +2,7 @@
 // prints, aborts or reads the environment.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -42,7 +43,8 @@ struct Error {
 
 /// Either a value or an Error.
 ///
-/// `value()` may only be called when the result holds one, `error()` only when it does not.
+/// `value()` may only be called when the result holds one, `error()` only when it does not; asserts
+/// say so.
 template <class T>
 class [[nodiscard]] Result {
   public:
@@ -50,15 +52,30 @@ class [[nodiscard]] Result {
     Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
     explicit operator bool() const noexcept { return content_.index() == 0; }
-    T& value() & noexcept { return *std::get_if<0>(&content_); }
-    const T& value() const& noexcept { return *std::get_if<0>(&content_); }
-    T&& value() && noexcept { return std::move(*std::get_if<0>(&content_)); }
-    T* operator->() noexcept { return std::get_if<0>(&content_); }
-    const T* operator->() const noexcept { return std::get_if<0>(&content_); }
+    T& value() & noexcept {
+        assert(*this);
+        return *std::get_if<0>(&content_);
+    }
+    const T& value() const& noexcept {
+        assert(*this);
+        return *std::get_if<0>(&content_);
+    }
+    T&& value() && noexcept {
+        assert(*this);
+        return std::move(*std::get_if<0>(&content_));
+    }
+    T* operator->() noexcept { return &value(); }
+    const T* operator->() const noexcept { return &value(); }
     T& operator*() & noexcept { return value(); }
     const T& operator*() const& noexcept { return value(); }
-    const Error& error() const& noexcept { return *std::get_if<1>(&content_); }
-    Error&& error() && noexcept { return std::move(*std::get_if<1>(&content_)); }
+    const Error& error() const& noexcept {
+        assert(!*this);
+        return *std::get_if<1>(&content_);
+    }
+    Error&& error() && noexcept {
+        assert(!*this);
+        return std::move(*std::get_if<1>(&content_));
+    }
 
   private:
     std::variant<T, Error> content_;

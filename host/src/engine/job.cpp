@@ -16,6 +16,9 @@
 namespace geodisk {
 namespace {
 
+// Beside a minimum distance of one.
+constexpr double kWidestGuard = 0.5;
+
 Error range_error(Status status, std::size_t role, const std::string& what) {
     return Error{status, std::string("the workspace's buffer ") +
                              to_string(static_cast<BufferRole>(role)) + ' ' + what};
@@ -115,10 +118,10 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
         return checked;
     }
     if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
-        plan.sample_capacity != job.plan.sample_capacity) {
+        plan.sample_capacity != job.plan.sample_capacity || plan.chain != job.plan.chain) {
         return Error{Status::invalid_argument,
-                     "the plan has other stages, idle_capacity or sample_capacity than the job was "
-                     "made for"};
+                     "the plan has another chain, or other stages, idle_capacity or "
+                     "sample_capacity than the job was made for"};
     }
     const std::uint32_t most_slots = job.most_slots;
     if (plan.pool_bytes() > pool || plan.slots > most_slots) {
@@ -302,6 +305,12 @@ Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& para
             return checked.error();
         }
         const Tolerances tolerances = tolerances_for(mesh, params, plan.chain);
+        // The vertex table tags distances by the bits that those below 2 leave clear.
+        if (!(tolerances.guard <= kWidestGuard)) {
+            return Error{Status::invalid_argument,
+                         "the plan's chain of " + std::to_string(plan.chain) +
+                             " window crossings widens the minimum distance by more than half"};
+        }
         gpu::Push push{};
         push.capacity = capacity_for(stages_of(mesh, params), plan.stages);
         push.stop_count = params.stop_count != 0 ? params.stop_count : kMostCandidates;
