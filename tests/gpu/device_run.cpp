@@ -7,6 +7,7 @@
 
 #include "engine/box_source.hpp"
 #include "engine/plan.hpp"
+#include "engine/surface_source.hpp"
 #include "vk/barriers.hpp"
 
 namespace geodisk::test {

@@ -11,7 +11,8 @@
 #include <geodisk/context.hpp>
 #include <geodisk/sampler.hpp>
 
-#include "engine/runner_impl.hpp"
+#include "engine/run_source.hpp"
+#include "engine/sampler_impl.hpp"
 #include "engine/submitter.hpp"
 #include "records.h"
 #include "vk/buffer.hpp"

@@ -62,6 +62,8 @@ struct Stages {
     /// Candidates that a stage expects, and all of a pool.
     double expected(std::uint32_t stage) const noexcept { return per_sample(stage) * samples; }
     double pool() const noexcept { return ratio * samples; }
+    /// That take part in the job: its darts, or else its pool.
+    double candidates() const noexcept { return throws != 0 ? throws : pool(); }
 };
 
 /// The guard band that makes float decisions safe, in units of the minimum distance.

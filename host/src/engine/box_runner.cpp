@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/box_source.hpp"
+#include "engine/run.hpp"
 #include "support/guard.hpp"
 
 namespace geodisk {

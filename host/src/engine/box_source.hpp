@@ -5,7 +5,8 @@
 
 #include "engine/box_grid.hpp"
 #include "engine/plan.hpp"
-#include "engine/runner_impl.hpp"
+#include "engine/run_source.hpp"
+#include "engine/sampler_impl.hpp"
 
 namespace geodisk {
 

@@ -134,7 +134,7 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
     if (!(stages.ratio <= kLargestRatio)) {
         return invalid("the minimum distance is too large for this surface, where radii vary");
     }
-    const double wanted = params.throws != 0 ? params.throws : std::ceil(stages.pool());
+    const double wanted = std::ceil(stages.candidates());
     if (!(wanted <= kMostCandidates)) {
         return invalid("the minimum distance is too small for this surface: the pool would take " +
                        number_text(wanted) + " candidates, the most is " +

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/run.hpp"
 #include "engine/space_source.hpp"
 #include "support/guard.hpp"
 

@@ -66,8 +66,7 @@ SpaceFrame::SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const Sam
     box.seed = params.seed;
     // Of darts, too.
     const Stages stages = stages_of(mesh, params);
-    box.pool_ratio =
-        (stages.throws != 0 ? stages.throws : stages.pool()) / std::max(1.0, stages.samples);
+    box.pool_ratio = stages.candidates() / std::max(1.0, stages.samples);
     box.extents.assign(3, 0);
     vertices.resize(view.positions.size() / 3);
     for (std::size_t axis = 0; axis < 3; ++axis) {
