@@ -23,7 +23,7 @@ constexpr std::uint32_t kLlvmpipeSteps = 65535 / gpu::kIterationsPerStep;
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
 constexpr std::uint32_t kDefaultSteps = 128;
 // Even one to a work group, they are no more groups than any device takes.
-constexpr double kMostSlots = (1u << 16) - 64;
+constexpr double kMostSlots = (1u << 16) - 512;
 // Of a CPU, whose caches the lists of more would leave.
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
@@ -33,7 +33,7 @@ constexpr double kLeastList = 8;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
 // Of candidates: deviations from what a stage expects that there is room for.
 constexpr double kDeviations = 8;
-// Slots left free on average, in square roots of their number.
+// Slots besides those that a batch aims at, in square roots of their number, see lib/schedule.glsl.
 constexpr double kSlotMargin = 1.5;
 // Idle candidates listed at once, for each slot, and candidates for each of them: the more, the
 // fewer times all candidates are gone through.
@@ -167,13 +167,12 @@ std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceRepo
     const double least =
         cpu ? std::clamp<double>(disks / 8, kLeastSlots, std::max(kLeastSlots, cpu_lanes(report)))
             : 64;
-    // Besides those that a batch aims at, see lib/schedule.glsl.
-    const double aim = disks / batches;
-    const auto slots = static_cast<std::uint32_t>(
-        std::clamp(aim + kSlotMargin * std::sqrt(aim), least, cpu ? kMostCpuSlots : kMostSlots));
+    auto aim = static_cast<std::uint32_t>(
+        std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
     // No lane is to wait for the others with its last one.
     const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
-    return slots < lanes ? slots : (slots + lanes - 1) / lanes * lanes;
+    aim = aim < lanes ? aim : (aim + lanes - 1) / lanes * lanes;
+    return aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
 }
 
 // Borders, creases and thin parts hold more samples than their area tells. Where the device cannot

@@ -346,8 +346,7 @@ Result<Done> Run::decide_chunk(const ProgressCallback& progress) {
 
 Progress Run::how_far() const {
     const double in_chunk = static_cast<double>(control_.first_order) /
-                            Job::Impl::of(*job_).push.end_order *
-                            static_cast<double>(chunk_darts_);
+                            Job::Impl::of(*job_).push.end_order * static_cast<double>(chunk_darts_);
     const double all = source_.stages().candidates();
     return {static_cast<std::uint32_t>(std::min(static_cast<double>(thrown_) + in_chunk, all)),
             static_cast<std::uint32_t>(all), control_.accepted};
