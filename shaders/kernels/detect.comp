@@ -37,7 +37,7 @@ Push P;
 #include "../lib/vertex_table.glsl"
 #include "../lib/propagate.glsl"
 #include "../lib/scan.glsl"
-#include "../lib/slots.glsl"
+#include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
 
 uint slot;
@@ -104,13 +104,6 @@ void save_lane() {
     pool[own_row(8u)] = uvec4(entered_by, entry_angles, fan_angle, fan_flags);
 }
 
-// Whoever completes the last disk spares the batch further dispatches.
-void complete_one() {
-    if (atomicAdd(control.incomplete, 0xffffffffu) == 1u) {
-        control.detect_x = 0u;
-    }
-}
-
 void hand_in_slot() {
     slots[slot].phase = kSlotListed;
     slots[slot].idle_conflicts = idle_conflicts;
@@ -133,10 +126,7 @@ void block_conflicts() {
     for (; cursor < end; ++cursor) {
         uint at = active_entry(P.list_capacity, cursor);
         uint place = own_row_at(pool, list_first + (at >> 2))[at & 3u];
-        uint other = word_at(orders, place);
-        if (is_slot_of(other, place) && is_before(own, sample_of(other))) {
-            atomicAdd(slots[other].blocks, 1u);
-        }
+        block(own, place);
     }
     phase = cursor == active_conflicts ? kPhaseComplete : kPhaseBlock;
 }

@@ -29,7 +29,7 @@ Push P;
 
 #include "../lib/slice.glsl"
 #include "../lib/list.glsl"
-#include "../lib/slots.glsl"
+#include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
 
 Axis grid[kMostAxes];
@@ -209,10 +209,7 @@ bool block_conflicts(uint slot) {
     for (; cursor < end; ++cursor) {
         uint at = active_entry(P.list_capacity, cursor);
         uint place = pool[list_first + (at >> 2)][at & 3u];
-        uint other = word_at(orders, place);
-        if (is_slot_of(other, place) && is_before(own, sample_of(other))) {
-            atomicAdd(slots[other].blocks, 1u);
-        }
+        block(own, place);
     }
     slots[slot].cursor = cursor;
     return cursor == active_conflicts;
@@ -222,9 +219,7 @@ void complete(uint slot) {
     slots[slot].phase = kSlotListed;
     slots[slot].cursor = 0u;
     slots[slot].calls = 0u;
-    if (atomicAdd(control.incomplete, 0xffffffffu) == 1u) {
-        control.detect_x = 0u;
-    }
+    complete_one();
 }
 
 void find_conflicts(uint slot) {
