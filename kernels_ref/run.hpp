@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"

@@ -139,41 +139,37 @@ void advance(Cell& cell, const BoxLattice& lattice) {
     }
 }
 
-/// The candidates of a pool as they are drawn, and the darts of each stage.
-struct Drawn {
-    std::vector<BoxPoint> points;
-    std::vector<std::vector<Dart>> stages;
-};
-
-Drawn draw_cells(const BoxParams& box, const BoxLattice& lattice) {
-    const float intensity = stage_intensity(box);
+/// The candidates of a stage in dart order, behind those of the stages before.
+void draw_stage(const BoxParams& box, const BoxLattice& lattice, std::uint32_t stage,
+                BoxCandidates& candidates) {
+    const float intensity = stage_intensity(box, stage);
     std::vector<float> steps;
     for (std::size_t i = 0; i < lattice.axes.size(); ++i) {
         steps.push_back(static_cast<float>(lattice.relative_step(i)));
     }
-    Drawn drawn{{}, std::vector<std::vector<Dart>>(pool_stages(box))};
+    std::vector<BoxPoint> points;
+    std::vector<Dart> darts;
     // A little more than there will be, most often.
     const double expected = 1.01 * static_cast<double>(intensity) * volume_of(box);
-    drawn.points.reserve(static_cast<std::size_t>(expected) * drawn.stages.size());
-    for (std::vector<Dart>& stage : drawn.stages) {
-        stage.reserve(static_cast<std::size_t>(expected));
-    }
+    points.reserve(static_cast<std::size_t>(expected));
+    darts.reserve(static_cast<std::size_t>(expected));
     Cell cell{};
     for (std::uint64_t i = lattice.cell_count(); i > 0; --i, advance(cell, lattice)) {
         const std::uint64_t seed = cell_seed(box.seed, cell, lattice.axes.size());
-        const float mean = mean_of(lattice, steps, cell, intensity);
-        for (std::uint32_t stage = 0; stage < drawn.stages.size(); ++stage) {
-            const auto random = philox(seed, {kCountCounter, stage, 0, 0});
-            const std::uint32_t count = poisson(mean, random[0], random[1]);
-            for (std::uint32_t k = 0; k < count; ++k) {
-                const Draw draw = draw_candidate(lattice, cell, seed, stage, k);
-                const auto number = static_cast<std::uint32_t>(drawn.points.size());
-                drawn.stages[stage].push_back(make_dart(draw.priority, number));
-                drawn.points.push_back(draw.point);
-            }
+        const auto random = philox(seed, {kCountCounter, stage, 0, 0});
+        const std::uint32_t count =
+            poisson(mean_of(lattice, steps, cell, intensity), random[0], random[1]);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const Draw draw = draw_candidate(lattice, cell, seed, stage, k);
+            darts.push_back(make_dart(draw.priority, static_cast<std::uint32_t>(points.size())));
+            points.push_back(draw.point);
         }
     }
-    return drawn;
+    UninitializedVector<Dart> scratch(darts.size());
+    for (const Dart dart : sort_darts(darts, scratch)) {
+        candidates.points.push_back(points[candidate_of(dart)]);
+        candidates.words.push_back(order_word(stage, priority_of(dart)));
+    }
 }
 
 } // namespace
@@ -209,31 +205,30 @@ std::uint64_t BoxLattice::cell_count() const {
     return count;
 }
 
-std::uint32_t pool_stages(const BoxParams& box) {
+Stages stages_in(const BoxParams& box) {
     const double volume = volume_of(box);
     const double samples = sample_density(box, volume) * volume;
-    return Stages{samples, std::max(box.pool_ratio, kMinimumPool / samples), 0}.pool_stages();
+    return {samples, std::max(box.pool_ratio, kMinimumPool / samples), box.throws};
 }
 
-float stage_intensity(const BoxParams& box) {
-    const double volume = volume_of(box);
-    const double density = sample_density(box, volume);
-    const double ratio = std::max(box.pool_ratio, kMinimumPool / (density * volume));
-    return static_cast<float>(ratio / pool_stages(box) * density);
+float stage_intensity(const BoxParams& box, std::uint32_t stage) {
+    return static_cast<float>(stages_in(box).per_sample(stage) *
+                              sample_density(box, volume_of(box)));
 }
 
 BoxCandidates draw_in_box(const BoxParams& box) {
-    Drawn drawn = draw_cells(box, BoxLattice(box));
+    const BoxLattice lattice(box);
+    const Stages stages = stages_in(box);
     BoxCandidates candidates;
-    candidates.points.reserve(drawn.points.size());
-    candidates.words.reserve(drawn.points.size());
-    UninitializedVector<Dart> scratch;
-    for (std::uint32_t stage = 0; stage < drawn.stages.size(); ++stage) {
-        scratch.resize(drawn.stages[stage].size());
-        for (const Dart dart : sort_darts(drawn.stages[stage], scratch)) {
-            candidates.points.push_back(drawn.points[candidate_of(dart)]);
-            candidates.words.push_back(order_word(stage, priority_of(dart)));
-        }
+    const bool is_pool = stages.throws == 0;
+    for (std::uint32_t stage = 0;
+         is_pool ? stage < stages.pool_stages() : candidates.points.size() < stages.throws;
+         ++stage) {
+        draw_stage(box, lattice, stage, candidates);
+    }
+    if (!is_pool) {
+        candidates.points.resize(stages.throws);
+        candidates.words.resize(stages.throws);
     }
     return candidates;
 }

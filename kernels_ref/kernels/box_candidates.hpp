@@ -46,10 +46,9 @@ struct BoxLattice {
 /// The unit of a box's lattice.
 double box_unit(const BoxParams& box);
 
-/// The stages of a pool in a box, which are alike, and the candidates that each expects per unit of
-/// volume.
-std::uint32_t pool_stages(const BoxParams& box);
-float stage_intensity(const BoxParams& box);
+/// The stages of a job in a box, and the candidates that each expects per unit of volume.
+Stages stages_in(const BoxParams& box);
+float stage_intensity(const BoxParams& box, std::uint32_t stage);
 
 /// Candidates by rank, and their order words.
 struct BoxCandidates {
@@ -57,7 +56,7 @@ struct BoxCandidates {
     std::vector<std::uint32_t> words;
 };
 
-/// All candidates of a pool. Of those with one order word the lower cell comes first.
+/// All candidates of a job. Of those with one order word the lower cell comes first.
 BoxCandidates draw_in_box(const BoxParams& box);
 
 } // namespace geodisk::ref

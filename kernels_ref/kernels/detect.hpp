@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "constants.h"
+#include "engine/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
 #include "lib/scalar.hpp"

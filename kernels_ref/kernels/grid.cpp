@@ -76,11 +76,11 @@ void BoxPool<Real>::set_normals(std::span<const std::array<float, 3>> by_rank) {
 }
 
 template <class Real>
-std::vector<std::uint32_t> throw_darts(const BoxPool<Real>& pool) {
+std::vector<std::uint32_t> throw_darts(const BoxPool<Real>& pool, std::uint32_t most) {
     std::vector<std::uint32_t> accepted;
     std::vector<std::uint8_t> decided(pool.size(), 0);
     BoxDetector<Real> detector(pool);
-    for (std::uint32_t rank = 0; rank < pool.size(); ++rank) {
+    for (std::uint32_t rank = 0; rank < pool.size() && accepted.size() < most; ++rank) {
         const std::uint32_t place = pool.places[rank];
         if (decided[place] != 0) {
             continue;
@@ -98,7 +98,7 @@ template struct BoxCellTable<float>;
 template struct BoxCellTable<double>;
 template struct BoxPool<float>;
 template struct BoxPool<double>;
-template std::vector<std::uint32_t> throw_darts(const BoxPool<float>&);
-template std::vector<std::uint32_t> throw_darts(const BoxPool<double>&);
+template std::vector<std::uint32_t> throw_darts(const BoxPool<float>&, std::uint32_t);
+template std::vector<std::uint32_t> throw_darts(const BoxPool<double>&, std::uint32_t);
 
 } // namespace geodisk::ref

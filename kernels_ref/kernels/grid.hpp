@@ -98,9 +98,11 @@ class BoxDetector {
     std::array<Real, gpu::kMostAxes> own_inside_{};
 };
 
-/// Sequential dart throwing over the pool: the ranks accepted, ascending.
+/// Sequential dart throwing over the pool, until it is used up or `most` are accepted: their ranks,
+/// ascending.
 template <class Real>
-std::vector<std::uint32_t> throw_darts(const BoxPool<Real>& pool);
+std::vector<std::uint32_t> throw_darts(const BoxPool<Real>& pool,
+                                       std::uint32_t most = kMostCandidates);
 
 template <class Real>
 Real BoxDetector<Real>::gap_to(std::size_t axis, std::uint32_t digit) const {

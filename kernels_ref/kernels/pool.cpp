@@ -5,6 +5,7 @@
 #include <span>
 #include <tuple>
 
+#include "engine/stages.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/dart_order.hpp"
 

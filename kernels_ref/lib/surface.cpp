@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "engine/tolerances.hpp"
 #include "lib/scalar.hpp"
 
 namespace geodisk::ref {

@@ -10,6 +10,7 @@
 #include <geodisk/runner.hpp>
 
 #include "device_spy.hpp"
+#include "engine/stages.hpp"
 #include "fake_driver.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"
@@ -72,12 +73,23 @@ struct Bench {
     void check_set(const Result<SampleSet>& set) {
         REQUIRE_MESSAGE(set, (set ? "" : set.error().message));
         if (wanted_.empty()) {
-            wanted_ = float_set(mesh, params, set->report.plan.chain);
+            wanted_ = float_set(mesh, params, set->report.plan.guard);
         }
         CHECK(points_of(*set) == wanted_);
     }
 
     void check_run(Runner& runner) { check_set(runner.sample_and_wait(mesh, params)); }
+
+    Result<Done> prepare(const Runner& runner) const {
+        return runner.sampler().prepare(expect(Domain::surface(mesh, params)));
+    }
+
+    /// A runner that has compiled all that the job needs.
+    Runner prepared_runner(const RunnerOptions& options = {}) const {
+        Runner runner = expect(create(options));
+        expect(prepare(runner));
+        return runner;
+    }
 
   private:
     Points wanted_;
@@ -109,10 +121,31 @@ std::uint32_t sweep_create(Bench& bench, const char* function, VkResult result) 
     }
 }
 
+/// Fails every call that compiling for a domain makes of `function`; nothing is left of the
+/// pipelines before it, and the next try works.
+std::uint32_t sweep_prepare(Bench& bench, const char* function, VkResult result) {
+    for (std::uint32_t number = 0;; ++number) {
+        CAPTURE(number);
+        Runner runner = expect(bench.create());
+        const std::string own = bench.spy.alive();
+        bench.spy.fail(function, number, result);
+        const Result<Done> done = bench.prepare(runner);
+        if (!bench.spy.end_of_fault()) {
+            CHECK(done);
+            return number;
+        }
+        REQUIRE_FALSE(done);
+        check_error(done.error(), function, result);
+        CHECK(bench.spy.alive() == own);
+        CHECK(bench.spy.strangers() == 0);
+        bench.check_run(runner);
+    }
+}
+
 /// Fails every call that a run makes of `function`; the runner works again after each.
 std::uint32_t sweep_run(Bench& bench, const char* function, VkResult result,
                         const RunnerOptions& options = {}) {
-    Runner runner = expect(bench.create(options));
+    Runner runner = bench.prepared_runner(options);
     const std::string own = bench.spy.alive();
     for (std::uint32_t number = 0;; ++number) {
         CAPTURE(number);
@@ -164,6 +197,7 @@ TEST_SUITE("faults") {
                 CAPTURE(fallible.function);
                 CAPTURE(to_string(result));
                 const std::uint32_t faults = sweep_create(bench, fallible.function, result) +
+                                             sweep_prepare(bench, fallible.function, result) +
                                              sweep_run(bench, fallible.function, result);
                 CHECK(faults > 0);
                 CHECK(bench.spy.alive() == "");
@@ -210,7 +244,7 @@ TEST_SUITE("faults") {
             CHECK(bench.spy.alive() == "");
             bool fired = true;
             for (std::uint32_t number = 0; fired; ++number) {
-                Runner runner = expect(bench.create());
+                Runner runner = bench.prepared_runner();
                 const std::string own = bench.spy.alive();
                 bench.spy.fail(function, number, VK_ERROR_DEVICE_LOST);
                 const Result<SampleSet> set = runner.sample_and_wait(bench.mesh, bench.params);
@@ -367,7 +401,7 @@ TEST_SUITE("faults") {
         CHECK(3 * stages_of(mesh, params).expected(0) > 0.9 * (1 << 15) / 4 * 3 / 16);
         CHECK(set.report.plan.stages == 2);
         CHECK(set.report.chunks == 2);
-        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
     }
 
     TEST_CASE("more samples than the device can bind are refused with the numbers") {
@@ -387,7 +421,7 @@ TEST_SUITE("faults") {
             const double most = range / 16;
             const auto set = runner.sample_and_wait(mesh, params_for(mesh, 1.01 * most));
             REQUIRE_FALSE(set);
-            CHECK(set.error().status == Status::device_lacks);
+            CHECK(set.error().status == Status::job_too_large);
             CHECK(set.error().message.find("candidates") != std::string::npos);
             CHECK(set.error().message.find(std::to_string(range)) != std::string::npos);
         }

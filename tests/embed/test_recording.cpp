@@ -9,18 +9,20 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
-#include <geodisk/box.hpp>
 #include <geodisk/context.hpp>
-#include <geodisk/sampler.hpp>
+#include <geodisk/runner.hpp>
 
 #include "engine/box_grid.hpp"
+#include "engine/stages.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"
 #include "kernels/grid.hpp"
 #include "records.h"
 #include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
 #include "vk/barriers.hpp"
 #include "workshop.hpp"
 
@@ -33,13 +35,16 @@ struct Task {
     PreparedMesh mesh;
     SampleParams params;
     Points wanted;
+
+    Domain domain() const { return expect(Domain::surface(mesh, params)); }
 };
 
 Task task(const Sampler& sampler, const char* shape, int resolution, double count) {
     PreparedMesh mesh = prepared(builtin(shape, resolution));
     const SampleParams params = params_for(mesh, count);
-    const RunPlan plan = expect(sampler.plan_run(mesh, params, Workshop::kPoolBytes));
-    auto wanted = float_set(mesh, params, plan.chain);
+    const Domain domain = expect(Domain::surface(mesh, params));
+    const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
+    auto wanted = float_set(mesh, params, plan.guard);
     return {std::move(mesh), params, std::move(wanted)};
 }
 
@@ -56,24 +61,29 @@ class EngineJob {
     /// With all candidates at once, or those of so many stages.
     EngineJob(Workshop& workshop, const Sampler& sampler, const Task& task,
               std::uint32_t stages = 0)
-        : workshop_(workshop), sampler_(sampler), task_(task),
-          plan_(expect(sampler.plan_run(task.mesh, task.params, Workshop::kPoolBytes))) {
+        : EngineJob(workshop, sampler, task.domain(), stages) {
+        wanted_ = task.wanted;
+    }
+    /// Of any domain.
+    EngineJob(Workshop& workshop, const Sampler& sampler, Domain domain, std::uint32_t stages = 0)
+        : workshop_(workshop), sampler_(sampler), domain_(std::move(domain)),
+          plan_(expect(sampler.plan_run(domain_, Workshop::kPoolBytes))) {
         plan_.stages = stages != 0 ? stages : plan_.stages;
-        const WorkspaceNeeds needs = expect(sampler.workspace_needs(task.mesh, task.params, plan_));
+        const WorkspaceNeeds needs = expect(sampler.workspace_needs(domain_, plan_));
         workspace_ = workshop.cut(needs);
-        job_.emplace(expect(sampler.make_job(task.mesh, task.params, plan_, workspace_)));
+        job_.emplace(expect(sampler.make_job(domain_, plan_, workspace_)));
     }
 
     /// Uploads through staging and begins, in the frame's command buffer.
     void record_first(VkCommandBuffer commands) {
         std::size_t staged = 0;
         for (const BufferRole role : kUploaded) {
-            const std::size_t size = sampler_.mesh_bytes_size(task_.mesh, task_.params, role);
+            const std::size_t size = sampler_.upload_size(domain_, role);
             if (size == 0) {
                 continue;
             }
-            expect(sampler_.mesh_bytes(task_.mesh, task_.params, role,
-                                       workshop_.upload_bytes().subspan(staged, size)));
+            expect(sampler_.write_upload(domain_, plan_, role,
+                                         workshop_.upload_bytes().subspan(staged, size)));
             workshop_.record_upload(commands, range(role), staged, size);
             staged += size;
         }
@@ -111,28 +121,34 @@ class EngineJob {
         sampler_.record_rewind(commands, *job_);
     }
 
-    void check_samples(std::uint32_t accepted) const {
-        Points points;
-        for (std::uint32_t i = 0; i < accepted; ++i) {
-            gpu::SampleRec sample;
-            std::memcpy(&sample, workshop_.download_bytes().data() + i * sizeof sample,
-                        sizeof sample);
-            points.push_back({sample.face, sample.weight1, sample.weight2});
-        }
-        CHECK(points == task_.wanted);
+    std::vector<gpu::SampleRec> samples(std::uint32_t accepted) const {
+        std::vector<gpu::SampleRec> samples(accepted);
+        std::memcpy(samples.data(), workshop_.download_bytes().data(),
+                    accepted * sizeof samples[0]);
+        return samples;
     }
 
-    /// Frames until the samples are there.
-    void run() {
-        const std::uint32_t stages = stages_of(task_.mesh, task_.params).pool_stages();
+    void check_samples(std::uint32_t accepted) const {
+        Points points;
+        for (const gpu::SampleRec& sample : samples(accepted)) {
+            points.push_back({sample.face, sample.weight1, sample.weight2});
+        }
+        CHECK(points == wanted_);
+    }
+
+    /// Frames until the samples are there, as many as are returned.
+    std::uint32_t run_frames() {
+        const std::uint32_t stages = domain_.stages().pool_stages();
         gpu::ControlRec last{};
         for (std::uint32_t first = 0; first < stages; first += plan_.stages) {
             expect(job_->set_stages(first, std::min(plan_.stages, stages - first)));
             last = run_chunk(first == 0);
             workshop_.frame(0, [&](VkCommandBuffer commands) { record_last(commands); });
         }
-        check_samples(last.accepted);
+        return last.accepted;
     }
+
+    void run() { check_samples(run_frames()); }
 
     gpu::ControlRec run_chunk(bool is_first) {
         gpu::ControlRec last{};
@@ -157,6 +173,7 @@ class EngineJob {
     }
 
     Job& job() { return *job_; }
+    const Domain& domain() const { return domain_; }
     const Workspace& workspace() const { return workspace_; }
     const RunPlan& plan() const { return plan_; }
 
@@ -167,7 +184,8 @@ class EngineJob {
 
     Workshop& workshop_;
     const Sampler& sampler_;
-    const Task& task_;
+    Domain domain_;
+    Points wanted_;
     RunPlan plan_;
     Workspace workspace_;
     std::optional<Job> job_;
@@ -228,7 +246,7 @@ void check_finishes(const RunPlan& plan, bool is_tight = false) {
     for (const gpu::SampleRec& s : finish_often(run, stages_of(mesh, params).pool_stages())) {
         points.push_back({s.face, s.weight1, s.weight2});
     }
-    CHECK(points == float_set(mesh, params, run.plan().chain));
+    CHECK(points == float_set(mesh, params, run.plan().guard));
     CHECK((!is_tight || run.plan().window_capacity > 2));
 }
 
@@ -240,7 +258,7 @@ void check_finishes_in_box(const RunPlan& plan, bool is_tight = false) {
         tighten(run);
     }
     std::vector<std::array<double, 3>> points;
-    for (const gpu::SampleRec& s : finish_often(run, ref::pool_stages(box))) {
+    for (const gpu::SampleRec& s : finish_often(run, ref::stages_in(box).pool_stages())) {
         sample_point(box.seed, draw_axes(box), s, points.emplace_back());
     }
     const ref::BoxPool<float> pool(box);
@@ -325,6 +343,49 @@ TEST_SUITE("recording") {
             workshop.frame(1, [&](VkCommandBuffer commands) { first.record_last(commands); });
             first.check_samples(control.accepted);
             CHECK(workshop.damage() == 0);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("one sampler records surfaces, radii that vary, boxes and distances through space") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            Workshop workshop(context);
+            const TestMesh shape = builtin("torus-knot", 8);
+            const PreparedMesh mesh = prepared(shape);
+            const SampleParams params = params_for(mesh, 200);
+            const RadiusField radii = radius_field(mesh, wavy_factors(shape, 0.5));
+            Runner runner = expect(Runner::create(context.device(), context.queue()));
+            const auto check = [&](Domain domain) {
+                const SampleSet want = expect(runner.sample_and_wait(domain));
+                workshop.start_over();
+                const std::uint32_t n = domain.dimension();
+                EngineJob job(workshop, sampler, std::move(domain));
+                const auto samples = job.samples(job.run_frames());
+                Points points;
+                std::vector<double> coordinates(samples.size() * n);
+                for (std::size_t i = 0; i < samples.size(); ++i) {
+                    points.push_back({samples[i].face, samples[i].weight1, samples[i].weight2});
+                    job.domain().coordinates(samples[i], std::span(coordinates).subspan(i * n, n));
+                }
+                CHECK(coordinates == want.points);
+                CHECK((n > 0 || points == points_of(want)));
+                CHECK(samples.size() > 20);
+                CHECK(workshop.damage() == 0);
+            };
+            check(expect(Domain::surface(mesh, params)));
+            check(expect(Domain::surface(mesh, params_for(mesh, 100, 1, &radii))));
+            BoxParams box{{1, 1, 1}, true};
+            box.min_distance = distance_for_count(box, 60);
+            check(expect(Domain::box(box)));
+            box.extents = {1, 2};
+            box.is_periodic = false;
+            check(expect(Domain::box(box)));
+            for (const Metric metric : {Metric::euclidean, Metric::approximate}) {
+                check(expect(Domain::surface_in_space(shape.view(), mesh, params, metric)));
+            }
+            check(expect(Domain::surface(mesh, params))); // The kernels of before.
         }
         check_silent(context);
     }
@@ -447,7 +508,7 @@ TEST_SUITE("workspaces") {
     /// The error that make_job gives for a workspace with one range replaced.
     Error refused(const Sampler& sampler, const Task& task, const RunPlan& plan,
                   const Workspace& workspace) {
-        const Result<Job> job = sampler.make_job(task.mesh, task.params, plan, workspace);
+        const Result<Job> job = sampler.make_job(task.domain(), plan, workspace);
         REQUIRE_FALSE(job);
         return job.error();
     }
@@ -463,7 +524,7 @@ TEST_SUITE("workspaces") {
             Workshop workshop(context);
             const EngineJob good(workshop, sampler, cube);
             const WorkspaceNeeds needs =
-                expect(sampler.workspace_needs(cube.mesh, cube.params, good.plan()));
+                expect(sampler.workspace_needs(cube.domain(), good.plan()));
             const char* names[] = {"faces",   "fans",   "keys",    "cells",    "states",
                                    "weights", "orders", "starts",  "pool",     "control",
                                    "list",    "sums",   "samples", "accepted", "buckets"};
@@ -499,7 +560,8 @@ TEST_SUITE("workspaces") {
         const Task knot = task(sampler, "torus-knot", 8, 60);
         Workshop workshop(context);
         EngineJob good(workshop, sampler, knot);
-        const auto check = [&](std::uint32_t RunPlan::*field, std::uint32_t value) {
+        const auto check = [&]<class Value>(Value RunPlan::*field,
+                                            std::type_identity_t<Value> value) {
             CAPTURE(value);
             RunPlan plan = good.plan();
             plan.*field = value;
@@ -530,7 +592,8 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::stages, 16);
         check(&RunPlan::idle_capacity, 0);
         check(&RunPlan::idle_capacity, (1u << 23) + 1);
-        check(&RunPlan::chain, 1u << 31);
+        check(&RunPlan::guard, 0.75);
+        check(&RunPlan::guard, -0.25);
 
         RunPlan larger = good.plan();
         larger.window_capacity *= 2;
@@ -556,14 +619,16 @@ TEST_SUITE("workspaces") {
         Task knot = task(sampler, "torus-knot", 8, 60);
         const std::vector<std::uint32_t> keys = all_keys(knot.mesh);
         knot.params.face_keys = keys;
+        const Domain domain = knot.domain();
+        const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
         for (const BufferRole role : kUploaded) {
-            std::vector<std::byte> bytes(sampler.mesh_bytes_size(knot.mesh, knot.params, role));
-            CHECK(sampler.mesh_bytes(knot.mesh, knot.params, role, bytes));
+            std::vector<std::byte> bytes(sampler.upload_size(domain, role));
+            CHECK(sampler.write_upload(domain, plan, role, bytes));
             bytes.pop_back();
-            CHECK_FALSE(sampler.mesh_bytes(knot.mesh, knot.params, role, bytes));
+            CHECK_FALSE(sampler.write_upload(domain, plan, role, bytes));
         }
         std::vector<std::byte> none;
-        CHECK_FALSE(sampler.mesh_bytes(knot.mesh, knot.params, BufferRole::pool, none));
+        CHECK_FALSE(sampler.write_upload(domain, plan, BufferRole::pool, none));
     }
 }
 

@@ -5,18 +5,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/box_source.hpp"
 #include "engine/plan.hpp"
-#include "engine/surface_source.hpp"
 #include "vk/barriers.hpp"
 
 namespace geodisk::test {
 namespace {
-
-SamplerOptions options_for(SamplerOptions options, const SampleParams& params) {
-    options.adaptive = params.radii != nullptr;
-    return options;
-}
 
 void barrier_to_host(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
@@ -30,35 +23,18 @@ Context& shared_context() {
     return context;
 }
 
-DeviceRun::DeviceRun(Sampler sampler, const Context& context)
+DeviceRun::DeviceRun(const Domain& domain, const RunPlan& plan, const SamplerOptions& options,
+                     const Context& context)
     : device_(context.device()), vk_(expect(load_device_table(device_))),
-      sampler_(std::move(sampler)) {
+      sampler_(expect(Sampler::create(device_, options))) {
     submitter_.emplace(
         expect(Submitter::create(device_, vk_, context.queue(), std::chrono::seconds(300))));
     const auto instance =
         expect(load_instance_table(device_.get_instance_proc_addr, device_.instance));
     instance.vkGetPhysicalDeviceMemoryProperties(device_.physical_device, &memory_);
-}
-
-DeviceRun::DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
-                     const SamplerOptions& options, const Context& context)
-    : DeviceRun(expect(Sampler::create(context.device(), options_for(options, params))), context) {
-    open(SurfaceSource(*sampler_, mesh, params), plan);
-}
-
-DeviceRun::DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOptions& options,
-                     const Context& context)
-    : DeviceRun(expect(Sampler::Impl::create_for(Domain::box,
-                                                 static_cast<std::uint32_t>(box.extents.size()),
-                                                 context.device(), options)),
-                context) {
-    expect(pool_size(box));
-    open(BoxSource(Sampler::Impl::of(*sampler_), box, VkDeviceSize{1} << 40), plan);
-}
-
-void DeviceRun::open(const RunSource& source, const RunPlan& plan) {
-    const RunPlan used = overridden(expect(source.plan(std::uint64_t{64} << 20)), plan);
-    const WorkspaceNeeds needs = expect(source.needs(used));
+    const RunPlan used =
+        overridden(expect(sampler_.plan_run(domain, std::uint64_t{64} << 20)), plan);
+    const WorkspaceNeeds needs = expect(sampler_.workspace_needs(domain, used));
     Workspace workspace;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         if (needs.bytes[i] == 0) {
@@ -67,35 +43,37 @@ void DeviceRun::open(const RunSource& source, const RunPlan& plan) {
         buffers_[i] = expect(DeviceBuffer::create(device_, vk_, memory_, needs.bytes[i],
                                                   kWorkspaceUsage, MemoryKind::host));
         workspace[i] = {buffers_[i].handle(), 0, buffers_[i].size()};
-        const auto bytes = expect(source.bytes(static_cast<BufferRole>(i)));
-        std::copy(bytes.begin(), bytes.end(), buffers_[i].bytes().begin());
+        const auto role = static_cast<BufferRole>(i);
+        if (const std::size_t size = sampler_.upload_size(domain, role); size > 0) {
+            expect(sampler_.write_upload(domain, used, role, buffers_[i].bytes().first(size)));
+        }
     }
-    job_.emplace(expect(source.make_job(used, workspace)));
+    job_.emplace(expect(sampler_.make_job(domain, used, workspace)));
 }
 
 void DeviceRun::begin() {
     expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_->record_begin(commands, *job_);
+        sampler_.record_begin(commands, *job_);
         barrier_to_host(vk_, commands);
     }));
 }
 
 void DeviceRun::rounds(std::uint32_t count) {
     expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_->record_rounds(commands, *job_, count);
+        sampler_.record_rounds(commands, *job_, count);
         barrier_to_host(vk_, commands);
     }));
 }
 
 void DeviceRun::grow(std::uint32_t overflow) {
     const std::uint64_t pool = buffers_[static_cast<std::size_t>(BufferRole::pool)].size();
-    expect(job_->set_plan(expect(sampler_->grow_plan(job_->plan(), overflow, pool))));
+    expect(job_->set_plan(expect(sampler_.grow_plan(job_->plan(), overflow, pool))));
     rewind();
 }
 
 void DeviceRun::rewind() {
     expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_->record_rewind(commands, *job_);
+        sampler_.record_rewind(commands, *job_);
         barrier_to_host(vk_, commands);
     }));
 }
@@ -117,7 +95,7 @@ void DeviceRun::enlarge_samples(std::uint32_t capacity) {
 
 void DeviceRun::finish() {
     expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_->record_finish(commands, *job_);
+        sampler_.record_finish(commands, *job_);
         barrier_to_host(vk_, commands);
     }));
 }

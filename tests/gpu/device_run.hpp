@@ -7,11 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include <geodisk/box.hpp>
 #include <geodisk/context.hpp>
 #include <geodisk/sampler.hpp>
 
-#include "engine/run_source.hpp"
 #include "engine/sampler_impl.hpp"
 #include "engine/submitter.hpp"
 #include "records.h"
@@ -33,13 +31,15 @@ T expect(Result<T> result) {
 
 class DeviceRun {
   public:
-    /// Fields of `plan` that are not zero replace those of Sampler::plan_run. The sampler is for
-    /// the radii of `params`, whatever `options` says. `mesh` must outlive the run.
-    DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan = {},
-              const SamplerOptions& options = {}, const Context& context = shared_context());
-    /// The same in a box.
-    DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOptions& options = {},
+    /// Fields of `plan` that are not zero replace those of Sampler::plan_run.
+    DeviceRun(const Domain& domain, const RunPlan& plan = {}, const SamplerOptions& options = {},
               const Context& context = shared_context());
+    DeviceRun(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan = {},
+              const SamplerOptions& options = {}, const Context& context = shared_context())
+        : DeviceRun(expect(Domain::surface(mesh, params)), plan, options, context) {}
+    DeviceRun(const BoxParams& box, const RunPlan& plan, const SamplerOptions& options = {},
+              const Context& context = shared_context())
+        : DeviceRun(expect(Domain::box(box)), plan, options, context) {}
 
     void set_stages(std::uint32_t first, std::uint32_t count) {
         expect(job_->set_stages(first, count));
@@ -57,7 +57,7 @@ class DeviceRun {
     gpu::ControlRec control() const { return read<gpu::ControlRec>(BufferRole::control, 1)[0]; }
     const RunPlan& plan() const { return job_->plan(); }
     const gpu::Push& push() const { return Job::Impl::of(*job_).push; }
-    const Sampler& sampler() const { return *sampler_; }
+    const Sampler& sampler() const { return sampler_; }
 
     /// The first `count` records of a buffer, after `skip` bytes.
     template <class Record>
@@ -72,12 +72,9 @@ class DeviceRun {
     }
 
   private:
-    DeviceRun(Sampler sampler, const Context& context);
-    void open(const RunSource& source, const RunPlan& plan);
-
     DeviceRefs device_;
     DeviceTable vk_;
-    std::optional<Sampler> sampler_;
+    Sampler sampler_;
     std::optional<Submitter> submitter_;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::array<DeviceBuffer, kBufferRoles> buffers_;

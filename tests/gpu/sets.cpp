@@ -1,6 +1,7 @@
 #include "sets.hpp"
 
 #include "device_run.hpp"
+#include "engine/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "run.hpp"
 
@@ -8,12 +9,12 @@ namespace geodisk::test {
 namespace {
 
 template <class Real>
-Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
+Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, double guard) {
     expect(pool_size(mesh, params));
     const ref::Surface<Real> surface(mesh, params);
     const ref::Pool<Real> pool = ref::draw_pool(surface, mesh, params);
     const ref::RunResult result =
-        ref::throw_darts(surface, pool, tolerances_for(mesh, params, chain),
+        ref::throw_darts(surface, pool, ErrorBound(mesh, params).tolerances(guard),
                          params.stop_count != 0 ? params.stop_count : kMostCandidates);
     Points points;
     for (const std::uint32_t rank : result.ranks) {
@@ -26,12 +27,12 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, std:
 
 } // namespace
 
-Points float_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
-    return sequential_set<float>(mesh, params, chain);
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, double guard) {
+    return sequential_set<float>(mesh, params, guard);
 }
 
-Points double_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
-    return sequential_set<double>(mesh, params, chain);
+Points double_set(const PreparedMesh& mesh, const SampleParams& params, double guard) {
+    return sequential_set<double>(mesh, params, guard);
 }
 
 Points points_of(const SampleSet& set) {
@@ -44,7 +45,6 @@ Points points_of(const SampleSet& set) {
 
 SampleSet sample(const PreparedMesh& mesh, const SampleParams& params, RunnerOptions options) {
     Context& context = shared_context();
-    options.sampler.adaptive = params.radii != nullptr;
     Runner runner = expect(Runner::create(context.device(), context.queue(), options));
     return expect(runner.sample_and_wait(mesh, params));
 }

@@ -20,9 +20,9 @@ struct SamplePoint {
 using Points = std::vector<SamplePoint>;
 
 /// What sequential dart throwing accepts, as the float twin decides.
-Points float_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain);
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, double guard);
 /// The same in double precision.
-Points double_set(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain);
+Points double_set(const PreparedMesh& mesh, const SampleParams& params, double guard);
 
 Points points_of(const SampleSet& set);
 

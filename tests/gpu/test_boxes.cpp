@@ -8,6 +8,8 @@
 #include <map>
 #include <span>
 
+#include <geodisk/runner.hpp>
+
 #include "baselines/box_darts.hpp"
 #include "constants.h"
 #include "device_run.hpp"
@@ -33,12 +35,10 @@ BoxParams unit_box(std::size_t dimension, double count, bool is_periodic, std::u
     return box_of(std::vector<double>(dimension, 1.0), count, is_periodic, seed);
 }
 
-BoxSampleSet sample(const BoxParams& box, const RunnerOptions& options = {},
-                    const Context& context = shared_context()) {
-    BoxRunner runner =
-        expect(BoxRunner::create(context.device(), context.queue(),
-                                 static_cast<std::uint32_t>(box.extents.size()), options));
-    return expect(runner.sample_and_wait(box));
+SampleSet sample(const BoxParams& box, const RunnerOptions& options = {},
+                 const Context& context = shared_context()) {
+    Runner runner = expect(Runner::create(context.device(), context.queue(), options));
+    return expect(runner.sample_and_wait(expect(Domain::box(box))));
 }
 
 std::vector<double> coordinates(const BoxParams& box, std::span<const ref::BoxPoint> points) {
@@ -57,7 +57,8 @@ template <class Real>
 std::vector<double> sequential_set(const BoxParams& box) {
     const ref::BoxPool<Real> pool(box);
     std::vector<ref::BoxPoint> points;
-    for (const std::uint32_t rank : ref::throw_darts(pool)) {
+    const std::uint32_t most = box.stop_count != 0 ? box.stop_count : kMostCandidates;
+    for (const std::uint32_t rank : ref::throw_darts(pool, most)) {
         points.push_back(pool.points[pool.places[rank]]);
     }
     return coordinates(box, points);
@@ -69,9 +70,9 @@ std::vector<double> plain_set(const BoxParams& box) {
                                coordinates(box, ref::draw_in_box(box).points));
 }
 
-double smallest_distance2(const BoxParams& box, const BoxSampleSet& set) {
+double smallest_distance2(const BoxParams& box, const SampleSet& set) {
     const ref::Box plain{box.extents, box.is_periodic};
-    const std::size_t n = set.dimension;
+    const std::size_t n = box.extents.size();
     const auto point = [&](std::size_t i) { return std::span(set.points).subspan(i * n, n); };
     double smallest = 1e300;
     for (std::size_t i = 0; i < set.points.size() / n; ++i) {
@@ -234,7 +235,7 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     plan.slots = slots;
     plan.list_capacity = 1024;
     plan.sample_capacity = 4096;
-    plan.stages = ref::pool_stages(box);
+    plan.stages = ref::stages_in(box).pool_stages();
     DeviceRun run(box, plan, options);
     Twin twin(box, run.push().capacity);
     run.begin();
@@ -303,7 +304,7 @@ TEST_SUITE("boxes") {
                     CAPTURE(is_periodic);
                     CAPTURE(count);
                     const BoxParams box = unit_box(n, count, is_periodic, n);
-                    const BoxSampleSet set = sample(box);
+                    const SampleSet set = sample(box);
                     CHECK(set.points == sequential_set<float>(box));
                     CHECK(set.points == sequential_set<double>(box));
                     CHECK(set.points == plain_set(box));
@@ -321,7 +322,7 @@ TEST_SUITE("boxes") {
              {std::vector<double>{1, 1e-3}, {1e6, 1, 1e3}, {3e-9, 1e-9, 2e-9}, {5e20, 5e20}}) {
             CAPTURE(sides[0]);
             const BoxParams box = box_of(sides, 500, sides.back() > sides[0] / 2);
-            const BoxSampleSet set = sample(box);
+            const SampleSet set = sample(box);
             CHECK(set.points == sequential_set<float>(box));
             CHECK(set.points == plain_set(box));
             CHECK(smallest_distance2(box, set) >= box.min_distance * box.min_distance);
@@ -377,14 +378,14 @@ TEST_SUITE("boxes") {
             for (const std::size_t n : {1u, 2u, 5u}) {
                 CAPTURE(n);
                 const BoxParams box = unit_box(n, 300, is_periodic);
-                const std::uint32_t stages = ref::pool_stages(box);
+                const std::uint32_t stages = ref::stages_in(box).pool_stages();
                 CHECK(stages == 4);
                 const auto want = sequential_set<double>(box);
                 for (std::uint32_t at_once = 1; at_once <= stages; ++at_once) {
                     CAPTURE(at_once);
                     RunnerOptions options;
                     options.plan.stages = at_once;
-                    const BoxSampleSet set = sample(box, options);
+                    const SampleSet set = sample(box, options);
                     CHECK(set.report.chunks == (stages + at_once - 1) / at_once);
                     CHECK(set.points == want);
                 }
@@ -400,7 +401,7 @@ TEST_SUITE("boxes") {
         tight.plan.slots = 30;
         tight.plan.list_capacity = 4;
         tight.plan.sample_capacity = 31;
-        const BoxSampleSet set = sample(box, tight);
+        const SampleSet set = sample(box, tight);
         CHECK(set.report.regrown > 0);
         CHECK(set.report.plan.sample_capacity > 31);
         CHECK(set.points == sequential_set<float>(box));
@@ -413,7 +414,7 @@ TEST_SUITE("boxes") {
         tight.plan.slots = 30;
         tight.plan.sample_capacity = 31;
         tight.pool_bytes = 1u << 16;
-        const BoxSampleSet set = sample(box, tight);
+        const SampleSet set = sample(box, tight);
         CHECK(set.report.regrown > 0);
         CHECK(set.report.plan.sample_capacity > 31);
         CHECK(set.points == sequential_set<float>(box));
@@ -424,29 +425,55 @@ TEST_SUITE("boxes") {
     TEST_CASE("crowds of candidates in every cell") {
         BoxParams box = unit_box(2, 12, true);
         box.pool_ratio = 10000;
-        const BoxSampleSet set = sample(box);
+        const SampleSet set = sample(box);
         CHECK(set.report.tested / set.report.disks > 2000);
         CHECK(set.report.most_conflicts > 65535 / 6);
         CHECK(set.points == sequential_set<float>(box));
     }
 
+    TEST_CASE("darts in a box, up to a number of them or of samples") {
+        for (const std::size_t dimension : {1u, 2u, 3u, 5u}) {
+            CAPTURE(dimension);
+            BoxParams box = unit_box(dimension, 150, dimension == 3, 4);
+            box.throws = 1'000;
+            const SampleSet few = sample(box);
+            CHECK(few.points == sequential_set<float>(box));
+            CHECK(few.report.candidates == 1'000);
+            box.throws = 20'000;
+            const SampleSet many = sample(box);
+            CHECK(many.points == sequential_set<float>(box));
+            CHECK(many.report.candidates == 20'000);
+            CHECK(many.report.chunks > 1);
+            CHECK(many.points.size() > few.points.size());
+            box.stop_count = static_cast<std::uint32_t>(many.points.size() / dimension / 2);
+            const SampleSet half = sample(box);
+            CHECK(half.points == sequential_set<float>(box));
+            CHECK(half.points.size() == box.stop_count * dimension);
+            CHECK(half.report.candidates < 20'000);
+            // And of a pool.
+            box.throws = 0;
+            CHECK(sample(box).points == sequential_set<float>(box));
+        }
+    }
+
     TEST_CASE("what a box cannot be is refused") {
         Context& context = shared_context();
-        CHECK(!BoxRunner::create(context.device(), context.queue(), 0));
-        CHECK(!BoxRunner::create(context.device(), context.queue(), 7));
-        BoxRunner runner = expect(BoxRunner::create(context.device(), context.queue(), 2));
-        CHECK(runner.dimension() == 2);
-        const auto other = runner.sample_and_wait(unit_box(3, 10, false));
-        REQUIRE(!other);
-        CHECK(other.error().message == "the box has 3 sides, and the runner was made for 2");
+        for (const std::size_t dimension : {0u, 7u}) {
+            const auto refused = Domain::box(unit_box(dimension, 10, false));
+            REQUIRE(!refused);
+            CHECK(refused.error().status == Status::invalid_argument);
+        }
+        const Domain square = expect(Domain::box(unit_box(2, 10, false)));
+        CHECK(square.dimension() == 2);
         RunnerOptions odd;
         odd.plan.list_capacity = 6;
-        BoxRunner uneven = expect(BoxRunner::create(context.device(), context.queue(), 2, odd));
-        const auto refused = uneven.sample_and_wait(unit_box(2, 10, false));
+        Runner uneven = expect(Runner::create(context.device(), context.queue(), odd));
+        const auto refused = uneven.sample_and_wait(square);
         REQUIRE(!refused);
         CHECK(refused.error().status == Status::invalid_argument);
+        Runner runner = expect(Runner::create(context.device(), context.queue()));
         const auto cancelled =
-            runner.sample_and_wait(unit_box(2, 10, false), [](const Progress&) { return false; });
+            runner.sample_and_wait(square, [](const Progress&) { return false; });
         REQUIRE(!cancelled);
         CHECK(cancelled.error().status == Status::cancelled);
     }
@@ -461,7 +488,7 @@ TEST_SUITE("boxes") {
             tight.plan.list_capacity = 4;
             tight.plan.stages = 1;
             const BoxParams box = unit_box(3, 200, true);
-            const BoxSampleSet set = sample(box, tight, context);
+            const SampleSet set = sample(box, tight, context);
             CHECK(set.report.regrown > 0);
             CHECK(set.points == sequential_set<float>(box));
         }

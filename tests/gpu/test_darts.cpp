@@ -7,6 +7,7 @@
 
 #include "constants.h"
 #include "device_run.hpp"
+#include "engine/tolerances.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
 
@@ -45,7 +46,7 @@ TEST_SUITE("darts") {
                 const SampleSet set = sample(mesh, params);
                 CHECK(set.report.candidates == throws);
                 CHECK(set.report.chunks == (throws < 1'450 ? 1 : throws < 11'000 ? 3 : 5));
-                CHECK(points_of(set) == double_set(mesh, params, set.report.plan.chain));
+                CHECK(points_of(set) == double_set(mesh, params, set.report.plan.guard));
             }
         }
     }
@@ -100,7 +101,7 @@ TEST_SUITE("darts") {
                 CHECK(points_of(set) == want);
                 darts.push_back(set.report.candidates);
             }
-            CHECK(want == double_set(mesh, params, provided_chain(mesh, params.min_distance)));
+            CHECK(want == double_set(mesh, params, first_guard(mesh, params)));
             // Just so many darts it takes, and none less.
             CHECK(darts == std::vector<std::uint32_t>(ways.size(), darts[0]));
             CHECK(sample(mesh, darts_for(mesh, 400, darts[0])).samples.size() == count);
@@ -189,20 +190,20 @@ TEST_SUITE("darts") {
         for (const std::uint32_t stop_count : {0u, 40u}) {
             SampleParams params = params_for(mesh, 60);
             params.stop_count = stop_count;
-            std::vector<std::uint32_t> chains;
+            std::vector<double> guards;
             std::vector<Points> sets;
             for (const std::uint32_t slots : {kLeastSlots, 16u, 1'000u}) {
                 for (const std::uint32_t stages : {1u, 4u}) {
                     RunnerOptions options = by_stages(stages);
                     options.plan.slots = slots;
-                    options.plan.chain = 1;
+                    options.plan.guard = 0x1p-30;
                     const SampleSet set = sample(mesh, params, options);
-                    chains.push_back(set.report.plan.chain);
+                    guards.push_back(set.report.plan.guard);
                     sets.push_back(points_of(set));
                 }
             }
-            CHECK(chains == std::vector<std::uint32_t>(6, chains[0]));
-            CHECK(chains[0] > 1);
+            CHECK(guards == std::vector<double>(6, guards[0]));
+            CHECK(guards[0] > 0x1p-30);
             CHECK(sets == std::vector<Points>(6, sets[0]));
         }
     }
@@ -249,9 +250,10 @@ TEST_SUITE("darts") {
         }
         const SampleParams params =
             params_for(mesh, 1.5 * static_cast<double>(binding / 4) / kDefaultPoolRatio);
-        const RunPlan plan = expect(sampler.plan_run(mesh, params, std::uint64_t{64} << 20));
+        const Domain domain = expect(Domain::surface(mesh, params));
+        const RunPlan plan = expect(sampler.plan_run(domain, std::uint64_t{64} << 20));
         CHECK(plan.stages == 2);
-        const auto needs = expect(sampler.workspace_needs(mesh, params, plan));
+        const auto needs = expect(sampler.workspace_needs(domain, plan));
         CHECK(needs.bytes[static_cast<std::size_t>(BufferRole::states)] <= binding);
     }
 }

@@ -8,6 +8,8 @@
 
 #include "constants.h"
 #include "device_run.hpp"
+#include "engine/stages.hpp"
+#include "engine/tolerances.hpp"
 #include "kernels/count_calls.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"
@@ -28,11 +30,12 @@ struct Twin {
     ref::Detector<float> detector;
     std::vector<std::uint8_t> states;
 
-    Twin(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain,
-         std::uint32_t first, std::uint32_t count)
+    Twin(const PreparedMesh& mesh, const SampleParams& params, double guard, std::uint32_t first,
+         std::uint32_t count)
         : surface(mesh, params), pool(ref::draw_stages(surface, mesh, params, first, count)),
-          ranks(pool.ranks()), detector(surface, pool.bins, tolerances_for(mesh, params, chain),
-                                        tolerances_for(mesh, params, chain).limit),
+          ranks(pool.ranks()),
+          detector(surface, pool.bins, ErrorBound(mesh, params).tolerances(guard),
+                   ErrorBound(mesh, params).tolerances(guard).limit),
           states(pool.size(), gpu::kIdle) {}
 
     /// `conflicts` are those of higher rank, `above` the active ones of lower rank.
@@ -329,7 +332,7 @@ void step_through(const PreparedMesh& mesh, const SampleParams& params,
     CallHistogram calls;
     for (const Part& part : parts) {
         run.set_stages(part.first, part.count);
-        Twin twin(mesh, params, run.plan().chain, part.first, part.count);
+        Twin twin(mesh, params, run.plan().guard, part.first, part.count);
         run.begin();
         const auto by_place = compare_candidates(run, twin);
         step_through_samples(run, twin, samples, by_place, totals);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include <geodisk/space.hpp>
-
 #include "baselines/space_disks.hpp"
 #include "device_run.hpp"
 #include "kernels/pool.hpp"
@@ -23,9 +21,10 @@ namespace {
 SampleSet sample_space(const TestMesh& mesh, const SampleParams& params, Metric metric,
                        const RunnerOptions& options = {},
                        const Context& context = shared_context()) {
-    SpaceRunner runner =
-        expect(SpaceRunner::create(context.device(), context.queue(), metric, options));
-    return expect(runner.sample_and_wait(mesh.view(), prepared(mesh), params));
+    Runner runner = expect(Runner::create(context.device(), context.queue(), options));
+    const PreparedMesh surface = prepared(mesh);
+    return expect(runner.sample_and_wait(
+        expect(Domain::surface_in_space(mesh.view(), surface, params, metric))));
 }
 
 /// In dart order.
@@ -194,44 +193,21 @@ TEST_SUITE("space") {
     }
 
     TEST_CASE("what has no straight-line distance is refused") {
-        Context& context = shared_context();
-        SpaceRunner runner =
-            expect(SpaceRunner::create(context.device(), context.queue(), Metric::euclidean));
-        const TestMesh cube = builtin("cube", 1);
+        const TestMesh cube = builtin("cube", 4);
         const TestMesh ball = builtin("icosphere", 1);
         const PreparedMesh mesh = prepared(cube);
         const SampleParams params = params_for(mesh, 100);
-        CHECK(!runner.sample_and_wait(ball.view(), mesh, params));
-        CHECK(!runner.sample_and_wait({cube.positions, cube.triangles, 4}, mesh, params));
-        SampleParams none;
-        CHECK(!runner.sample_and_wait(cube.view(), mesh, none));
-        CHECK(runner.sample_and_wait(cube.view(), mesh, params));
-    }
-
-    TEST_CASE("radii that vary are refused, and kernels for them not taken") {
-        const TestMesh cube = builtin("cube", 4);
-        const PreparedMesh mesh = prepared(cube);
+        const auto in_space = [&](const MeshView& view, const SampleParams& of) {
+            return Domain::surface_in_space(view, mesh, of, Metric::euclidean);
+        };
+        CHECK(!in_space(ball.view(), params));
+        CHECK(!in_space({cube.positions, cube.triangles, 4}, params));
+        CHECK(!in_space(cube.view(), SampleParams{}));
+        CHECK(in_space(cube.view(), params));
         const RadiusField radii = radius_field(mesh, wavy_factors(cube, 0.5));
-        RunnerOptions options;
-        options.sampler.adaptive = true;
-        Context& context = shared_context();
-        SpaceRunner runner = expect(
-            SpaceRunner::create(context.device(), context.queue(), Metric::euclidean, options));
-        const auto refused =
-            runner.sample_and_wait(cube.view(), mesh, params_for(mesh, 100, 1, &radii));
+        const auto refused = in_space(cube.view(), params_for(mesh, 100, 1, &radii));
         REQUIRE_FALSE(refused);
         CHECK(refused.error().message == "SampleParams::radii is for geodesic distances alone");
-        const SampleParams params = params_for(mesh, 300);
-        const SampleSet set = expect(runner.sample_and_wait(cube.view(), mesh, params));
-        const SampleSet plain = sample_space(cube, params, Metric::euclidean);
-        REQUIRE(points_of(set) == points_of(plain));
-        std::uint32_t wrong = 0;
-        for (std::size_t i = 0; i < set.samples.size(); ++i) {
-            wrong += set.samples[i].face != plain.samples[i].face ||
-                     set.samples[i].weights[1] != plain.samples[i].weights[1] ||
-                     set.samples[i].weights[2] != plain.samples[i].weights[2];
-        }
-        CHECK(wrong == 0);
     }
 
     TEST_CASE("the validation layer has nothing to say about a run in space") {

@@ -28,7 +28,7 @@ TEST_SUITE("validation") {
             Runner runner = expect(Runner::create(context.device(), context.queue(), tight));
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));
             CHECK(set.report.regrown > 0);
-            CHECK(points_of(set) == float_set(mesh, params, set.report.plan.chain));
+            CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
             // And later stages the samples of those before, in a buffer that has to grow.
             tight.plan.stages = 1;
             tight.plan.slots = 16;
@@ -36,10 +36,8 @@ TEST_SUITE("validation") {
             runner = expect(Runner::create(context.device(), context.queue(), tight));
             CHECK(points_of(expect(runner.sample_and_wait(mesh, params))) == points_of(set));
 
-            tight.sampler.adaptive = true;
-            Runner adaptive = expect(Runner::create(context.device(), context.queue(), tight));
-            CHECK(points_of(expect(adaptive.sample_and_wait(mesh, varying))) ==
-                  float_set(mesh, varying, set.report.plan.chain));
+            CHECK(points_of(expect(runner.sample_and_wait(mesh, varying))) ==
+                  float_set(mesh, varying, set.report.plan.guard));
         }
         for (const std::string& message : expect(context.validation_messages())) {
             MESSAGE(message);

@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/tolerances.hpp"
 #include "run.hpp"
 #include "support/oracle_geodesic.hpp"
 
@@ -143,13 +144,14 @@ Darts thrown(const PreparedMesh& mesh, const SampleParams& params) {
     Darts darts;
     darts.min_distance = params.min_distance;
     darts.pool = points_of(pool);
-    for (std::uint32_t chain = provided_chain(mesh, params.min_distance);; chain *= 2) {
-        darts.tolerances = tolerances_for(mesh, params.min_distance, chain);
+    const ErrorBound error(mesh, params);
+    for (double guard = first_guard(mesh, params);; guard *= 2) {
+        darts.tolerances = error.tolerances(guard);
         ref::RunResult run =
             ref::throw_darts(surface, pool, darts.tolerances,
                              params.stop_count != 0 ? params.stop_count : kMostCandidates);
         darts.ranks = std::move(run.ranks);
-        if (run.longest_chain <= chain) {
+        if (error.covers(guard, run.longest_chain)) {
             return darts;
         }
     }

@@ -1,4 +1,5 @@
 #include "ref/distance_check.hpp"
+#include "engine/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +50,9 @@ void check_documented(const DistanceCase& c, const char* kind, const PreparedMes
                       const std::vector<double>& truth) {
     const std::vector<double> found = query.from(source);
     // A chain longer than provided widens the promise, as the program does.
-    const std::uint32_t chain = std::max(provided_chain(mesh, c.reach), query.count().chain);
-    const double bound = tolerances_for(mesh, c.reach, chain).guard * c.reach;
+    const double guard = std::max(first_guard(mesh, c.reach),
+                                  ErrorBound(mesh, c.reach).guard_for(query.count().chain));
+    const double bound = guard * c.reach;
     report(c, kind, source, worst_error(found, truth, c.reach, 3 * bound), bound);
 }
 
@@ -58,7 +60,7 @@ void check_documented(const DistanceCase& c, const char* kind, const PreparedMes
 
 void check_distances(const DistanceCase& c, const Truth& truth) {
     const PreparedMesh mesh = prepared(c.mesh);
-    const Tolerances documented = tolerances_for(mesh, c.reach, provided_chain(mesh, c.reach));
+    const Tolerances documented = first_tolerances(mesh, c.reach);
     GeodesicQuery<double> exact(mesh, c.reach, c.targets, tight_tolerances());
     GeodesicQuery<double> reference(mesh, c.reach, c.targets, documented);
     GeodesicQuery<float> twin(mesh, c.reach, c.targets, documented);

@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/tolerances.hpp"
 #include "ref/chi_square.hpp"
 #include "run.hpp"
 #include "support/geodesic_query.hpp"
@@ -147,8 +148,7 @@ template <class Real>
 ref::RunResult throw_on(const ref::Surface<Real>& surface, const Case& c,
                         const SampleParams& params) {
     const ref::Pool<Real> pool = ref::draw_pool(surface, c.surface, params);
-    const std::uint32_t chain = provided_chain(c.surface, params.min_distance);
-    return ref::throw_darts(surface, pool, tolerances_for(c.surface, params, chain));
+    return ref::throw_darts(surface, pool, first_tolerances(c.surface, params));
 }
 
 /// Cut at the bounds of the faces, a run returns what it returns cut at the largest radius alone.
@@ -177,8 +177,7 @@ void check_pairs(const std::string& name, const Case& c, double count) {
     const ref::Surface<double> exact(c.surface, params);
     const std::vector<Point> pool = ref::draw_pool(exact, c.surface, params).by_rank();
     const auto size = static_cast<std::uint32_t>(pool.size());
-    const double guard =
-        tolerances_for(c.surface, params, provided_chain(c.surface, params.min_distance)).guard;
+    const double guard = first_guard(c.surface, params);
     std::vector<bool> accepted(size, false), covered(size, false);
     for (const std::uint32_t rank : ranks) {
         accepted[rank] = true;
@@ -207,8 +206,7 @@ void check_pairs(const std::string& name, const Case& c, double count) {
 
 void check_replay(const std::string& name, const Case& c, const SampleParams& params) {
     INFO(name << " at a distance of " << params.min_distance);
-    const ReplayReport judged =
-        replay(c.surface, params, provided_chain(c.surface, params.min_distance));
+    const ReplayReport judged = replay(c.surface, params, first_guard(c.surface, params));
     CHECK(judged.wrong == 0);
     CHECK(judged.ties <= 2);
     check_deviation(name, judged);

@@ -193,7 +193,7 @@ TEST_CASE("boxes: a candidate by hand") {
     };
     const std::uint64_t first = seed_of(ref::philox(box.seed, {cell[0], cell[1], cell[2], 0xB0C5}));
     const std::uint64_t seed = seed_of(ref::philox(first, {cell[3], cell[4], cell[5], 0xB0C5}));
-    const float mean = ref::stage_intensity(box);
+    const float mean = ref::stage_intensity(box, 0);
     const auto words = ref::philox(seed, {0xffffffff, 2, 0, 0});
     const std::uint32_t count = ref::poisson(mean, words[0], words[1]);
     const auto in_cell = [&](std::size_t i) {
@@ -232,8 +232,9 @@ TEST_CASE("boxes: candidates are uniform, as many as asked for, and in dart orde
         const ref::BoxLattice lattice(box);
         const ref::BoxCandidates drawn = ref::draw_in_box(box);
         const double area = box.extents[0] * box.extents[1];
-        const double expected = static_cast<double>(ref::stage_intensity(box)) *
-                                ref::pool_stages(box) * area / lattice.unit / lattice.unit;
+        const double expected = static_cast<double>(ref::stage_intensity(box, 0)) *
+                                ref::stages_in(box).pool_stages() * area / lattice.unit /
+                                lattice.unit;
         const auto total = static_cast<double>(drawn.points.size());
         CHECK(std::abs(total - expected) < 5 * std::sqrt(expected));
         CHECK(std::is_sorted(drawn.words.begin(), drawn.words.end()));
@@ -255,7 +256,7 @@ TEST_CASE("boxes: an open box has the candidates of a part of it") {
     part.extents = {0.75, 0.625, 0.875};
     BoxParams whole = part;
     whole.extents = {1, 1.125, 1.7};
-    REQUIRE(ref::stage_intensity(part) == ref::stage_intensity(whole));
+    REQUIRE(ref::stage_intensity(part, 0) == ref::stage_intensity(whole, 0));
     const ref::BoxCandidates inner = ref::draw_in_box(part);
     const ref::BoxCandidates outer = ref::draw_in_box(whole);
     const ref::BoxLattice lattice(part);

@@ -7,6 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/stages.hpp"
+#include "engine/tolerances.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/poisson.hpp"
 #include "kernels/pool.hpp"
@@ -429,7 +431,7 @@ TEST_CASE("bins: a disk finds every point within reach, however large the triang
         for (const double reach : {0.01, 0.07, 0.5}) {
             const PreparedMesh surface = prepared(mesh);
             const std::vector<Point> points = random_points(surface, 3, 4000);
-            const Tolerances t = tolerances_for(surface, reach, provided_chain(surface, reach));
+            const Tolerances t = first_tolerances(surface, reach);
             GeodesicQuery<float> query(surface, reach, points, t);
             for (std::size_t s = 0; s < 100; ++s) {
                 const std::vector<double> found = query.from(points[s]);

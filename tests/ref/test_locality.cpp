@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "ref/dart_check.hpp"
 #include "run.hpp"
@@ -103,7 +104,7 @@ struct Scene {
         const ref::Surface<double> of(surface, params);
         const auto pool = ref::draw_pool(of, surface, params);
         const Tolerances tolerances =
-            tolerances_for(surface, params, 4 * provided_chain(surface, params.min_distance));
+            ErrorBound(surface, params).tolerances(2 * first_guard(surface, params));
         std::vector<Point> points;
         for (const std::uint32_t rank : ref::throw_darts(of, pool, tolerances).ranks) {
             points.push_back(pool.candidate(rank));

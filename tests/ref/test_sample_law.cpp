@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "ref/dart_check.hpp"
 #include "run.hpp"
@@ -25,8 +26,7 @@ struct Measured {
 std::vector<std::uint32_t> sampled_faces(const ref::Surface<float>& surface,
                                          const PreparedMesh& mesh, const SampleParams& params) {
     const auto pool = ref::draw_pool(surface, mesh, params);
-    const Tolerances tolerances =
-        tolerances_for(mesh, params, provided_chain(mesh, params.min_distance));
+    const Tolerances tolerances = first_tolerances(mesh, params);
     std::vector<std::uint32_t> faces;
     for (const std::uint32_t rank : ref::throw_darts(surface, pool, tolerances).ranks) {
         faces.push_back(pool.candidate(rank).face);

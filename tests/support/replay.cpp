@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/tolerances.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"
 
@@ -73,8 +74,8 @@ void judge(const Distances& hits, const Distances& truth, const Limit& limit_wit
 
 } // namespace
 
-ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t chain) {
-    const Tolerances tolerances = tolerances_for(mesh, params, chain);
+ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double guard) {
+    const Tolerances tolerances = ErrorBound(mesh, params).tolerances(guard);
     Side<float> floats(mesh, params, tolerances, tolerances.limit);
     Side<double> doubles(mesh, params, tolerances, tolerances.limit + 2 * tolerances.guard);
     std::vector<bool> decided(floats.pool.size(), false);

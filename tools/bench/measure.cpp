@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -86,10 +87,6 @@ SampleSet run_device(Runner& runner, const PreparedMesh& mesh, const SampleParam
     auto result = runner.sample_and_wait(mesh, params,
                                          [](const Progress&) { return !tools::is_interrupted(); });
     tools::check_interrupted();
-    // The device was found good enough, so what it lacks here is room for this job.
-    if (!result && result.error().status == Status::device_lacks) {
-        throw UserError(ExitCode::out_of_memory, what + ": " + result.error().message);
-    }
     return tools::take(std::move(result), what);
 }
 
@@ -117,7 +114,7 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
 
     SampleSet set = run_device(runner, mesh.prepared, params, what);
     const ReferenceJob job{mesh.prepared, params,
-                           tolerances_for(mesh.prepared, params, set.report.plan.chain)};
+                           ErrorBound(mesh.prepared, params).tolerances(set.report.plan.guard)};
     check_equal(set.samples, run_reference(ref::Surface<float>(mesh.prepared, params), job).samples,
                 what);
 

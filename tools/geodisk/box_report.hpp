@@ -6,6 +6,7 @@
 #include <string>
 
 #include <geodisk/box.hpp>
+#include <geodisk/runner.hpp>
 
 #include "common/sample_file.hpp"
 

@@ -107,34 +107,30 @@ void check_outputs(const BoxOptions& options, const BoxParams& box) {
     check_report_path(options.run.json);
 }
 
-BoxSampleSet sample_on_device(const BoxOptions& options, const RunnerOptions& runner_options,
-                              BoxReport& report, ProgressLine& progress) {
+std::vector<double> sample_on_device(const BoxOptions& options, const RunnerOptions& runner_options,
+                                     const Domain& domain, BoxReport& report,
+                                     ProgressLine& progress) {
     const Context context =
         open_device(options.run.device, options.run.validate, report.seconds.device, progress);
     report.device = context.report();
-    progress.begin_stage("compiling the shaders");
-    BoxRunner runner = timed(report.seconds.pipelines, [&] {
-        return take(BoxRunner::create(context.device(), context.queue(),
-                                      static_cast<std::uint32_t>(report.box.extents.size()),
-                                      tuned(runner_options, report.device)));
-    });
-    report.tuning = runner.tuning();
-    check_interrupted();
+    Runner runner =
+        open_runner(context, runner_options, domain, report.seconds.pipelines, progress);
+    report.tuning = runner.sampler().tuning();
     progress.begin_stage("sampling");
-    BoxSampleSet set = take_run(
-        runner.sample_and_wait(report.box, show_progress(progress, expected_count(report.box))),
+    SampleSet set = take_run(
+        runner.sample_and_wait(domain, show_progress(progress, expected_count(report.box))),
         progress);
     check_validation(context);
     report.run = set.report;
-    report.samples = set.points.size() / set.dimension;
-    return set;
+    report.samples = set.points.size() / domain.dimension();
+    return std::move(set.points);
 }
 
-std::vector<SampleRow> to_rows(const BoxSampleSet& set) {
-    std::vector<SampleRow> rows(set.points.size() / set.dimension);
+std::vector<SampleRow> to_rows(const std::vector<double>& points, std::size_t dimension) {
+    std::vector<SampleRow> rows(points.size() / dimension);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        std::copy_n(set.points.begin() + static_cast<std::ptrdiff_t>(i * set.dimension),
-                    set.dimension, rows[i].position);
+        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(i * dimension), dimension,
+                    rows[i].position);
     }
     return rows;
 }
@@ -147,10 +143,13 @@ void run_box(const BoxOptions& options) {
     report.output_path = options.output;
     report.box = request.box;
     report.wanted_count = request.count;
-    const BoxSampleSet set = sample_on_device(options, request.runner, report, progress);
+    const Domain domain = take(Domain::box(request.box));
+    const std::vector<double> points =
+        sample_on_device(options, request.runner, domain, report, progress);
     write_outputs(options.output, options.run, report, progress, [&](AtomicFile& file) {
-        write_box_samples(file, options.output, sample_header(report), to_rows(set),
-                          options.run.ascii, set.dimension);
+        write_box_samples(file, options.output, sample_header(report),
+                          to_rows(points, domain.dimension()), options.run.ascii,
+                          domain.dimension());
     });
 }
 

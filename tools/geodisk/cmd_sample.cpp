@@ -13,7 +13,6 @@
 
 #include <geodisk/context.hpp>
 #include <geodisk/runner.hpp>
-#include <geodisk/space.hpp>
 
 #include "common/atomic_file.hpp"
 #include "common/number_text.hpp"
@@ -203,47 +202,31 @@ double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
     return params.stop_count != 0 ? std::min<double>(expected, params.stop_count) : expected;
 }
 
-/// Opens a runner, SpaceRunner of some metric or Runner, and lets `work` use it.
-template <class AnyRunner, class Work, class... Choice>
-SampleSet run_on(const Context& context, const RunnerOptions& options, double expected,
-                 SampleReport& report, ProgressLine& progress, const Work& work, Choice... choice) {
-    progress.begin_stage("compiling the shaders");
-    AnyRunner runner = timed(report.seconds.pipelines, [&] {
-        return take(AnyRunner::create(context.device(), context.queue(), choice...,
-                                      tuned(options, report.device)));
-    });
-    report.tuning = runner.tuning();
-    check_interrupted();
-    progress.begin_stage("sampling");
-    return take_run(work(runner, show_progress(progress, expected)), progress);
+Domain domain_of(const std::string& metric, const MeshInput& mesh, const SampleParams& params) {
+    if (metric == "geodesic") {
+        return take(Domain::surface(mesh.prepared, params));
+    }
+    const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
+    return take(
+        Domain::surface_in_space(view, mesh.prepared, params,
+                                 metric == "euclidean" ? Metric::euclidean : Metric::approximate));
 }
 
 std::vector<Sample> sample_on_device(const SampleOptions& options,
                                      const RunnerOptions& runner_options, const MeshInput& mesh,
-                                     SampleReport& report, ProgressLine& progress) {
+                                     const Domain& domain, SampleReport& report,
+                                     ProgressLine& progress) {
     const Context context =
         open_device(options.run.device, options.run.validate, report.seconds.device, progress);
     report.device = context.report();
     RunnerOptions chosen = runner_options;
     chosen.sampler.count_calls = options.count_calls;
-    chosen.sampler.adaptive = report.params.radii != nullptr;
+    Runner runner = open_runner(context, chosen, domain, report.seconds.pipelines, progress);
+    report.tuning = runner.sampler().tuning();
+    progress.begin_stage("sampling");
     const double expected = expected_samples(mesh.prepared, report.params);
-    SampleSet set;
-    if (options.metric == "geodesic") {
-        set = run_on<Runner>(context, chosen, expected, report, progress,
-                             [&](Runner& runner, const ProgressCallback& callback) {
-                                 return runner.sample_and_wait(mesh.prepared, report.params,
-                                                               callback);
-                             });
-    } else {
-        const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
-        set = run_on<SpaceRunner>(
-            context, chosen, expected, report, progress,
-            [&](SpaceRunner& runner, const ProgressCallback& callback) {
-                return runner.sample_and_wait(view, mesh.prepared, report.params, callback);
-            },
-            options.metric == "euclidean" ? Metric::euclidean : Metric::approximate);
-    }
+    SampleSet set =
+        take_run(runner.sample_and_wait(domain, show_progress(progress, expected)), progress);
     check_validation(context);
     report.run = set.report;
     report.samples = set.samples.size();
@@ -310,10 +293,11 @@ void run_sample(const SampleOptions& options) {
     report.wanted_count = request.count;
     report.seconds.load = mesh.load_seconds;
     report.seconds.prepare = mesh.prepare_seconds;
-    take(pool_size(mesh.prepared, report.params)); // Fails before a device is needed.
+    // Fails before a device is needed.
+    const Domain domain = domain_of(options.metric, mesh, report.params);
 
     const std::vector<Sample> samples =
-        sample_on_device(options, request.runner, mesh, report, progress);
+        sample_on_device(options, request.runner, mesh, domain, report, progress);
     check_count(request, report);
     const std::vector<SampleRow> rows = to_rows(mesh, report.params.min_distance, samples);
     report.set_radii(rows);

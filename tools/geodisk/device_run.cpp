@@ -35,10 +35,20 @@ ProgressCallback show_progress(ProgressLine& progress, double expected) {
     };
 }
 
+Runner open_runner(const Context& context, const RunnerOptions& options, const Domain& domain,
+                   double& seconds, ProgressLine& progress) {
+    progress.begin_stage("compiling the shaders");
+    Runner runner = timed(seconds, [&] {
+        Runner made = take(
+            Runner::create(context.device(), context.queue(), tuned(options, context.report())));
+        take(made.sampler().prepare(domain));
+        return made;
+    });
+    check_interrupted();
+    return runner;
+}
+
 void check_run(const Error& error) {
-    if (error.status == Status::device_lacks) {
-        throw UserError(ExitCode::out_of_memory, error.message);
-    }
     if (error.status == Status::workspace_too_small) {
         throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
     }

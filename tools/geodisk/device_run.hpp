@@ -43,8 +43,11 @@ RunnerOptions tuned(RunnerOptions options, const DeviceReport& device);
 /// Draws how far a run is that should give about `expected` samples, and stops it on a signal.
 ProgressCallback show_progress(ProgressLine& progress, double expected);
 
-/// Throws UserError for an error of a run: the device was found good enough, so what it lacks is
-/// room for this job.
+/// A runner whose pipelines for the domain are compiled; adds to `seconds`.
+Runner open_runner(const Context& context, const RunnerOptions& options, const Domain& domain,
+                   double& seconds, ProgressLine& progress);
+
+/// Throws UserError for an error of a run that --memory can help with.
 void check_run(const Error& error);
 
 /// What a run returned.

@@ -53,14 +53,14 @@ void add_run(Speed& speed, Work&& work) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
-BoxSampleSet run_device(BoxRunner& runner, const BoxParams& box) {
-    auto result =
-        runner.sample_and_wait(box, [](const Progress&) { return !tools::is_interrupted(); });
+SampleSet run_device(Runner& runner, const BoxParams& box) {
+    auto result = runner.sample_and_wait(tools::take(Domain::box(box)),
+                                         [](const Progress&) { return !tools::is_interrupted(); });
     tools::check_interrupted();
     return tools::take(std::move(result));
 }
 
-void check_equal(const BoxSampleSet& set, const BoxParams& box) {
+void check_equal(const SampleSet& set, const BoxParams& box) {
     const ref::BoxPool<float> pool(box);
     const ref::BoxLattice lattice(box);
     std::vector<double> points;
@@ -85,12 +85,12 @@ void add_dimension(const Options& options, const Context& context, std::uint32_t
     box.min_distance = distance_for_count(box, tools::parse_count("--count", options.count));
     const auto trials =
         static_cast<std::uint32_t>(tools::parse_ratio("--trials", options.trials, 1, 1000));
-    BoxRunner runner = tools::take(
-        BoxRunner::create(context.device(), context.queue(), dimension, kept_options(context)));
+    Runner runner =
+        tools::take(Runner::create(context.device(), context.queue(), kept_options(context)));
     check_equal(run_device(runner, box), box);
     Speed device, reference, around;
     for (int i = 0; i < options.common.repeats; ++i, ++box.seed) {
-        const BoxSampleSet set = run_device(runner, box);
+        const SampleSet set = run_device(runner, box);
         device.samples = static_cast<double>(set.points.size()) / dimension;
         device.seconds.push_back(set.report.seconds.sample);
         add_run(reference, [&] { return ref::throw_darts(ref::BoxPool<double>(box)).size(); });

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "engine/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
@@ -32,8 +33,7 @@ Pool draw_pool(const PaperMesh& mesh, const SampleParams& params) {
     tools::check_interrupted();
     tools::take(pool_size(mesh.prepared, params), mesh.name); // Fails where a parameter is wrong.
     const ref::Surface<double> surface(mesh.prepared, params);
-    const std::uint32_t chain = provided_chain(mesh.prepared, params.min_distance);
-    return {params, tolerances_for(mesh.prepared, params.min_distance, chain),
+    return {params, first_tolerances(mesh.prepared, params),
             ref::draw_pool(surface, mesh.prepared, params).by_rank()};
 }
 

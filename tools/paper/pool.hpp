@@ -10,6 +10,7 @@
 #include <geodisk/params.hpp>
 
 #include "common/mesh_file.hpp"
+#include "engine/tolerances.hpp"
 #include "lib/surface.hpp"
 
 namespace geodisk::paper {

@@ -14,6 +14,7 @@ ExitCode exit_code_of(Status status) {
     case Status::out_of_host_memory:
     case Status::out_of_device_memory:
     case Status::workspace_too_small:
+    case Status::job_too_large:
         return ExitCode::out_of_memory;
     default:
         return ExitCode::internal;

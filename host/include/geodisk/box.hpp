@@ -1,16 +1,11 @@
-// BoxRunner: samples boxes of R^n, n = 1 to 6, by straight-line distance (paper section 5.9), on a
-// lent device and queue. It allocates, submits and waits.
+// Boxes of R^n, n = 1 to 6, sampled by straight-line distance (paper section 5.9).
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <span>
 #include <vector>
 
-#include <geodisk/device.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/params.hpp>
-#include <geodisk/runner.hpp>
 #include <geodisk/status.hpp>
 
 namespace geodisk {
@@ -30,6 +25,8 @@ struct BoxParams {
     double min_distance = 0; ///< D > 0: no two samples are closer, in the units of the sides.
     std::uint64_t seed = 0;
     double pool_ratio = kDefaultPoolRatio; ///< Candidates per expected sample, 1 to 10,000.
+    std::uint32_t throws = 0;              ///< As SampleParams::throws.
+    std::uint32_t stop_count = 0;          ///< As SampleParams::stop_count.
 };
 
 /// Expected number of samples, by densities measured for each dimension with the default pool
@@ -39,55 +36,16 @@ GEODISK_API double expected_count(const BoxParams& box) noexcept;
 
 /// The distance that should give about `count` samples, at least 1; `box.min_distance` does not
 /// enter. A periodic box with much shorter sides than others may be too thin for it, as pool_size()
-/// tells.
+/// tells. 0 for a box without sides.
 GEODISK_API double distance_for_count(const BoxParams& box, double count) noexcept;
 
-/// Candidates that the pool expects, about pool_ratio times the expected count, at least 64. They
-/// are as dense in every box, but that boxes with much border have 2, 4, ... times as many, so that
-/// a larger box has those of a smaller one with the same lower corner.
+/// Candidates of a job: `throws`, or those that a pool expects, about pool_ratio times the expected
+/// count, at least 64. They are as dense in every box, but that boxes with much border have 2, 4,
+/// ... times as many, so that a larger box has those of a smaller one with the same lower corner.
 ///
 /// Fails with `invalid_argument` when a parameter is out of range; when a side is more than 2^24
 /// distances long, or the pool cannot be indexed with 32 bits; and when the minimum distance
 /// exceeds a side of a periodic box.
 GEODISK_API Result<std::uint32_t> pool_size(const BoxParams& box) noexcept;
-
-struct BoxSampleSet {
-    std::uint32_t dimension = 0;
-    /// `dimension` coordinates of each sample, in dart-throwing order.
-    std::vector<double> points;
-    /// `windows` counts the rows of cells visited; what concerns windows, chains and vertices
-    /// otherwise is 0.
-    RunReport report;
-};
-
-/// Not thread-safe; several runners may share a device, and a queue through QueueRef's lock.
-class GEODISK_API BoxRunner {
-  public:
-    /// Compiles the pipelines for boxes of so many dimensions and checks the device's arithmetic.
-    /// Errors: `invalid_argument` for a dimension other than 1 to 6; else as Runner::create.
-    static Result<BoxRunner> create(const DeviceRefs& device, const QueueRef& queue,
-                                    std::uint32_t dimension,
-                                    const RunnerOptions& options = {}) noexcept;
-    BoxRunner(BoxRunner&&) noexcept;
-    BoxRunner& operator=(BoxRunner&&) noexcept;
-    ~BoxRunner();
-
-    /// Returns the set that sequential dart throwing over the same candidates returns, whatever
-    /// device, driver or plan.
-    ///
-    /// Errors: `invalid_argument` as pool_size(), or for a box of another dimension; else as
-    /// Runner::sample_and_wait.
-    Result<BoxSampleSet> sample_and_wait(const BoxParams& box,
-                                         const ProgressCallback& progress = {}) noexcept;
-
-    std::uint32_t dimension() const noexcept;
-    /// The device, and the tuning that was chosen for it.
-    const DeviceReport& report() const noexcept;
-    const Tuning& tuning() const noexcept;
-
-  private:
-    explicit BoxRunner(std::unique_ptr<Runner::Impl> impl) noexcept;
-    std::unique_ptr<Runner::Impl> impl_;
-};
 
 } // namespace geodisk

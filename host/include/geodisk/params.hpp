@@ -66,29 +66,6 @@ struct Stages {
     double candidates() const noexcept { return throws != 0 ? throws : pool(); }
 };
 
-/// The guard band that makes float decisions safe, in units of the minimum distance.
-///
-/// Conflicts are tested against `1 + guard`. A window chain of `chain` crossings errs by less than
-/// `margin` when each crossing errs by at most 2^-22 of the distances met: the largest is one disk
-/// plus the longest edge. The guard is that rounded up to a power of two, at least 2^-13.
-struct Tolerances {
-    float limit;  ///< 1 + guard.
-    float margin; ///< A window is dropped only when beaten by more than this.
-    float slack;  ///< Intervals are widened by this for hits and apexes.
-    double guard;
-    std::uint32_t chain; ///< Crossings the guard covers.
-};
-
-/// The unit in which the device measures: `min_distance`, or where that is beyond every geodesic
-/// distance of the mesh, a bound of those. The samples are the same, and coordinates keep their
-/// precision. Takes a search over the edges (milliseconds per 100,000 faces) when `min_distance`
-/// exceeds the mesh's diagonal, else no time.
-GEODISK_API double working_distance(const PreparedMesh& mesh, double min_distance) noexcept;
-
-/// The same for a run: with radii that vary it is always min_distance, since the smaller ones may
-/// matter however large that is.
-GEODISK_API double working_distance(const PreparedMesh& mesh, const SampleParams& params) noexcept;
-
 /// The area that a run fills: the mesh's, or with radii that vary RadiusField::effective_area().
 GEODISK_API double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept;
 
@@ -111,27 +88,5 @@ GEODISK_API double packing_density(double area, double min_distance, double coun
 /// candidates in a stage.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
-
-/// The stages of a job that pool_size() finds no fault with.
-GEODISK_API Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) noexcept;
-
-/// Samples expected per area of one distance squared.
-GEODISK_API double samples_per_area() noexcept;
-
-/// Candidates that a stage expects per unit of area, or where radii vary per unit of the integral
-/// of 1 / g^2; lengths in units of working_distance().
-GEODISK_API float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::uint32_t stage) noexcept;
-
-/// Crossings to provide for: a bound guessed from the faces a disk covers, at least 64.
-GEODISK_API std::uint32_t provided_chain(const PreparedMesh& mesh, double min_distance) noexcept;
-
-/// Tolerances for window chains of at most `chain` crossings.
-GEODISK_API Tolerances tolerances_for(const PreparedMesh& mesh, double min_distance,
-                                      std::uint32_t chain) noexcept;
-
-/// The same for a run; where radii vary, with a little more for their rounding.
-GEODISK_API Tolerances tolerances_for(const PreparedMesh& mesh, const SampleParams& params,
-                                      std::uint32_t chain) noexcept;
 
 } // namespace geodisk

@@ -1,4 +1,4 @@
-// Runner: samples a mesh on a lent device and queue, from upload to result. It allocates, submits
+// Runner: samples a domain on a lent device and queue, from upload to result. It allocates, submits
 // and waits; for full control over those, use Sampler.
 #pragma once
 
@@ -10,9 +10,8 @@
 
 #include <geodisk/call_histogram.hpp>
 #include <geodisk/device.hpp>
+#include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
-#include <geodisk/mesh.hpp>
-#include <geodisk/params.hpp>
 #include <geodisk/sampler.hpp>
 
 namespace geodisk {
@@ -49,7 +48,9 @@ struct RunReport {
     std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples; those of
                                       ///< samples anew with every chunk.
     std::uint32_t regrown = 0;        ///< Times a batch was repeated with more memory.
-    std::uint64_t windows = 0;        ///< Windows and vertex events of all disks.
+    std::uint64_t windows = 0;        ///< Windows and vertex events of all disks, or rows of cells
+                                      ///< where distances are straight; what else concerns
+                                      ///< windows, chains and vertices is 0 there.
     std::uint64_t tested = 0;         ///< Candidate distances computed in all disks.
     std::uint32_t most_waiting = 0;   ///< Most windows, or vertex events, waiting in one disk.
     std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
@@ -64,13 +65,16 @@ struct RunReport {
     std::uint64_t device_bytes = 0; ///< Memory allocated on the device.
     RunPlan plan;                   ///< As it stood at the end.
     struct {
+        double compile = 0; ///< Of pipelines that no run before has needed.
         double upload = 0, sample = 0, readback = 0;
     } seconds;
     StageSeconds stages{}; ///< Device time, 0 without RunnerOptions::time_stages.
 };
 
+/// In dart-throwing order.
 struct SampleSet {
-    std::vector<Sample> samples; ///< In dart-throwing order.
+    std::vector<Sample> samples; ///< Of a surface.
+    std::vector<double> points;  ///< Of a box: Domain::dimension() coordinates of each sample.
     RunReport report;
 };
 
@@ -87,7 +91,7 @@ struct RunnerOptions {
     /// binding of the device.
     std::uint64_t pool_bytes = std::uint64_t{256} << 20;
     /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice
-    /// changes the samples, but `chain`, which widens or narrows the guard and with it the ties.
+    /// changes the samples, but `guard`, and with it the ties.
     RunPlan plan;
     /// Measures the device time of each stage by timestamps, where the queue has them.
     bool time_stages = false;
@@ -101,7 +105,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// Not thread-safe; several runners may share a device, and a queue through QueueRef's lock.
 class GEODISK_API Runner {
   public:
-    /// Compiles the pipelines and checks on the device that arithmetic rounds as decisions need.
+    /// Makes a Sampler and checks on the device that arithmetic rounds as decisions need.
     /// Errors: as Sampler::create; `device_lacks` when the check fails.
     static Result<Runner> create(const DeviceRefs& device, const QueueRef& queue,
                                  const RunnerOptions& options = {}) noexcept;
@@ -114,15 +118,17 @@ class GEODISK_API Runner {
     /// window chains outgrow the guard is repeated with a wider one. Candidates that do not fit a
     /// binding or the device's memory, or may not be needed, are drawn chunk by chunk.
     ///
-    /// Errors: `invalid_argument`, `device_lacks` and `workspace_too_small` as Sampler's functions;
-    /// `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the runner refuses
-    /// all further work; when a submission was given up as hung, what it uses is never freed.
+    /// Errors: `job_too_large`, `workspace_too_small` and `invalid_argument` as Sampler's
+    /// functions; `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the
+    /// runner refuses all further work; when a submission was given up as hung, what it uses is
+    /// never freed.
+    Result<SampleSet> sample_and_wait(const Domain& domain,
+                                      const ProgressCallback& progress = {}) noexcept;
+    /// The same of Domain::surface(mesh, params), and its errors.
     Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;
 
     const Sampler& sampler() const noexcept;
-    /// The tuning that was chosen for the device.
-    const Tuning& tuning() const noexcept;
 
     struct Impl; ///< Internal.
 

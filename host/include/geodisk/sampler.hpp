@@ -5,7 +5,7 @@
 //   1. plan_run             how many candidates are active at a time, how many invocations compute
 //                           their disks, and how much memory each gets
 //   2. workspace_needs      sizes of the buffers; the caller allocates them
-//   3. mesh_bytes           what to upload into the mesh buffers before the first use
+//   3. write_upload         what to upload before the first use
 //   4. make_job             writes descriptor sets; nothing is recorded yet
 //   5. record_begin         draws the candidates of the first stages
 //   6. record_rounds        a fixed number of rounds; those after the last cost empty dispatches.
@@ -19,6 +19,7 @@
 //   8. set_stages           if the plan's stages are fewer than the job's: the next ones, and on
 //                           with 5 after a finish, until all were drawn or `accepted` has reached
 //                           the count to stop at
+//   9. widen_plan           tells whether the guard was wide enough; if not, start over
 #pragma once
 
 #include <array>
@@ -30,9 +31,8 @@
 #include <vulkan/vulkan_core.h>
 
 #include <geodisk/device.hpp>
+#include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
-#include <geodisk/mesh.hpp>
-#include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
 
 namespace geodisk {
@@ -79,7 +79,7 @@ GEODISK_API Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept;
 /// `wanted` with all that it leaves open chosen for a device. Errors: `invalid_argument` for a size
 /// or a pool block that cannot be, `device_lacks` for Reads::texels on a device whose texel buffers
 /// are too small.
-GEODISK_API Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report);
+GEODISK_API Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) noexcept;
 
 struct SamplerOptions {
     Tuning tuning;
@@ -90,9 +90,6 @@ struct SamplerOptions {
     /// Counts what RunReport::calls tells, which takes dispatches of its own. Does not change the
     /// samples.
     bool count_calls = false;
-    /// For jobs with SampleParams::radii, and for no others: kernels are compiled for either. Boxes
-    /// and distances through space have one radius and do not look at it.
-    bool adaptive = false;
 };
 
 /// The buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
@@ -140,8 +137,8 @@ struct WorkspaceNeeds {
     GEODISK_API VkDeviceSize total() const noexcept;
 };
 
-/// How a job is cut into work. Nothing but `chain` bears on which samples come out, and that only
-/// where a distance is within the guard of the minimum.
+/// How a job is cut into work. Nothing but `guard` bears on which samples come out, and that only
+/// where a distance is within it of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time, at least kLeastSlots.
     std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another.
@@ -154,11 +151,12 @@ struct RunPlan {
                                        ///< windows or corners; cut to what the device can take.
     std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
     std::uint32_t sample_capacity = 0; ///< Samples the buffers hold; more than slots.
-    std::uint32_t chain = 0;           ///< Window crossings the guard covers, see Tolerances.
     std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it.
     std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
     std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
                                        ///< at most 2^23.
+    double guard = 0; ///< Conflicts are tested against min_distance * (1 + guard), since distances
+                      ///< are float; at most 1/2. See host/docs/precision.md.
 
     /// A lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;
@@ -180,10 +178,10 @@ struct SyncScope {
 
 class Job;
 
-/// The pipelines. Immutable after `create`, so any number of threads may record with one Sampler.
+/// The pipelines of a device, for jobs of all domains. Any number of threads may use one.
 class GEODISK_API Sampler {
   public:
-    /// Compiles the pipelines on the lent device.
+    /// Compiles the pipelines that all domains share on the lent device.
     /// Errors: `device_lacks` with every reason; as chosen_tuning(); or as Vulkan fails.
     static Result<Sampler> create(const DeviceRefs& device,
                                   const SamplerOptions& options = {}) noexcept;
@@ -195,11 +193,13 @@ class GEODISK_API Sampler {
     /// As given, with what was left to choose.
     const Tuning& tuning() const noexcept;
 
+    /// Compiles what jobs of the domain need beyond what `create` compiled, unless it was before;
+    /// else make_job does. Errors: as Vulkan fails.
+    Result<Done> prepare(const Domain& domain) const noexcept;
+
     /// A plan for this device whose pool is at most `pool_bytes` (and one binding) large.
-    /// Errors: `invalid_argument` as pool_size(), and when the sampler is not for these radii
-    /// (SamplerOptions::adaptive); `workspace_too_small` if not even one lane fits.
-    Result<RunPlan> plan_run(const PreparedMesh& mesh, const SampleParams& params,
-                             std::uint64_t pool_bytes) const noexcept;
+    /// Errors: `workspace_too_small` if not even one lane fits.
+    Result<RunPlan> plan_run(const Domain& domain, std::uint64_t pool_bytes) const noexcept;
 
     /// The plan after an overflow: the capacities named by `overflow` (gpu::kOverflow* bits)
     /// doubled, slots and lanes fewer if the pool would grow past `pool_bytes`. Errors:
@@ -207,22 +207,28 @@ class GEODISK_API Sampler {
     Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
                               std::uint64_t pool_bytes) const noexcept;
 
-    /// Errors: `invalid_argument` as plan_run(), `device_lacks` when a buffer would exceed what
-    /// the device can bind, naming buffer, candidates and bytes.
-    Result<WorkspaceNeeds> workspace_needs(const PreparedMesh& mesh, const SampleParams& params,
+    /// The plan to start over with where ControlRec::longest_chain came out too long for the guard,
+    /// which is wider then; else the same plan.
+    RunPlan widen_plan(const Domain& domain, RunPlan plan,
+                       std::uint32_t longest_chain) const noexcept;
+
+    /// Errors: `job_too_large` when a buffer would exceed what the device can bind, naming buffer,
+    /// candidates and bytes.
+    Result<WorkspaceNeeds> workspace_needs(const Domain& domain,
                                            const RunPlan& plan) const noexcept;
 
-    /// Writes the bytes of a mesh buffer (faces, fans or keys) for the caller to upload. `out` must
-    /// hold exactly as many bytes as `mesh_bytes_size` tells. Errors: `invalid_argument` as
-    /// plan_run(), and for another buffer or size; `out_of_host_memory`.
-    Result<Done> mesh_bytes(const PreparedMesh& mesh, const SampleParams& params, BufferRole role,
-                            std::span<std::byte> out) const noexcept;
-    std::size_t mesh_bytes_size(const PreparedMesh& mesh, const SampleParams& params,
-                                BufferRole role) const noexcept;
+    /// Writes the bytes that the caller is to upload into a buffer. `out` must hold exactly as many
+    /// as `upload_size` tells, which is 0 for buffers that need none. Errors: `invalid_argument`
+    /// for such a buffer or another size; `out_of_host_memory`.
+    Result<Done> write_upload(const Domain& domain, const RunPlan& plan, BufferRole role,
+                              std::span<std::byte> out) const noexcept;
+    std::size_t upload_size(const Domain& domain, BufferRole role) const noexcept;
 
-    /// Writes descriptor sets for a workspace. The job keeps no reference to mesh or params; the
-    /// Sampler must outlive it.
-    Result<Job> make_job(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
+    /// Writes descriptor sets for a workspace. The job keeps no reference to the domain; the
+    /// Sampler must outlive it. Errors: `invalid_argument` for a plan that is not as RunPlan asks,
+    /// or a workspace that overlaps or is off alignment; `workspace_too_small`; as
+    /// workspace_needs(); as Vulkan fails.
+    Result<Job> make_job(const Domain& domain, const RunPlan& plan,
                          const Workspace& workspace) const noexcept;
 
     // Recording. The command buffer must be in the recording state, outside a render pass, on a
@@ -265,7 +271,7 @@ class GEODISK_API Job {
 
     const RunPlan& plan() const noexcept;
     /// Replaces the plan, for rounds recorded from now on. Its slots must not be more than the job
-    /// was made with, its stages the same, and its pool must fit the workspace's.
+    /// was made with, its stages and guard the same, and its pool must fit the workspace's.
     Result<Done> set_plan(const RunPlan& plan) noexcept;
     /// The same with another pool. No command buffer of the job may be pending.
     Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;

@@ -23,8 +23,9 @@ enum class Status : std::int32_t {
     out_of_host_memory = -6,
     out_of_device_memory = -7,
     device_lost = -8,
-    cancelled = -9, ///< The progress callback asked to stop.
-    internal = -10, ///< A broken invariant of geodisk itself or of the driver.
+    cancelled = -9,      ///< The progress callback asked to stop.
+    internal = -10,      ///< A broken invariant of geodisk itself or of the driver.
+    job_too_large = -11, ///< A buffer of the job exceeds what the device can bind.
 };
 
 /// Name of a status as spelled above, for messages.

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "engine/box_grid.hpp"
+#include "engine/stages.hpp"
 #include "geodisk/philox.hpp"
+#include "support/guard.hpp"
 #include "support/number_text.hpp"
 
 namespace geodisk {
@@ -22,7 +24,6 @@ struct Density {
 constexpr Density kDensities[kMostBoxDimensions] = {{0.726, 0.281}, {0.601, 0.295}, {0.540, 0.280},
                                                     {0.523, 0.262}, {0.545, 0.245}, {0.597, 0.237}};
 
-constexpr double kMinimumPool = 64;
 // A float holds it.
 constexpr double kLargestIntensity = 0x1p126;
 // The square root of 2.
@@ -84,6 +85,9 @@ double expected_count(const BoxParams& box) noexcept {
 }
 
 double distance_for_count(const BoxParams& box, double count) noexcept {
+    if (box.extents.empty()) {
+        return 0;
+    }
     const auto [shortest, longest] = std::minmax_element(box.extents.begin(), box.extents.end());
     // The more samples the shorter: halve the exponents in between.
     double low = std::log(*shortest) - 30, high = std::log(*longest) + 3;
@@ -95,27 +99,29 @@ double distance_for_count(const BoxParams& box, double count) noexcept {
 }
 
 Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
-    if (!(box.min_distance > 0) || !std::isfinite(box.min_distance)) {
-        return invalid("the minimum distance must be a positive finite number");
-    }
-    if (!(box.pool_ratio >= 1 && box.pool_ratio <= 10000)) {
-        return invalid("the pool ratio must be 1 to 10,000");
-    }
-    if (auto checked = check_sides(box); !checked) {
-        return checked.error();
-    }
-    const Stages stages = stages_of(box);
-    if (!(stages.per_sample(0) * samples_per_volume(box) <= kLargestIntensity)) {
-        return invalid(
-            "sides of the box are too short beside the minimum distance; leave them out");
-    }
-    const double wanted = std::ceil(stages.pool());
-    if (!(wanted <= kMostCandidates)) {
-        return invalid("the minimum distance is too small for this box: the pool would take " +
-                       number_text(wanted) + " candidates, the most is " +
-                       number_text(kMostCandidates));
-    }
-    return static_cast<std::uint32_t>(wanted);
+    return guarded([&]() -> Result<std::uint32_t> {
+        if (!(box.min_distance > 0) || !std::isfinite(box.min_distance)) {
+            return invalid("the minimum distance must be a positive finite number");
+        }
+        if (!(box.pool_ratio >= 1 && box.pool_ratio <= 10000)) {
+            return invalid("the pool ratio must be 1 to 10,000");
+        }
+        if (auto checked = check_sides(box); !checked) {
+            return checked.error();
+        }
+        const Stages stages = stages_of(box);
+        if (!(stages.per_sample(0) * samples_per_volume(box) <= kLargestIntensity)) {
+            return invalid(
+                "sides of the box are too short beside the minimum distance; leave them out");
+        }
+        const double wanted = std::ceil(stages.candidates());
+        if (!(wanted <= kMostCandidates)) {
+            return invalid("the minimum distance is too small for this box: the pool would take " +
+                           number_text(wanted) + " candidates, the most is " +
+                           number_text(kMostCandidates));
+        }
+        return static_cast<std::uint32_t>(wanted);
+    });
 }
 
 namespace {
@@ -144,7 +150,7 @@ double samples_per_volume(const BoxParams& box) noexcept {
 
 Stages stages_of(const BoxParams& box) noexcept {
     const double samples = samples_per_volume(box) * volume_of(box);
-    return {samples, std::max(box.pool_ratio, kMinimumPool / samples), 0};
+    return {samples, std::max(box.pool_ratio, kLeastPool / samples), box.throws};
 }
 
 void sample_point(std::uint64_t job_seed, const DrawAxes& axes, const gpu::SampleRec& sample,

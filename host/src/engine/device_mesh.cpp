@@ -8,6 +8,7 @@
 #include <geodisk/params.hpp>
 
 #include "constants.h"
+#include "engine/tolerances.hpp"
 #include "records.h"
 
 namespace geodisk {

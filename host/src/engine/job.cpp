@@ -7,10 +7,12 @@
 #include <geodisk/sampler.hpp>
 
 #include "bindings.h"
+#include "engine/domain_impl.hpp"
 #include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
 #include "records.h"
 #include "support/guard.hpp"
+#include "support/number_text.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
@@ -96,6 +98,12 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
                      "of two, list_capacity a "
                      "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
     }
+    // The vertex table tags distances by the bits that those below 2 leave clear.
+    if (!(plan.guard > 0 && plan.guard <= kWidestGuard)) {
+        return Error{Status::invalid_argument,
+                     "the plan's guard of " + number_text(plan.guard) +
+                         " is not above 0 and at most half of the minimum distance"};
+    }
     // Vulkan promises no more work groups.
     const std::uint64_t most_slots = std::uint64_t{65535} * tuning.slot_local_size;
     if (plan.slots > most_slots) {
@@ -114,13 +122,13 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
 
 /// The same for a plan of a job that exists.
 Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize pool) {
-    if (auto checked = check_plan(plan, job.sampler->tuning); !checked) {
+    if (auto checked = check_plan(plan, job.sampler->choices.tuning); !checked) {
         return checked;
     }
     if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
-        plan.sample_capacity != job.plan.sample_capacity || plan.chain != job.plan.chain) {
+        plan.sample_capacity != job.plan.sample_capacity || plan.guard != job.plan.guard) {
         return Error{Status::invalid_argument,
-                     "the plan has another chain, or other stages, idle_capacity or "
+                     "the plan has another guard, or other stages, idle_capacity or "
                      "sample_capacity than the job was made for"};
     }
     const std::uint32_t most_slots = job.most_slots;
@@ -199,8 +207,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.window_capacity = plan.window_capacity;
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;
-    // In space each slot's own invocation computes its disk.
-    push.lanes = sampler->domain == Domain::surface ? plan.lanes : plan.slots;
+    push.lanes = has_lane_per_slot ? plan.slots : plan.lanes;
     push.lane_rows = plan.lane_rows();
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
     push.step_budget = std::min(plan.step_budget, most_steps);
@@ -291,76 +298,58 @@ Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples
     });
 }
 
-Result<Job> Sampler::make_job(const PreparedMesh& mesh, const SampleParams& params,
-                              const RunPlan& plan, const Workspace& workspace) const noexcept {
+Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
+                              const Workspace& workspace) const noexcept {
     return guarded([&]() -> Result<Job> {
-        if (auto checked = check_plan(plan, impl_->tuning); !checked) {
+        if (auto checked = check_plan(plan, tuning()); !checked) {
             return checked.error();
         }
-        auto needs = workspace_needs(mesh, params, plan);
+        const auto needs = workspace_needs(domain, plan);
         if (!needs) {
             return needs.error();
         }
         if (auto checked = check_workspace(workspace, *needs, impl_->report.limits); !checked) {
             return checked.error();
         }
-        const Tolerances tolerances = tolerances_for(mesh, params, plan.chain);
-        // The vertex table tags distances by the bits that those below 2 leave clear.
-        if (!(tolerances.guard <= kWidestGuard)) {
-            return Error{Status::invalid_argument,
-                         "the plan's chain of " + std::to_string(plan.chain) +
-                             " window crossings widens the minimum distance by more than half"};
+        const Domain::Impl& of = Domain::Impl::of(domain);
+        const auto pipelines = impl_->pipelines.of(of.kernels);
+        if (!pipelines) {
+            return pipelines.error();
         }
-        gpu::Push push{};
-        push.capacity = capacity_for(stages_of(mesh, params), plan.stages);
-        push.stop_count = params.stop_count != 0 ? params.stop_count : kMostCandidates;
-        push.faces = mesh.face_count();
-        push.has_keys = params.face_keys.empty() ? 0 : 1;
-        push.all_single = needs->bytes[gpu::kBindCells] == 0 ? 1 : 0;
-        push.vertices = mesh.vertex_count();
-        push.cells = push.all_single != 0
-                         ? 0
-                         : static_cast<std::uint32_t>(needs->bytes[gpu::kBindCells] / 4 - 2);
-        push.seed_low = static_cast<std::uint32_t>(params.seed);
-        push.seed_high = static_cast<std::uint32_t>(params.seed >> 32);
-        push.limit = tolerances.limit;
-        push.margin = tolerances.margin;
-        push.slack = tolerances.slack;
-        push.splits_once = mesh.statistics().nonmanifold_edges == 0 ? 1 : 0;
-        return Job::Impl::open(
-            *impl_, plan, workspace, push,
-            {stages_of(mesh, params), samples_per_area(), most_steps(impl_->report)});
+        auto job = std::make_unique<Job::Impl>();
+        job->sampler = impl_.get();
+        job->own_pipelines = *pipelines;
+        job->domain = of.kernels.domain;
+        job->workspace = workspace;
+        job->most_slots = plan.slots;
+        job->most_steps = of.most_steps(impl_->report);
+        job->has_lane_per_slot = of.has_lane_per_slot;
+        job->stages = of.stages;
+        job->samples_per_measure = of.samples_per_measure;
+        gpu::Push& push = job->push;
+        push.capacity = capacity_for(of.stages, plan.stages);
+        push.buckets = bucket_count(push.capacity);
+        push.faces = static_cast<std::uint32_t>(of.units);
+        push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, plan.guard));
+        push.seed_low = static_cast<std::uint32_t>(of.seed);
+        push.seed_high = static_cast<std::uint32_t>(of.seed >> 32);
+        push.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
+        of.set_push(push, plan);
+        job->apply_plan(plan);
+        const std::uint32_t all = of.stages.throws != 0 ? plan.stages : of.stages.pool_stages();
+        job->begin_stages(0, std::min(plan.stages, all));
+        for (std::size_t i = 0; i < kBufferRoles; ++i) {
+            const auto view = job->create_view(i, workspace[i]);
+            if (!view) {
+                return view.error();
+            }
+            job->views[i] = *view;
+        }
+        if (auto written = job->write_sets(); !written) {
+            return written.error();
+        }
+        return Job(std::move(job));
     });
-}
-
-Result<Job> Job::Impl::open(const Sampler::Impl& sampler, const RunPlan& plan,
-                            const Workspace& workspace, const gpu::Push& push, const OfJob& of) {
-    if (auto checked = check_plan(plan, sampler.tuning); !checked) {
-        return checked.error();
-    }
-    auto job = std::make_unique<Job::Impl>();
-    job->sampler = &sampler;
-    job->workspace = workspace;
-    job->most_slots = plan.slots;
-    job->most_steps = of.most_steps;
-    job->stages = of.stages;
-    job->samples_per_measure = of.samples_per_measure;
-    job->push = push;
-    job->push.buckets = bucket_count(push.capacity);
-    job->apply_plan(plan);
-    const std::uint32_t all = of.stages.throws != 0 ? plan.stages : of.stages.pool_stages();
-    job->begin_stages(0, std::min(plan.stages, all));
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        auto view = job->create_view(i, workspace[i]);
-        if (!view) {
-            return view.error();
-        }
-        job->views[i] = *view;
-    }
-    if (auto written = job->write_sets(); !written) {
-        return written.error();
-    }
-    return Job(std::move(job));
 }
 
 Result<Done> Job::Impl::write_sets() {
@@ -388,9 +377,9 @@ Result<Done> Job::Impl::write_sets() {
     std::vector<std::size_t> kernels;
     std::vector<VkDescriptorSetLayout> layouts;
     for (std::size_t k = 0; k < kKernels; ++k) {
-        if (sampler->has(k)) {
+        if (has(k)) {
             kernels.push_back(k);
-            layouts.push_back(sampler->set_layouts[k]);
+            layouts.push_back(sampler->pipelines.set_layout(k));
         }
     }
     for (std::uint32_t role = 0; role < kSetRoles; ++role) {
@@ -469,7 +458,7 @@ void Job::Impl::write_buffer(std::size_t buffer) const {
     };
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
-            if (!sampler->has(k) || !has_binding(binding.access, sampler->reads_texels())) {
+            if (!has(k) || !has_binding(binding.access, sampler->reads_texels())) {
                 continue;
             }
             for (std::size_t role = 0; role < kSetRoles; ++role) {

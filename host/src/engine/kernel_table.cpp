@@ -149,15 +149,15 @@ constexpr Binding kGridDetect[] = {
     {kBindOrders, read}, {kBindPool, storage}, {kBindControl, storage}};
 
 const std::array<KernelInfo, kKernels> kTable{{
-    {"count", k_count_spirv, k_count_texels_spirv, kCount, false, Domain::surface},
+    {"count", k_count_spirv, k_count_texels_spirv, kCount, false, DomainKind::surface},
     {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanBlocks, false},
     {"scan_sums", k_scan_sums_spirv, k_scan_sums_texels_spirv, kScanSums, false},
     {"scan_add", k_scan_add_spirv, k_scan_add_texels_spirv, kScanAdd, false},
-    {"bin", k_bin_spirv, k_bin_texels_spirv, kBin, false, Domain::surface},
-    {"draw", k_draw_spirv, k_draw_texels_spirv, kDraw, false, Domain::surface},
+    {"bin", k_bin_spirv, k_bin_texels_spirv, kBin, false, DomainKind::surface},
+    {"draw", k_draw_spirv, k_draw_texels_spirv, kDraw, false, DomainKind::surface},
     {"begin_chunk", k_begin_chunk_spirv, k_begin_chunk_texels_spirv, kBeginChunk, true},
-    {"select", k_select_spirv, k_select_texels_spirv, kSelect, true, Domain::surface},
-    {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true, Domain::surface},
+    {"select", k_select_spirv, k_select_texels_spirv, kSelect, true, DomainKind::surface},
+    {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true, DomainKind::surface},
     {"resolve", k_resolve_spirv, k_resolve_texels_spirv, kResolve, true},
     {"count_calls", k_count_calls_spirv, k_count_calls_texels_spirv, kCountCalls, true},
     {"rewind", k_rewind_spirv, k_rewind_texels_spirv, kRewind, true},
@@ -167,18 +167,20 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"order_place", k_order_place_spirv, k_order_place_texels_spirv, kOrderPlace, false},
     {"order_write", k_order_write_spirv, k_order_write_texels_spirv, kOrderWrite, false},
     {"self_test", k_self_test_spirv, k_self_test_texels_spirv, kSelfTest, false},
-    {"box_count", k_box_count_spirv, k_box_count_texels_spirv, kBoxCount, false, Domain::box},
-    {"box_bin", k_box_bin_spirv, k_box_bin_texels_spirv, kBoxBin, false, Domain::box},
-    {"box_draw", k_box_draw_spirv, k_box_draw_texels_spirv, kBoxDraw, false, Domain::box},
-    {"box_select", k_box_select_spirv, k_box_select_texels_spirv, kBoxSelect, true, Domain::box},
+    {"box_count", k_box_count_spirv, k_box_count_texels_spirv, kBoxCount, false, DomainKind::box},
+    {"box_bin", k_box_bin_spirv, k_box_bin_texels_spirv, kBoxBin, false, DomainKind::box},
+    {"box_draw", k_box_draw_spirv, k_box_draw_texels_spirv, kBoxDraw, false, DomainKind::box},
+    {"box_select", k_box_select_spirv, k_box_select_texels_spirv, kBoxSelect, true,
+     DomainKind::box},
     {"space_count", k_space_count_spirv, k_space_count_texels_spirv, kSpaceCount, false,
-     Domain::space},
-    {"space_bin", k_space_bin_spirv, k_space_bin_texels_spirv, kSpaceBin, false, Domain::space},
-    {"space_draw", k_space_draw_spirv, k_space_draw_texels_spirv, kSpaceDraw, false, Domain::space},
+     DomainKind::space},
+    {"space_bin", k_space_bin_spirv, k_space_bin_texels_spirv, kSpaceBin, false, DomainKind::space},
+    {"space_draw", k_space_draw_spirv, k_space_draw_texels_spirv, kSpaceDraw, false,
+     DomainKind::space},
     {"space_select", k_space_select_spirv, k_space_select_texels_spirv, kSpaceSelect, true,
-     Domain::space},
+     DomainKind::space},
     {"grid_detect", k_grid_detect_spirv, k_grid_detect_texels_spirv, kGridDetect, true,
-     Domain::in_space},
+     DomainKind::in_space},
 }};
 
 } // namespace
@@ -187,12 +189,12 @@ const KernelInfo& kernel_info(Kernel kernel) noexcept {
     return kTable[static_cast<std::size_t>(kernel)];
 }
 
-DomainKernels kernels_of(Domain domain) noexcept {
-    if (domain == Domain::box) {
+DomainKernels kernels_of(DomainKind domain) noexcept {
+    if (domain == DomainKind::box) {
         return {Kernel::box_count, Kernel::box_bin, Kernel::box_draw, Kernel::box_select,
                 Kernel::grid_detect};
     }
-    if (domain == Domain::space) {
+    if (domain == DomainKind::space) {
         return {Kernel::space_count, Kernel::space_bin, Kernel::space_draw, Kernel::space_select,
                 Kernel::grid_detect};
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 
@@ -43,12 +44,22 @@ enum class Kernel : std::uint32_t {
 inline constexpr std::size_t kKernels = 27;
 
 /// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
-enum class Domain : std::uint8_t {
+enum class DomainKind : std::uint8_t {
     surface = 1,  ///< By geodesic distance.
     box = 2,      ///< By straight-line distance, as all that follow.
     space = 4,    ///< A surface in space.
     in_space = 6, ///< Of kernels: both with a grid.
     any = 7,
+};
+
+/// What the kernels of a job are specialized for, besides what all jobs of a device share.
+struct KernelVariant {
+    DomainKind domain = DomainKind::surface;
+    std::uint32_t dimension = 0; ///< Of a grid.
+    bool curved = false;         ///< Lengths of curves instead of straight lines in space.
+    bool adaptive = false;       ///< Radii that vary over a surface.
+
+    friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;
 };
 
 /// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
@@ -71,9 +82,9 @@ struct KernelInfo {
     std::span<const std::uint32_t> texels_spirv; ///< Reads from texel buffers.
     std::span<const Binding> bindings;           ///< Ascending; at most eight storage buffers.
     bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
-    Domain domain = Domain::any;
+    DomainKind domain = DomainKind::any;
 
-    bool serves(Domain other) const {
+    bool serves(DomainKind other) const {
         return (static_cast<std::uint8_t>(domain) & static_cast<std::uint8_t>(other)) != 0;
     }
 };
@@ -82,7 +93,7 @@ struct KernelInfo {
 struct DomainKernels {
     Kernel count, bin, draw, select, detect;
 };
-DomainKernels kernels_of(Domain domain) noexcept;
+DomainKernels kernels_of(DomainKind domain) noexcept;
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept;
 

@@ -9,7 +9,7 @@
 
 #include "bindings.h"
 #include "constants.h"
-#include "engine/device_mesh.hpp"
+#include "engine/domain_impl.hpp"
 #include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
 #include "records.h"
@@ -18,18 +18,11 @@
 namespace geodisk {
 namespace {
 
-// llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently.
-constexpr std::uint32_t kLlvmpipeSteps = 65535 / gpu::kIterationsPerStep;
-// Elsewhere the budget keeps a dispatch well under the watchdogs.
-constexpr std::uint32_t kDefaultSteps = 128;
 // Even one to a work group, they are no more groups than any device takes.
 constexpr double kMostSlots = (1u << 16) - 512;
 // Of a CPU, whose caches the lists of more would leave.
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
-// Conflicts to provide for, per candidate that a full surface has for each sample.
-constexpr double kListPerCrowd = 8;
-constexpr double kLeastList = 8;
 constexpr std::uint32_t kLargestCapacity = 1u << 26;
 // Of candidates: deviations from what a stage expects that there is room for.
 constexpr double kDeviations = 8;
@@ -47,30 +40,6 @@ constexpr std::uint32_t kMostBuckets = 1u << 22;
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
-}
-
-/// Samples that a full surface holds, at least two: no disk covers more than all faces.
-double samples_when_full(const PreparedMesh& mesh, const SampleParams& params) {
-    return std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance));
-}
-
-/// Samples to reckon with: not more than are asked for, or thrown.
-double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
-    double samples = samples_when_full(mesh, params);
-    for (const std::uint32_t bound : {params.throws, params.stop_count}) {
-        samples = bound != 0 ? std::min<double>(samples, bound) : samples;
-    }
-    return samples;
-}
-
-std::uint32_t cpu_lanes(const DeviceReport& report) {
-    return std::max(1u, std::thread::hardware_concurrency()) *
-           std::max(1u, report.limits.subgroup_size);
-}
-
-/// A CPU runs as many lanes as it has; a GPU is to have one for every slot.
-std::uint32_t wanted_lanes(std::uint32_t slots, const DeviceReport& report) {
-    return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? std::min(slots, cpu_lanes(report)) : slots;
 }
 
 /// Bytes of the least pool that the plan can run with: the fewest lists and a block of lanes.
@@ -96,15 +65,22 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
-/// Dispatches of detect in which a batch should be done, even one with a large disk: those it does
-/// not need are empty.
-std::uint32_t wanted_passes(const RunPlan& plan, double faces_per_disk) {
-    // What a disk takes, by measurement.
-    const double trips =
-        12 + 2.5 * faces_per_disk + 0.3 * faces_per_disk * std::sqrt(faces_per_disk);
-    const double per_lane = std::ceil(static_cast<double>(plan.slots) / plan.lanes) * trips;
-    return static_cast<std::uint32_t>(
-        std::clamp(per_lane / (plan.step_budget * gpu::kTripsPerStep) + 2, 1.0, kMostPasses));
+/// `job` is as " for 100 candidates and 12 faces".
+Result<Done> check_needs(const WorkspaceNeeds& needs, const std::string& job,
+                         const DeviceReport& report) {
+    const std::uint64_t limit = report.limits.max_storage_buffer_range;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindKeys;
+        if (needs.bytes[i] > limit) {
+            return Error{
+                Status::job_too_large,
+                std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) + job +
+                    " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
+                    " binds at most " + std::to_string(limit) +
+                    (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
+        }
+    }
+    return Done{};
 }
 
 Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
@@ -157,6 +133,18 @@ std::uint32_t bucket_count(std::uint32_t capacity) noexcept {
     return std::clamp(std::bit_ceil(capacity / kCandidatesPerBucket), kLeastBuckets, kMostBuckets);
 }
 
+std::uint32_t cpu_lanes(const DeviceReport& report) {
+    return std::max(1u, std::thread::hardware_concurrency()) *
+           std::max(1u, report.limits.subgroup_size);
+}
+
+double samples_to_expect(double full, std::uint32_t throws, std::uint32_t stop_count) noexcept {
+    for (const std::uint32_t bound : {throws, stop_count}) {
+        full = bound != 0 ? std::min<double>(full, bound) : full;
+    }
+    return full;
+}
+
 std::uint32_t pow2_at_least(double x) {
     return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
 }
@@ -193,10 +181,6 @@ std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) 
     return std::clamp(wanted, kLeastIdle, gpu::kMostListed);
 }
 
-std::uint32_t most_steps(const DeviceReport& report) noexcept {
-    return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeSteps : kDefaultSteps;
-}
-
 RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     const auto replace = [](std::uint32_t& field, std::uint32_t value) {
         field = value != 0 ? value : field;
@@ -211,10 +195,10 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.lanes, wanted.lanes);
     replace(plan.detect_passes, wanted.detect_passes);
     replace(plan.sample_capacity, wanted.sample_capacity);
-    replace(plan.chain, wanted.chain);
     replace(plan.pool_block, wanted.pool_block);
     replace(plan.stages, wanted.stages);
     replace(plan.idle_capacity, wanted.idle_capacity);
+    plan.guard = wanted.guard != 0 ? wanted.guard : plan.guard;
     return plan;
 }
 
@@ -239,51 +223,28 @@ VkDeviceSize WorkspaceNeeds::total() const noexcept {
     return sum;
 }
 
-Result<RunPlan> Sampler::plan_run(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::uint64_t pool_bytes) const noexcept {
+Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes) const noexcept {
     return guarded([&]() -> Result<RunPlan> {
-        if (auto checked = impl_->check_radii(params); !checked) {
-            return checked.error();
-        }
-        const auto candidates = pool_size(mesh, params);
-        if (!candidates) {
-            return candidates.error();
-        }
         const DeviceReport& report = impl_->report;
-        const Stages stages = stages_of(mesh, params);
-        const double full = samples_when_full(mesh, params);
-        const double disks = expected_samples(mesh, params);
-        const double faces_per_disk = 2.0 * mesh.face_count() / full;
+        const Domain::Impl& of = Domain::Impl::of(domain);
         RunPlan plan;
-        plan.pool_block = impl_->tuning.pool_block;
-        plan.stages = stages_at_once(stages, report.limits.max_storage_buffer_range / 4);
-        const std::uint32_t capacity = capacity_for(stages, plan.stages);
-        plan.slots = wanted_slots(disks, impl_->tuning.batches, report);
-        plan.lanes = wanted_lanes(plan.slots, report);
-        // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
-        const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-        plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces_per_disk);
-        plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces_per_disk);
-        plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * capacity / full));
-        plan.step_budget = most_steps(report);
-        plan.sample_capacity = wanted_sample_capacity(disks, params.stop_count, plan.slots, report);
-        plan.idle_capacity = wanted_idle_capacity(plan.slots, capacity);
-        plan.chain = provided_chain(mesh, params.min_distance);
-        auto fitting = fitted(plan, pool_bytes, report.limits);
-        if (fitting) {
-            fitting->detect_passes = wanted_passes(*fitting, faces_per_disk);
+        plan.pool_block = tuning().pool_block;
+        plan.slots = wanted_slots(of.samples, tuning().batches, report);
+        plan.stages = stages_at_once(of.stages, of.most_candidates(report.limits, plan.slots));
+        const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
+        plan.sample_capacity =
+            wanted_sample_capacity(of.samples, of.stop_count, plan.slots, report);
+        plan.idle_capacity = wanted_idle_capacity(plan.slots, candidates);
+        of.plan_disks(plan, candidates, report);
+        pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
+        fit(plan, pool_bytes);
+        if (plan.lanes == 0) {
+            return slice_error(plan, pool_bytes);
         }
-        return fitting;
+        plan.detect_passes = static_cast<std::uint32_t>(
+            std::clamp(of.detect_passes(plan, candidates), 1.0, kMostPasses));
+        return plan;
     });
-}
-
-Result<RunPlan> fitted(RunPlan plan, std::uint64_t pool_bytes, const DeviceLimits& limits) {
-    pool_bytes = std::min(pool_bytes, limits.max_storage_buffer_range);
-    fit(plan, pool_bytes);
-    if (plan.lanes == 0) {
-        return slice_error(plan, pool_bytes);
-    }
-    return plan;
 }
 
 Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
@@ -307,80 +268,52 @@ Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
     });
 }
 
-Result<WorkspaceNeeds> Sampler::workspace_needs(const PreparedMesh& mesh,
-                                                const SampleParams& params,
+RunPlan Sampler::widen_plan(const Domain& domain, RunPlan plan,
+                            std::uint32_t longest_chain) const noexcept {
+    const Domain::Impl& of = Domain::Impl::of(domain);
+    if (!of.covers(plan.guard, longest_chain)) {
+        plan.guard = std::max(2 * plan.guard, of.guard_for(longest_chain));
+    }
+    return plan;
+}
+
+Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain,
                                                 const RunPlan& plan) const noexcept {
     return guarded([&]() -> Result<WorkspaceNeeds> {
-        if (auto checked = impl_->check_radii(params); !checked) {
-            return checked.error();
-        }
-        const auto candidates = pool_size(mesh, params);
-        if (!candidates) {
-            return candidates.error();
-        }
-        const auto cells = count_cells(mesh, params);
-        if (!cells) {
-            return cells.error();
-        }
-        const std::uint32_t capacity = capacity_for(stages_of(mesh, params), plan.stages);
-        WorkspaceNeeds needs =
-            needs_of_run(capacity, std::uint64_t{mesh.face_count()} * plan.stages,
-                         *cells == mesh.face_count() ? 0 : *cells, plan);
-        needs.bytes[gpu::kBindFaces] = face_bytes(mesh);
-        needs.bytes[gpu::kBindFans] = fan_bytes(mesh, impl_->adaptive);
-        needs.bytes[gpu::kBindKeys] = key_bytes(params);
-        needs.bytes[gpu::kBindWeights] = std::uint64_t{capacity} * 4;
-        const std::string what = "for " + std::to_string(capacity) + " candidates and " +
-                                 std::to_string(mesh.face_count()) + " faces";
-        if (auto checked = check_needs(needs, what, impl_->report); !checked) {
+        const Domain::Impl& of = Domain::Impl::of(domain);
+        const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
+        const std::uint32_t buckets = bucket_count(candidates);
+        const std::uint64_t starts = of.units * plan.stages + 1;
+        const std::uint64_t cells = of.cells(candidates, plan.guard);
+        const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
+        WorkspaceNeeds needs;
+        needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
+        needs.bytes[gpu::kBindStates] = std::uint64_t{candidates} * 4;
+        needs.bytes[gpu::kBindOrders] = std::uint64_t{candidates} * 4;
+        needs.bytes[gpu::kBindStarts] = starts * 4;
+        needs.bytes[gpu::kBindPool] = plan.pool_bytes();
+        needs.bytes[gpu::kBindControl] =
+            sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
+        needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
+        needs.bytes[gpu::kBindSums] =
+            blocks_of(std::max({starts, cells + 2, std::uint64_t{buckets} + 2})) * 4;
+        const auto samples = sample_bytes(plan.sample_capacity, buckets);
+        needs.bytes[gpu::kBindSamples] = samples[0];
+        needs.bytes[gpu::kBindAccepted] = samples[1];
+        needs.bytes[gpu::kBindBuckets] = samples[2];
+        of.add_needs(needs, candidates, plan);
+        const std::string job =
+            " for " + std::to_string(candidates) + " candidates" + of.beside_candidates();
+        if (auto checked = check_needs(needs, job, impl_->report); !checked) {
             return checked.error();
         }
         return needs;
     });
 }
 
-WorkspaceNeeds needs_of_run(std::uint64_t capacity, std::uint64_t units, std::uint64_t cells,
-                            const RunPlan& plan) {
-    const std::uint32_t buckets = bucket_count(static_cast<std::uint32_t>(capacity));
-    const std::uint64_t scanned = std::max({units + 1, cells + 2, std::uint64_t{buckets} + 2});
-    WorkspaceNeeds needs;
-    needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
-    needs.bytes[gpu::kBindStates] = capacity * 4;
-    needs.bytes[gpu::kBindOrders] = capacity * 4;
-    needs.bytes[gpu::kBindStarts] = (units + 1) * 4;
-    needs.bytes[gpu::kBindPool] = plan.pool_bytes();
-    needs.bytes[gpu::kBindControl] =
-        sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
-    const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
-    needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
-    needs.bytes[gpu::kBindSums] = blocks_of(scanned) * 4;
-    const auto samples = sample_bytes(plan.sample_capacity, buckets);
-    needs.bytes[gpu::kBindSamples] = samples[0];
-    needs.bytes[gpu::kBindAccepted] = samples[1];
-    needs.bytes[gpu::kBindBuckets] = samples[2];
-    return needs;
-}
-
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept {
     const VkDeviceSize records = VkDeviceSize{capacity} * sizeof(gpu::SampleRec);
     return {records, records, (VkDeviceSize{buckets} + 2 + capacity) * 4};
-}
-
-Result<Done> check_needs(const WorkspaceNeeds& needs, const std::string& what,
-                         const DeviceReport& report) {
-    const std::uint64_t limit = report.limits.max_storage_buffer_range;
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindKeys;
-        if (needs.bytes[i] > limit) {
-            return Error{
-                Status::device_lacks,
-                std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) + ' ' + what +
-                    " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
-                    " binds at most " + std::to_string(limit) +
-                    (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
-        }
-    }
-    return Done{};
 }
 
 } // namespace geodisk

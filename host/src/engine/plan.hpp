@@ -1,8 +1,7 @@
-// Plans that a caller changes in part, what bounds them, and what plans of all domains share.
+// Plans that a caller changes in part, and what plans of all domains share.
 #pragma once
 
 #include <array>
-#include <string>
 
 #include <geodisk/sampler.hpp>
 
@@ -10,9 +9,6 @@ namespace geodisk {
 
 /// `plan` with each field of `wanted` that is not zero in place of its own.
 GEODISK_API RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept;
-
-/// Most steps of detect that one dispatch may safely take.
-std::uint32_t most_steps(const DeviceReport& report) noexcept;
 
 /// As many slots as the tuning's batches ask for with this many disks, and enough to fill the
 /// device.
@@ -38,19 +34,13 @@ std::uint32_t bucket_count(std::uint32_t capacity) noexcept;
 /// Bytes of samples, accepted and buckets.
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept;
 
+/// Invocations that a CPU runs at a time.
+std::uint32_t cpu_lanes(const DeviceReport& report);
+
+/// Not more samples than are asked for, or thrown, unless those are 0.
+double samples_to_expect(double full, std::uint32_t throws, std::uint32_t stop_count) noexcept;
+
 /// The least power of two that is not less, up to 2^25.
 std::uint32_t pow2_at_least(double x);
-
-/// The plan with as many slots and lanes as fit the pool and one binding.
-Result<RunPlan> fitted(RunPlan plan, std::uint64_t pool_bytes, const DeviceLimits& limits);
-
-/// What does not depend on the domain. No `cells` where their table is that of the units' starts.
-WorkspaceNeeds needs_of_run(std::uint64_t capacity, std::uint64_t units, std::uint64_t cells,
-                            const RunPlan& plan);
-
-/// `device_lacks` when a buffer would exceed what the device can bind; `what` is the job, as "for
-/// 100 candidates and 12 faces".
-Result<Done> check_needs(const WorkspaceNeeds& needs, const std::string& what,
-                         const DeviceReport& report);
 
 } // namespace geodisk

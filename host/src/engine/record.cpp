@@ -28,7 +28,8 @@ class Recorder {
     }
 
     void dispatch_per_face(Kernel kernel) {
-        dispatch(kernel, groups_for(job_.push.faces, sampler_.tuning.local_size), job_.push);
+        dispatch(kernel, groups_for(job_.push.faces, sampler_.choices.tuning.local_size),
+                 job_.push);
     }
 
     void dispatch_per_candidate(Kernel kernel, std::uint32_t per_group, const gpu::Push& push) {
@@ -37,7 +38,7 @@ class Recorder {
 
     void dispatch_per_sample(Kernel kernel) {
         const std::uint32_t most = std::max(job_.push.sample_capacity, job_.push.slots);
-        dispatch(kernel, groups_for(most, sampler_.tuning.local_size), job_.push);
+        dispatch(kernel, groups_for(most, sampler_.choices.tuning.local_size), job_.push);
     }
 
     /// The size is what `select` left at this offset of the control record.
@@ -98,11 +99,12 @@ class Recorder {
         bound_push_ = push;
         const auto k = static_cast<std::size_t>(kernel);
         const DeviceTable& vk = sampler_.vk;
-        vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_.pipelines[k]);
-        vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_.layouts[k],
-                                   0, 1, &job_.sets[static_cast<std::size_t>(role)][k], 0, nullptr);
-        vk.vkCmdPushConstants(commands_, sampler_.layouts[k], VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                              sizeof push, &push);
+        const VkPipelineLayout layout = sampler_.pipelines.layout(k);
+        vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, job_.pipeline(k));
+        vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
+                                   &job_.sets[static_cast<std::size_t>(role)][k], 0, nullptr);
+        vk.vkCmdPushConstants(commands_, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push,
+                              &push);
     }
 
     VkCommandBuffer commands_;
@@ -118,7 +120,7 @@ class Recorder {
 void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexcept {
     Recorder recorder(commands, *impl_, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    const DomainKernels own = kernels_of(impl_->domain);
+    const DomainKernels own = kernels_of(job.impl_->domain);
     const bool has_cells = push.all_single == 0;
     if (push.first_stage == 0) {
         recorder.fill_control(0, sizeof(gpu::ControlRec), 0);
@@ -152,7 +154,7 @@ void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexc
 void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
                             std::uint32_t rounds) const noexcept {
     Recorder recorder(commands, *impl_, *job.impl_);
-    const DomainKernels own = kernels_of(impl_->domain);
+    const DomainKernels own = kernels_of(job.impl_->domain);
     for (std::uint32_t round = 0; round < rounds; ++round) {
         recorder.dispatch_indirect(own.select, offsetof(gpu::ControlRec, select_x));
         recorder.mark(Stage::select);
@@ -175,7 +177,7 @@ void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noex
     recorder.fill(BufferRole::pool, VkDeviceSize{job.impl_->push.first_list_row} * 16);
     barrier_transfer_to_compute(impl_->vk, commands);
     recorder.dispatch(Kernel::rewind,
-                      groups_for(job.impl_->most_slots, impl_->tuning.slot_local_size),
+                      groups_for(job.impl_->most_slots, impl_->choices.tuning.slot_local_size),
                       job.impl_->push);
     recorder.dispatch(Kernel::resume, {1, 1}, job.impl_->push);
 }

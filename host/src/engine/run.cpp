@@ -6,8 +6,10 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "constants.h"
+#include "engine/domain_impl.hpp"
 #include "engine/plan.hpp"
 #include "engine/run_memory.hpp"
 
@@ -40,8 +42,8 @@ constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
 /// One run: its memory, its job and what the device reported last.
 class Run {
   public:
-    Run(Runner::Impl& runner, const RunSource& source)
-        : runner_(runner), source_(source), memory_(runner) {}
+    Run(Runner::Impl& runner, const Domain& domain)
+        : runner_(runner), domain_(domain), of_(Domain::Impl::of(domain)), memory_(runner) {}
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
     ~Run() {
@@ -50,10 +52,10 @@ class Run {
         }
     }
 
-    Result<RunResult> go(const ProgressCallback& progress, std::uint32_t chain);
+    Result<SampleSet> go(const ProgressCallback& progress, const RunPlan& plan);
 
   private:
-    Result<Done> prepare(std::uint32_t chain);
+    Result<Done> prepare(const RunPlan& plan);
     Result<Done> upload();
     Result<Done> sample(const ProgressCallback& progress);
     Result<Done> begin_chunk();
@@ -61,9 +63,7 @@ class Run {
     Result<Done> decide_chunk(const ProgressCallback& progress);
     Result<Done> gather_chunk();
     std::uint32_t stages_left() const;
-    bool has_all() const {
-        return source_.stop_count() != 0 && control_.accepted >= source_.stop_count();
-    }
+    bool has_all() const { return of_.stop_count != 0 && control_.accepted >= of_.stop_count; }
     Progress how_far() const;
     Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
     Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
@@ -73,9 +73,11 @@ class Run {
     Result<Done> detect_longer();
     Result<Done> enlarge_samples();
     Result<std::vector<gpu::SampleRec>> read_samples();
+    SampleSet to_set(const std::vector<gpu::SampleRec>& records) const;
 
     Runner::Impl& runner_;
-    const RunSource& source_;
+    const Domain& domain_;
+    const Domain::Impl& of_;
     RunMemory memory_;
     std::optional<Job> job_;
     std::uint32_t slots_ = 0; ///< Of the first plan.
@@ -87,28 +89,20 @@ class Run {
     RunReport report_;
 };
 
-Result<Done> Run::prepare(std::uint32_t chain) {
-    auto plan = source_.plan(runner_.options.pool_bytes);
-    if (!plan) {
-        return plan.error();
-    }
-    const std::uint64_t in_memory = runner_.memory_for_candidates() / source_.bytes_per_candidate();
-    plan->stages = std::min(plan->stages, stages_at_once(source_.stages(), in_memory));
-    *plan = overridden(*plan, runner_.options.plan);
-    plan->chain = std::max(plan->chain, chain);
-    if (plan->pool_bytes() > runner_.options.pool_bytes) {
+Result<Done> Run::prepare(const RunPlan& plan) {
+    if (plan.pool_bytes() > runner_.options.pool_bytes) {
         return Error{Status::workspace_too_small,
-                     "the plan asked for takes a pool of " + std::to_string(plan->pool_bytes()) +
+                     "the plan asked for takes a pool of " + std::to_string(plan.pool_bytes()) +
                          " bytes, which may take " + std::to_string(runner_.options.pool_bytes)};
     }
-    const auto needs = source_.needs(*plan);
+    const auto needs = runner_.sampler.workspace_needs(domain_, plan);
     if (!needs) {
         return needs.error();
     }
     if (auto allocated = memory_.allocate(*needs); !allocated) {
         return allocated;
     }
-    auto job = source_.make_job(*plan, memory_.workspace());
+    auto job = runner_.sampler.make_job(domain_, plan, memory_.workspace());
     if (!job) {
         return job.error();
     }
@@ -117,19 +111,24 @@ Result<Done> Run::prepare(std::uint32_t chain) {
         Job::Impl::of(*job_).clock = &*runner_.clock;
         runner_.clock->reset();
     }
-    slots_ = plan->slots;
-    lanes_ = plan->lanes;
-    report_.guard = source_.guard(*plan);
+    slots_ = plan.slots;
+    lanes_ = plan.lanes;
+    report_.guard = plan.guard;
     return Done{};
 }
 
 Result<Done> Run::upload() {
-    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::keys}) {
-        const auto bytes = source_.bytes(role);
-        if (!bytes) {
-            return bytes.error();
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        const auto role = static_cast<BufferRole>(i);
+        std::vector<std::byte> bytes(runner_.sampler.upload_size(domain_, role));
+        if (bytes.empty()) {
+            continue;
         }
-        if (auto uploaded = memory_.upload(role, *bytes); !uploaded) {
+        auto written = runner_.sampler.write_upload(domain_, job_->plan(), role, bytes);
+        if (!written) {
+            return written;
+        }
+        if (auto uploaded = memory_.upload(role, bytes); !uploaded) {
             return uploaded;
         }
     }
@@ -213,7 +212,7 @@ Result<Done> Run::enlarge_samples() {
     const std::uint64_t least = std::uint64_t{control_.accepted} + job_->plan().slots + 1;
     const std::uint64_t capacity = std::min(least + control_.accepted / 2, std::max(most, least));
     if (capacity > most) {
-        return Error{Status::device_lacks,
+        return Error{Status::job_too_large,
                      "the " + std::to_string(control_.accepted) + " samples so far take " +
                          std::to_string(capacity * sizeof(gpu::SampleRec)) + " bytes, but " +
                          runner_.sampler.report().name + " binds at most " +
@@ -232,7 +231,7 @@ Result<Done> Run::enlarge_samples() {
 
 /// Stages to draw next.
 std::uint32_t Run::stages_left() const {
-    const Stages& stages = source_.stages();
+    const Stages& stages = of_.stages;
     if (has_all()) {
         return 0;
     }
@@ -278,13 +277,13 @@ Result<Done> Run::begin_chunk() {
                                            std::to_string(Job::Impl::of(*job_).push.capacity)};
     }
     chunk_darts_ = control_.drawn;
-    const std::uint32_t throws = source_.stages().throws;
+    const std::uint32_t throws = of_.stages.throws;
     return throws != 0 && thrown_ + control_.drawn > throws ? cut_darts() : Result<Done>(Done{});
 }
 
 /// Finds the order below which there are just as many darts as are to be thrown.
 Result<Done> Run::cut_darts() {
-    const auto wanted = static_cast<std::uint32_t>(source_.stages().throws - thrown_);
+    const auto wanted = static_cast<std::uint32_t>(of_.stages.throws - thrown_);
     std::uint64_t low = 0, high = Job::Impl::of(*job_).push.end_order;
     std::uint64_t low_count = 0, high_count = control_.drawn;
     for (std::uint32_t guess = 0; high_count != wanted && low_count != wanted; ++guess) {
@@ -347,7 +346,7 @@ Result<Done> Run::decide_chunk(const ProgressCallback& progress) {
 Progress Run::how_far() const {
     const double in_chunk = static_cast<double>(control_.first_order) /
                             Job::Impl::of(*job_).push.end_order * static_cast<double>(chunk_darts_);
-    const double all = source_.stages().candidates();
+    const double all = of_.stages.candidates();
     return {static_cast<std::uint32_t>(std::min(static_cast<double>(thrown_) + in_chunk, all)),
             static_cast<std::uint32_t>(all), control_.accepted};
 }
@@ -371,9 +370,14 @@ Result<std::vector<gpu::SampleRec>> Run::read_samples() {
     return samples;
 }
 
-Result<RunResult> Run::go(const ProgressCallback& progress, std::uint32_t chain) {
+Result<SampleSet> Run::go(const ProgressCallback& progress, const RunPlan& plan) {
     auto start = Clock::now();
-    if (auto done = prepare(chain); !done) {
+    if (auto done = runner_.sampler.prepare(domain_); !done) {
+        return done.error();
+    }
+    report_.seconds.compile = seconds_since(start);
+    start = Clock::now();
+    if (auto done = prepare(plan); !done) {
         return done.error();
     }
     if (auto done = upload(); !done) {
@@ -419,37 +423,60 @@ Result<RunResult> Run::go(const ProgressCallback& progress, std::uint32_t chain)
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }
-    return RunResult{std::move(*samples), report_};
+    return to_set(*samples);
+}
+
+SampleSet Run::to_set(const std::vector<gpu::SampleRec>& records) const {
+    SampleSet set{{}, {}, report_};
+    const std::size_t n = of_.dimension;
+    set.samples.reserve(n == 0 ? records.size() : 0);
+    set.points.resize(n * records.size());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const gpu::SampleRec& record = records[i];
+        if (n > 0) {
+            of_.coordinates(record, std::span(set.points).subspan(n * i, n));
+        } else {
+            set.samples.push_back(
+                {record.face,
+                 {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
+        }
+    }
+    return set;
+}
+
+/// What Sampler plans, with fewer stages where memory asks for that, and what the caller wants.
+Result<RunPlan> first_plan(const Runner::Impl& runner, const Domain& domain) {
+    auto plan = runner.sampler.plan_run(domain, runner.options.pool_bytes);
+    if (!plan) {
+        return plan;
+    }
+    const Domain::Impl& of = Domain::Impl::of(domain);
+    const std::uint64_t in_memory = runner.memory_for_candidates() / of.bytes_per_candidate;
+    plan->stages = std::min(plan->stages, stages_at_once(of.stages, in_memory));
+    return overridden(*plan, runner.options.plan);
 }
 
 } // namespace
 
-Result<RunResult> run_and_wait(Runner::Impl& runner, const RunSource& source,
+Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
                                const ProgressCallback& progress) {
     if (auto usable = runner.submitter->ready(); !usable) {
         return usable.error();
     }
-    std::uint32_t chain = 0;
-    for (;;) {
-        Run run(runner, source);
-        auto result = run.go(progress, chain);
-        if (!result || result->report.longest_chain <= result->report.plan.chain) {
-            return result;
+    auto plan = first_plan(runner, domain);
+    while (plan) {
+        Run run(runner, domain);
+        auto set = run.go(progress, *plan);
+        if (!set) {
+            return set;
         }
-        // The guard was made for shorter chains than were met: widen it and start over.
-        chain = 2 * result->report.longest_chain;
+        const RunPlan wider = runner.sampler.widen_plan(domain, *plan, set->report.longest_chain);
+        if (wider.guard == plan->guard) {
+            return set;
+        }
+        *plan = wider; // Start over.
     }
-}
-
-SampleSet to_samples(const RunResult& result) {
-    SampleSet set{{}, result.report};
-    set.samples.reserve(result.samples.size());
-    for (const gpu::SampleRec& record : result.samples) {
-        set.samples.push_back(
-            {record.face,
-             {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
-    }
-    return set;
+    return plan.error();
 }
 
 } // namespace geodisk

@@ -8,7 +8,6 @@
 
 #include "engine/run.hpp"
 #include "engine/runner_impl.hpp"
-#include "engine/surface_source.hpp"
 #include "support/guard.hpp"
 
 namespace geodisk {
@@ -45,9 +44,6 @@ Runner::~Runner() = default;
 const Sampler& Runner::sampler() const noexcept {
     return impl_->sampler;
 }
-const Tuning& Runner::tuning() const noexcept {
-    return impl_->sampler.tuning();
-}
 
 Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                             MemoryKind kind) const {
@@ -76,65 +72,57 @@ Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>&
     return done ? clock->collect() : done;
 }
 
-Result<std::unique_ptr<Runner::Impl>>
-Runner::Impl::create(Result<Sampler> sampler, const QueueRef& queue, const RunnerOptions& options) {
-    if (!sampler) {
-        return sampler.error();
-    }
-    auto impl = std::make_unique<Impl>(std::move(*sampler));
-    const DeviceRefs& device = impl->engine().device;
-    const auto instance = load_instance_table(device.get_instance_proc_addr, device.instance);
-    if (!instance) {
-        return instance.error();
-    }
-    const auto family = check_queue(*instance, device.physical_device, queue);
-    if (!family) {
-        return family.error();
-    }
-    impl->options = options;
-    instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
-    auto submitter = Submitter::create(device, impl->engine().vk, queue,
-                                       std::chrono::seconds(options.stall_seconds));
-    if (!submitter) {
-        return submitter.error();
-    }
-    impl->submitter.emplace(std::move(*submitter));
-    if (options.time_stages && family->timestampValidBits != 0) {
-        auto clock = StageClock::create(device, impl->engine().vk,
-                                        impl->sampler.report().limits.timestamp_period,
-                                        family->timestampValidBits);
-        if (!clock) {
-            return clock.error();
-        }
-        impl->clock.emplace(std::move(*clock));
-    }
-    if (auto checked = impl->check_rounding(); !checked) {
-        return checked.error();
-    }
-    return impl;
-}
-
 Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
                               const RunnerOptions& options) noexcept {
     return guarded([&]() -> Result<Runner> {
-        auto impl = Impl::create(Sampler::create(device, options.sampler), queue, options);
-        if (!impl) {
-            return impl.error();
+        auto sampler = Sampler::create(device, options.sampler);
+        if (!sampler) {
+            return sampler.error();
         }
-        return Runner(std::move(*impl));
+        const auto instance = load_instance_table(device.get_instance_proc_addr, device.instance);
+        if (!instance) {
+            return instance.error();
+        }
+        const auto family = check_queue(*instance, device.physical_device, queue);
+        if (!family) {
+            return family.error();
+        }
+        auto impl = std::make_unique<Impl>(std::move(*sampler));
+        const DeviceRefs& kept = impl->engine().device; // The caller's need not last.
+        const DeviceTable& vk = impl->engine().vk;
+        impl->options = options;
+        instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
+        auto submitter =
+            Submitter::create(kept, vk, queue, std::chrono::seconds(options.stall_seconds));
+        if (!submitter) {
+            return submitter.error();
+        }
+        impl->submitter.emplace(std::move(*submitter));
+        if (options.time_stages && family->timestampValidBits != 0) {
+            auto clock =
+                StageClock::create(kept, vk, impl->sampler.report().limits.timestamp_period,
+                                   family->timestampValidBits);
+            if (!clock) {
+                return clock.error();
+            }
+            impl->clock.emplace(std::move(*clock));
+        }
+        if (auto checked = impl->check_rounding(); !checked) {
+            return checked.error();
+        }
+        return Runner(std::move(impl));
     });
+}
+
+Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
+                                          const ProgressCallback& progress) noexcept {
+    return guarded([&] { return run_and_wait(*impl_, domain, progress); });
 }
 
 Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                           const ProgressCallback& progress) noexcept {
-    return guarded([&]() -> Result<SampleSet> {
-        const auto result =
-            run_and_wait(*impl_, SurfaceSource(impl_->sampler, mesh, params), progress);
-        if (!result) {
-            return result.error();
-        }
-        return to_samples(*result);
-    });
+    const auto domain = Domain::surface(mesh, params);
+    return domain ? sample_and_wait(*domain, progress) : domain.error();
 }
 
 } // namespace geodisk

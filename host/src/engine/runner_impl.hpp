@@ -23,9 +23,6 @@ struct Runner::Impl {
     std::optional<Submitter> submitter;
     std::optional<StageClock> clock;
 
-    /// Opens the queue and checks the device's arithmetic.
-    static Result<std::unique_ptr<Impl>> create(Result<Sampler> sampler, const QueueRef& queue,
-                                                const RunnerOptions& options);
     explicit Impl(Sampler s) : sampler(std::move(s)) {}
     ~Impl() { settle(); }
 
@@ -33,7 +30,7 @@ struct Runner::Impl {
     /// buffers are left to whoever owns them.
     void settle() noexcept {
         if (submitter && submitter->abandoned()) {
-            sampler.impl_->abandoned = true;
+            sampler.impl_->abandon();
             if (clock) {
                 clock->abandon();
             }

@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include <geodisk/sampler.hpp>
 
-#include "engine/kernel_table.hpp"
+#include "engine/pipelines.hpp"
 #include "push.h"
 #include "vk/dispatch.hpp"
 
@@ -16,37 +17,25 @@ struct Sampler::Impl {
     DeviceRefs device;
     DeviceReport report;
     DeviceTable vk;
-    Tuning tuning; ///< All chosen.
-    bool native_rounding = false;
-    std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
-    bool count_calls = false;
-    Domain domain = Domain::surface;
-    std::uint32_t dimension = 0; ///< Of boxes and space.
-    bool takes_curves = false;   ///< Instead of straight lines in space.
-    bool adaptive = false;
-    std::array<VkDescriptorSetLayout, kKernels> set_layouts{};
-    std::array<VkPipelineLayout, kKernels> layouts{};
-    std::array<VkPipeline, kKernels> pipelines{};
-    /// The device may be using these objects and those of the jobs for ever: destroy none.
+    KernelChoices choices;
+    mutable Pipelines pipelines; ///< Compiled on first use.
+    /// The device may be using the pipelines and what jobs hold for ever: destroy none.
     bool abandoned = false;
 
-    /// As Sampler::create, with the kernels of a domain; the rest is as in the members.
-    static Result<Sampler> create_for(Domain domain, std::uint32_t dimension,
-                                      const DeviceRefs& device, const SamplerOptions& options,
-                                      bool takes_curves = false);
+    Impl(const DeviceRefs& refs, DeviceReport of_device, const DeviceTable& table,
+         const KernelChoices& chosen)
+        : device(refs), report(std::move(of_device)), vk(table), choices(chosen),
+          pipelines(device, vk, choices) {}
+
     static const Impl& of(const Sampler& sampler) { return *sampler.impl_; }
-    ~Impl();
-    bool has(std::size_t kernel) const {
-        return kernel_info(static_cast<Kernel>(kernel)).serves(domain);
+    void abandon() {
+        abandoned = true;
+        pipelines.abandon();
     }
     /// Of the two variants of the kernels, which.
-    bool reads_texels() const { return tuning.reads == Reads::texels; }
+    bool reads_texels() const { return choices.tuning.reads == Reads::texels; }
     /// Dispatches of count_calls per round: as for resolve, the next round goes on.
-    std::uint32_t count_passes() const { return count_calls ? 2 : 0; }
-    /// Whether the kernels are those for the radii of a run.
-    Result<Done> check_radii(const SampleParams& params) const;
-    Result<Done> create_pipelines();
-    Result<Done> create_pipeline(Kernel kernel);
+    std::uint32_t count_passes() const { return choices.count_calls ? 2 : 0; }
 };
 
 /// A descriptor set of a job: a kernel over the workspace, or a scan kernel over another buffer.
@@ -63,23 +52,24 @@ struct Job::Impl {
     Workspace workspace{};
     /// Of the workspace's buffers that some kernel reads as texels.
     std::array<VkBufferView, kBufferRoles> views{};
+    const KernelPipelines* own_pipelines = nullptr; ///< Besides those that all jobs have.
+    DomainKind domain = DomainKind::surface;
     std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
-    std::uint32_t most_steps = 0; ///< Steps that a dispatch of detect may safely take.
+    // As Domain::Impl has them.
+    std::uint32_t most_steps = 0;
+    bool has_lane_per_slot = false;
     Stages stages;
-    double samples_per_measure = 0; ///< Expected, per unit of area or volume.
+    double samples_per_measure = 0;
     RunPlan plan;
     gpu::Push push{};
 
-    /// What a domain tells of a job besides its push block.
-    struct OfJob {
-        Stages stages;
-        double samples_per_measure;
-        std::uint32_t most_steps;
-    };
-    /// Writes the descriptor sets of a workspace that is large enough. `push` is what neither the
-    /// plan nor the stages tell.
-    static Result<Job> open(const Sampler::Impl& sampler, const RunPlan& plan,
-                            const Workspace& workspace, const gpu::Push& push, const OfJob& of);
+    bool has(std::size_t kernel) const {
+        return kernel_info(static_cast<Kernel>(kernel)).serves(domain);
+    }
+    VkPipeline pipeline(std::size_t kernel) const {
+        const VkPipeline own = (*own_pipelines)[kernel];
+        return own != VK_NULL_HANDLE ? own : sampler->pipelines.common()[kernel];
+    }
     void begin_stages(std::uint32_t first, std::uint32_t count);
     static Impl& of(Job& job) { return *job.impl_; }
     static const Impl& of(const Job& job) { return *job.impl_; }

@@ -78,6 +78,8 @@ Result<Done> Runner::Impl::check_rounding() {
     }
     std::memcpy(results->bytes().data(), vectors.data(), vectors.size() * sizeof(Vector));
     constexpr auto k = static_cast<std::size_t>(Kernel::self_test);
+    const VkDescriptorSetLayout set_layout = sampler_impl.pipelines.set_layout(k);
+    const VkPipelineLayout layout = sampler_impl.pipelines.layout(k);
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
     VkDescriptorPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
@@ -93,7 +95,7 @@ Result<Done> Runner::Impl::check_rounding() {
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     set_info.descriptorPool = pool;
     set_info.descriptorSetCount = 1;
-    set_info.pSetLayouts = &sampler_impl.set_layouts[k];
+    set_info.pSetLayouts = &set_layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     status = vk.vkAllocateDescriptorSets(device, &set_info, &set);
     if (status != VK_SUCCESS) {
@@ -112,12 +114,13 @@ Result<Done> Runner::Impl::check_rounding() {
     gpu::Push push{};
     push.scan_count = kVectors;
     const auto record = [&](VkCommandBuffer commands) {
-        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, sampler_impl.pipelines[k]);
-        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                   sampler_impl.layouts[k], 0, 1, &set, 0, nullptr);
-        vk.vkCmdPushConstants(commands, sampler_impl.layouts[k], VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                              sizeof push, &push);
-        vk.vkCmdDispatch(commands, groups_for(kVectors, sampler_impl.tuning.local_size).x, 1, 1);
+        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                             sampler_impl.pipelines.common()[k]);
+        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0,
+                                   nullptr);
+        vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
+        vk.vkCmdDispatch(commands, groups_for(kVectors, sampler_impl.choices.tuning.local_size).x,
+                         1, 1);
         record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                        VK_ACCESS_HOST_READ_BIT);

@@ -4,6 +4,8 @@
 
 #include <geodisk/sampler.hpp>
 
+#include "support/guard.hpp"
+
 namespace geodisk {
 namespace {
 
@@ -82,12 +84,14 @@ Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept {
     return tuning;
 }
 
-Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) {
-    const Tuning tuning = overridden(default_tuning(report), wanted);
-    if (auto checked = check(tuning, report); !checked) {
-        return checked.error();
-    }
-    return tuning;
+Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) noexcept {
+    return guarded([&]() -> Result<Tuning> {
+        const Tuning tuning = overridden(default_tuning(report), wanted);
+        if (auto checked = check(tuning, report); !checked) {
+            return checked.error();
+        }
+        return tuning;
+    });
 }
 
 } // namespace geodisk

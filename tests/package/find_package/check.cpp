@@ -80,11 +80,10 @@ bool same(const std::vector<geodisk::Sample>& a, const std::vector<geodisk::Samp
     return true;
 }
 
-void check_plan(const geodisk::Sampler& sampler, const geodisk::PreparedMesh& mesh,
-                const geodisk::SampleParams& params) {
-    const auto plan = take(sampler.plan_run(mesh, params, 1 << 24), "plan_run");
+void check_plan(const geodisk::Sampler& sampler, const geodisk::Domain& domain) {
+    const auto plan = take(sampler.plan_run(domain, 1 << 24), "plan_run");
     require(plan.lane_rows() > 0 && plan.pool_bytes() <= 1 << 24, "the plan keeps to its pool");
-    const auto needs = take(sampler.workspace_needs(mesh, params, plan), "workspace_needs");
+    const auto needs = take(sampler.workspace_needs(domain, plan), "workspace_needs");
     require(needs.total() >= plan.pool_bytes(), "the workspace holds the pool");
 }
 
@@ -99,7 +98,7 @@ int main() {
 
     const auto context = take(geodisk::Context::create(), "Context");
     auto runner = take(geodisk::Runner::create(context.device(), context.queue()), "Runner");
-    check_plan(runner.sampler(), mesh, params);
+    check_plan(runner.sampler(), take(geodisk::Domain::surface(mesh, params), "Domain"));
     const auto set = take(runner.sample_and_wait(mesh, params), "sample");
     check_samples(set.samples);
     const auto count = static_cast<double>(set.samples.size());

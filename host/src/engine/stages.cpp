@@ -1,0 +1,49 @@
+#include "engine/stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/tolerances.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr double kMostDartsOfStage = 0x1p23;
+constexpr double kMostDartsPerSample = 640;
+
+} // namespace
+
+std::uint32_t Stages::pool_stages() const noexcept {
+    return static_cast<std::uint32_t>(
+        std::clamp(std::ceil(ratio / kStageRatio), 1.0, double{kMostPoolStages}));
+}
+
+double Stages::per_sample(std::uint32_t stage) const noexcept {
+    if (throws == 0) {
+        return ratio / pool_stages();
+    }
+    double darts = kStageRatio;
+    const double most = std::min(kMostDartsPerSample, kMostDartsOfStage / samples);
+    for (std::uint32_t s = 0; s < stage && 2 * darts <= most; ++s) {
+        darts *= 2;
+    }
+    return std::max(darts, kLeastPool / samples);
+}
+
+Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    // A distance beyond all those of the mesh is as good as one just beyond.
+    const double samples =
+        expected_count(effective_area(mesh, params), working_distance(mesh, params));
+    return {samples, std::max(params.pool_ratio, kLeastPool / samples), params.throws};
+}
+
+double samples_per_area() noexcept {
+    return expected_count(1, 1);
+}
+
+float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
+                      std::uint32_t stage) noexcept {
+    return static_cast<float>(stages_of(mesh, params).per_sample(stage) * samples_per_area());
+}
+
+} // namespace geodisk

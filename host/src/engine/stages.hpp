@@ -1,0 +1,26 @@
+// The stages of a job on a surface, and how densely their candidates lie.
+#pragma once
+
+#include <geodisk/export.hpp>
+#include <geodisk/params.hpp>
+
+namespace geodisk {
+
+/// Fewer candidates are not worth a pool.
+inline constexpr double kLeastPool = 64;
+/// From it on all stages of darts are alike.
+inline constexpr std::uint32_t kLastOtherStage = 32;
+
+/// The stages of a job that pool_size() finds no fault with.
+GEODISK_API Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+/// Samples expected per area of one distance squared.
+GEODISK_API double samples_per_area() noexcept;
+
+/// Candidates that a stage expects per unit of area, or where radii vary per unit of the integral
+/// of 1 / g^2; lengths in units of working_distance(). It follows from the distance alone, so that
+/// no edit elsewhere changes it.
+GEODISK_API float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
+                                  std::uint32_t stage) noexcept;
+
+} // namespace geodisk

@@ -1,0 +1,41 @@
+// Surfaces with geodesic distances.
+#pragma once
+
+#include "engine/domain_impl.hpp"
+#include "engine/tolerances.hpp"
+
+namespace geodisk {
+
+/// A mesh and what is asked of it, which pool_size() finds no fault with; all must outlive it.
+class SurfaceDomain : public Domain::Impl {
+  public:
+    SurfaceDomain(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t cells);
+
+    std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
+    void plan_disks(RunPlan& plan, std::uint32_t candidates,
+                    const DeviceReport& report) const override;
+    double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
+    std::uint32_t most_steps(const DeviceReport& report) const override;
+    std::uint64_t cells(std::uint32_t candidates, double guard) const override;
+    void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
+                   const RunPlan& plan) const override;
+    std::string beside_candidates() const override;
+    void set_push(gpu::Push& push, const RunPlan& plan) const override;
+    std::size_t upload_size(BufferRole role) const override;
+    Result<Done> write_upload(const RunPlan& plan, BufferRole role,
+                              std::span<std::byte> out) const override;
+    double guard_for(std::uint32_t chain) const override { return error_.guard_for(chain); }
+    bool covers(double guard, std::uint32_t chain) const override {
+        return error_.covers(guard, chain);
+    }
+
+  private:
+    const PreparedMesh& mesh_;
+    SampleParams params_;
+    ErrorBound error_;
+    std::uint32_t cells_; ///< Of all faces; 0 where each has one.
+    double full_;         ///< Samples that a full surface holds, at least two: no disk covers
+                          ///< more than all faces.
+};
+
+} // namespace geodisk

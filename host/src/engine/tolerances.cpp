@@ -1,0 +1,83 @@
+#include "engine/tolerances.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/extent.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr double kRounding = 0x1p-22;
+// Of the guard and of the slack.
+constexpr double kLeastRoundings = 512;
+constexpr double kLeastSlack = 16;
+// Factors are floats, and radii are summed in float: each errs by 2^-23 at most.
+constexpr double kRadiiRounding = 0x1p-21;
+constexpr double kLeastChain = 64;
+constexpr double kMostChain = 1u << 16;
+
+double power_of_two_from(double x, double least) {
+    double power = least;
+    while (power < x) {
+        power *= 2;
+    }
+    return power;
+}
+
+/// A straight path crosses about the square root of the faces of a disk, which are 2 F / N.
+std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance) {
+    const double faces = 2.0 * mesh.face_count() /
+                         std::max(1.0, expected_count(mesh.statistics().area, min_distance));
+    return static_cast<std::uint32_t>(
+        std::clamp(8 + 4 * std::sqrt(faces), kLeastChain, kMostChain));
+}
+
+} // namespace
+
+double working_distance(const PreparedMesh& mesh, double min_distance) noexcept {
+    if (!(min_distance > mesh.statistics().diagonal)) {
+        return min_distance;
+    }
+    // A little more than the bound, so that what is within it conflicts beyond doubt.
+    return std::min(min_distance, 1.01 * distance_bound(mesh));
+}
+
+double working_distance(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    return params.radii != nullptr ? params.min_distance
+                                   : working_distance(mesh, params.min_distance);
+}
+
+ErrorBound::ErrorBound(const PreparedMesh& mesh, double min_distance) noexcept
+    : longest_(mesh.statistics().longest_edge / working_distance(mesh, min_distance)) {}
+
+ErrorBound::ErrorBound(const PreparedMesh& mesh, const SampleParams& params) noexcept
+    : longest_(mesh.statistics().longest_edge / working_distance(mesh, params)),
+      further_(params.radii != nullptr ? kRadiiRounding : 0) {}
+
+double ErrorBound::roundings(std::uint32_t chain) const noexcept {
+    return chain + 4 * std::ceil(longest_);
+}
+
+double ErrorBound::guard_for(std::uint32_t chain) const noexcept {
+    return kRounding * power_of_two_from(roundings(chain), kLeastRoundings) + further_;
+}
+
+bool ErrorBound::covers(double guard, std::uint32_t chain) const noexcept {
+    return kRounding * roundings(chain) + further_ <= guard;
+}
+
+Tolerances ErrorBound::tolerances(double guard) const noexcept {
+    return {static_cast<float>(1 + guard), static_cast<float>(guard),
+            static_cast<float>(kRounding * power_of_two_from(2 + longest_, kLeastSlack)), guard};
+}
+
+double first_guard(const PreparedMesh& mesh, double min_distance) noexcept {
+    return ErrorBound(mesh, min_distance).guard_for(guessed_chain(mesh, min_distance));
+}
+
+double first_guard(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    return ErrorBound(mesh, params).guard_for(guessed_chain(mesh, params.min_distance));
+}
+
+} // namespace geodisk
