@@ -17,6 +17,10 @@ uint list_ranges() { return (push.idle_capacity + kListRange - 1u) / kListRange;
 // Where the places of a range lie in the list: behind the number of them.
 uint list_head(uint range) { return range * (kListRange + 1u); }
 
+uint range_of(uint order) { return (order - control.list_first) / control.list_width; }
+// Those of the batch, from the first on.
+uint due_ranges() { return range_of(control.batch_end - 1u) - control.first_range + 1u; }
+
 // The order up to which so many idle candidates are expected, from `first` on: disks reject them
 // whatever their order.
 uint order_after(uint first, float idle) {
@@ -27,9 +31,14 @@ uint order_after(uint first, float idle) {
     return ahead >= left ? push.end_order : first + max(uint(ahead), 1u);
 }
 
-// So few that mostly all of them find a slot: one that finds none cuts the batch short.
+// Whether the first of those that are due get the slots, as many as there are.
+bool is_ranked() { return push.slots <= kMostRanked; }
+
+// So many that mostly all slots are filled where they are ranked, else so few that mostly all of them
+// find a slot: one that finds none cuts the batch short.
 float wanted_idle() {
-    precise float wanted = float(push.slots) - 1.5 * sqrt(float(push.slots));
+    precise float deviation = sqrt(float(push.slots));
+    precise float wanted = float(push.slots) + (is_ranked() ? 3.0 : -1.5) * deviation;
     return wanted;
 }
 
@@ -68,9 +77,14 @@ void prepare_select() {
         } else {
             control.mode = kSelectList;
             control.batch_end = min(end, control.list_end);
-            control.first_range = (first - control.list_first) / control.list_width;
-            uint last = (control.batch_end - 1u - control.list_first) / control.list_width;
-            groups = last - control.first_range + 1u;
+            control.first_range = range_of(first);
+            if (is_ranked()) {
+                uint range_end = control.list_first +
+                                 (control.first_range + kMostRangesRanked) * control.list_width;
+                control.batch_end = range_end > first ? min(control.batch_end, range_end)
+                                                      : control.batch_end;
+            }
+            groups = is_ranked() ? 1u : due_ranges();
         }
     }
     control.first_left = kNoOrder;

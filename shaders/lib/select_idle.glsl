@@ -1,8 +1,8 @@
 // Readies the slots for the next batch (paper section 4.2): all idle candidates below some order, or
 // samples of earlier chunks, whose disks are to reject candidates of this one. Idle candidates are
 // found in a list by ranges of their orders, which a dispatch of its own fills now and then. To a work
-// group goes a range, or kSelectBlock candidates or samples; the last one to be done sets out what
-// comes next.
+// group goes a range, or all of them where few slots are to be filled exactly, or kSelectBlock
+// candidates or samples; the last one to be done sets out what comes next.
 // Needs sample_at(place, order), the four words of a sample, and settle_point(slot, record).
 #ifndef GEODISK_SELECT_IDLE_GLSL
 #define GEODISK_SELECT_IDLE_GLSL
@@ -17,6 +17,7 @@ GEODISK_CONTROL;
 #include "schedule.glsl"
 
 shared uint group_places[kListRange]; // of candidates that are due
+shared uint group_orders[kListRange];
 shared uint group_due;
 shared uint group_slot;               // of the first of them
 
@@ -41,7 +42,7 @@ void select_settled(uint begin) {
 bool is_idle(uint place) { return (word_before(states, place) & kStateMask) == kIdle; }
 
 void list_one(uint place, uint order) {
-    uint head = list_head((order - control.list_first) / control.list_width);
+    uint head = list_head(range_of(order));
     uint at = atomicAdd(list[head], 1u);
     if (at < kListRange) {
         list[head + 1u + at] = place;
@@ -87,17 +88,36 @@ void find_due(uint head) {
     }
     uint at = atomicAdd(group_due, uint(bitCount(bits)));
     while (bits != 0u) {
-        group_places[at] = list[first + uint(findLSB(bits)) * kSelectLanes];
+        uint place = list[first + uint(findLSB(bits)) * kSelectLanes];
+        uint order = word_before(orders, place);
+        if (at < kListRange) {
+            group_places[at] = place;
+            group_orders[at] = order;
+        } else {
+            atomicMin(control.first_left, order);
+        }
         bits &= bits - 1u;
         ++at;
     }
 }
 
+// How many of those that are due come before one of them.
+uint rank_among(uint due, uint own) {
+    uint rank = 0u;
+    for (uint i = 0u; i < due; ++i) {
+        bool is_before = group_orders[i] < group_orders[own] ||
+                         (group_orders[i] == group_orders[own] && i < own);
+        rank += is_before ? 1u : 0u;
+    }
+    return rank;
+}
+
 void give_slots() {
-    for (uint i = gl_LocalInvocationID.x; i < group_due; i += kSelectLanes) {
-        uint slot = group_slot + i;
+    uint due = min(group_due, kListRange);
+    for (uint i = gl_LocalInvocationID.x; i < due; i += kSelectLanes) {
+        uint slot = group_slot + (is_ranked() ? rank_among(due, i) : i);
         uint place = group_places[i];
-        uint order = orders[place];
+        uint order = group_orders[i];
         if (slot < push.slots) {
             fill_slot(slot, place, sample_at(place, order));
             states[place] |= kActive;
@@ -121,7 +141,10 @@ void main() {
     } else if (mode == kSelectPool) {
         list_idle(group * kSelectBlock);
     } else {
-        find_due(list_head(control.first_range + group));
+        uint ranges = is_ranked() ? due_ranges() : 1u;
+        for (uint i = 0u; i < ranges; ++i) {
+            find_due(list_head(control.first_range + group + i));
+        }
     }
     barrier();
     if (is_first) {

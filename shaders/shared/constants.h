@@ -182,6 +182,11 @@ GEODISK_CONST uint kSelectLanes = 32u;
 GEODISK_CONST uint kSelectBlock = 4096u;
 // Places for a range of orders in the list of idle candidates.
 GEODISK_CONST uint kListRange = 256u;
+// Up to so many slots, batches are filled to the last of them, by one work group that ranks what is
+// due; larger ones leave some to spare.
+GEODISK_CONST uint kMostRanked = 128u;
+// Ranges that the work group goes through at most.
+GEODISK_CONST uint kMostRangesRanked = 64u;
 GEODISK_CONST uint kMostListed = 0x800000u;
 
 // Words that one work group of the scan covers: so many lanes, so many words each.

@@ -21,7 +21,7 @@ void check_run(Runner& runner, std::uint64_t seed = 1) {
     const SampleParams params = params_for(mesh, 200, seed);
     const SampleSet set = expect(runner.sample_and_wait(mesh, params));
     CHECK(set.samples.size() > 100);
-    CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
+    CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
 }
 
 void check_silent(const AppDevice& app) {

@@ -73,7 +73,7 @@ struct Bench {
     void check_set(const Result<SampleSet>& set) {
         REQUIRE_MESSAGE(set, (set ? "" : set.error().message));
         if (wanted_.empty()) {
-            wanted_ = float_set(mesh, params, set->report.plan.guard);
+            wanted_ = float_set(mesh, params, set->report.plan.error_bound);
         }
         CHECK(points_of(*set) == wanted_);
     }
@@ -401,7 +401,7 @@ TEST_SUITE("faults") {
         CHECK(3 * stages_of(mesh, params).expected(0) > 0.9 * (1 << 15) / 4 * 3 / 16);
         CHECK(set.report.plan.stages == 2);
         CHECK(set.report.chunks == 2);
-        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
     TEST_CASE("more samples than the device can bind are refused with the numbers") {

@@ -44,7 +44,7 @@ Task task(const Sampler& sampler, const char* shape, int resolution, double coun
     const SampleParams params = params_for(mesh, count);
     const Domain domain = expect(Domain::surface(mesh, params));
     const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
-    auto wanted = float_set(mesh, params, plan.guard);
+    auto wanted = float_set(mesh, params, plan.error_bound);
     return {std::move(mesh), params, std::move(wanted)};
 }
 
@@ -246,7 +246,7 @@ void check_finishes(const RunPlan& plan, bool is_tight = false) {
     for (const gpu::SampleRec& s : finish_often(run, stages_of(mesh, params).pool_stages())) {
         points.push_back({s.face, s.weight1, s.weight2});
     }
-    CHECK(points == float_set(mesh, params, run.plan().guard));
+    CHECK(points == float_set(mesh, params, run.plan().error_bound));
     CHECK((!is_tight || run.plan().window_capacity > 2));
 }
 
@@ -592,8 +592,8 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::stages, 16);
         check(&RunPlan::idle_capacity, 0);
         check(&RunPlan::idle_capacity, (1u << 23) + 1);
-        check(&RunPlan::guard, 0.75);
-        check(&RunPlan::guard, -0.25);
+        check(&RunPlan::error_bound, 0.75);
+        check(&RunPlan::error_bound, -0.25);
 
         RunPlan larger = good.plan();
         larger.window_capacity *= 2;

@@ -43,7 +43,7 @@ const std::vector<Work>& all_work() {
 }
 
 Points wanted(const Work& work, const SampleSet& set) {
-    return float_set(work.mesh, work.params, set.report.plan.guard);
+    return float_set(work.mesh, work.params, set.report.plan.error_bound);
 }
 
 void check_run(Runner& runner, const Work& work) {

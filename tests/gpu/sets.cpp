@@ -9,12 +9,12 @@ namespace geodisk::test {
 namespace {
 
 template <class Real>
-Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, double guard) {
+Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
     expect(pool_size(mesh, params));
     const ref::Surface<Real> surface(mesh, params);
     const ref::Pool<Real> pool = ref::draw_pool(surface, mesh, params);
     const ref::RunResult result =
-        ref::throw_darts(surface, pool, ErrorBound(mesh, params).tolerances(guard),
+        ref::throw_darts(surface, pool, ErrorModel(mesh, params).tolerances(error_bound),
                          params.stop_count != 0 ? params.stop_count : kMostCandidates);
     Points points;
     for (const std::uint32_t rank : result.ranks) {
@@ -27,12 +27,12 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
 
 } // namespace
 
-Points float_set(const PreparedMesh& mesh, const SampleParams& params, double guard) {
-    return sequential_set<float>(mesh, params, guard);
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
+    return sequential_set<float>(mesh, params, error_bound);
 }
 
-Points double_set(const PreparedMesh& mesh, const SampleParams& params, double guard) {
-    return sequential_set<double>(mesh, params, guard);
+Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
+    return sequential_set<double>(mesh, params, error_bound);
 }
 
 Points points_of(const SampleSet& set) {

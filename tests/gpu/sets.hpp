@@ -20,9 +20,9 @@ struct SamplePoint {
 using Points = std::vector<SamplePoint>;
 
 /// What sequential dart throwing accepts, as the float twin decides.
-Points float_set(const PreparedMesh& mesh, const SampleParams& params, double guard);
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 /// The same in double precision.
-Points double_set(const PreparedMesh& mesh, const SampleParams& params, double guard);
+Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 
 Points points_of(const SampleSet& set);
 

@@ -46,7 +46,7 @@ TEST_SUITE("darts") {
                 const SampleSet set = sample(mesh, params);
                 CHECK(set.report.candidates == throws);
                 CHECK(set.report.chunks == (throws < 1'450 ? 1 : throws < 11'000 ? 3 : 5));
-                CHECK(points_of(set) == double_set(mesh, params, set.report.plan.guard));
+                CHECK(points_of(set) == double_set(mesh, params, set.report.plan.error_bound));
             }
         }
     }
@@ -101,7 +101,7 @@ TEST_SUITE("darts") {
                 CHECK(points_of(set) == want);
                 darts.push_back(set.report.candidates);
             }
-            CHECK(want == double_set(mesh, params, first_guard(mesh, params)));
+            CHECK(want == double_set(mesh, params, first_error(mesh, params)));
             // Just so many darts it takes, and none less.
             CHECK(darts == std::vector<std::uint32_t>(ways.size(), darts[0]));
             CHECK(sample(mesh, darts_for(mesh, 400, darts[0])).samples.size() == count);
@@ -190,20 +190,20 @@ TEST_SUITE("darts") {
         for (const std::uint32_t stop_count : {0u, 40u}) {
             SampleParams params = params_for(mesh, 60);
             params.stop_count = stop_count;
-            std::vector<double> guards;
+            std::vector<double> bounds;
             std::vector<Points> sets;
             for (const std::uint32_t slots : {kLeastSlots, 16u, 1'000u}) {
                 for (const std::uint32_t stages : {1u, 4u}) {
                     RunnerOptions options = by_stages(stages);
                     options.plan.slots = slots;
-                    options.plan.guard = 0x1p-30;
+                    options.plan.error_bound = 0x1p-30;
                     const SampleSet set = sample(mesh, params, options);
-                    guards.push_back(set.report.plan.guard);
+                    bounds.push_back(set.report.plan.error_bound);
                     sets.push_back(points_of(set));
                 }
             }
-            CHECK(guards == std::vector<double>(6, guards[0]));
-            CHECK(guards[0] > 0x1p-30);
+            CHECK(bounds == std::vector<double>(6, bounds[0]));
+            CHECK(bounds[0] > 0x1p-30);
             CHECK(sets == std::vector<Points>(6, sets[0]));
         }
     }

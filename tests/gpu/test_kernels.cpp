@@ -30,12 +30,12 @@ struct Twin {
     ref::Detector<float> detector;
     std::vector<std::uint8_t> states;
 
-    Twin(const PreparedMesh& mesh, const SampleParams& params, double guard, std::uint32_t first,
-         std::uint32_t count)
+    Twin(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+         std::uint32_t first, std::uint32_t count)
         : surface(mesh, params), pool(ref::draw_stages(surface, mesh, params, first, count)),
           ranks(pool.ranks()),
-          detector(surface, pool.bins, ErrorBound(mesh, params).tolerances(guard),
-                   ErrorBound(mesh, params).tolerances(guard).limit),
+          detector(surface, pool.bins, ErrorModel(mesh, params).tolerances(error_bound),
+                   ErrorModel(mesh, params).tolerances(error_bound).limit),
           states(pool.size(), gpu::kIdle) {}
 
     /// `conflicts` are those of higher rank, `above` the active ones of lower rank.
@@ -332,7 +332,7 @@ void step_through(const PreparedMesh& mesh, const SampleParams& params,
     CallHistogram calls;
     for (const Part& part : parts) {
         run.set_stages(part.first, part.count);
-        Twin twin(mesh, params, run.plan().guard, part.first, part.count);
+        Twin twin(mesh, params, run.plan().error_bound, part.first, part.count);
         run.begin();
         const auto by_place = compare_candidates(run, twin);
         step_through_samples(run, twin, samples, by_place, totals);

@@ -20,7 +20,7 @@ TEST_SUITE("limits") {
         const SampleParams params = params_for(mesh, 60);
         const SampleSet set = sample(mesh, params);
         CHECK(set.report.windows / set.report.disks > 65535 / 16);
-        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
     TEST_CASE("crowds of candidates in every cell") {
@@ -29,7 +29,7 @@ TEST_SUITE("limits") {
         params.pool_ratio = 2000;
         const SampleSet set = sample(mesh, params);
         CHECK(set.report.tested / set.report.disks > 1000);
-        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
     TEST_CASE("a batch that the buffer of samples has no room for waits for a larger one") {
@@ -66,7 +66,7 @@ TEST_SUITE("limits") {
             records.push_back({record.face, record.weight1, record.weight2});
         }
         CHECK(records == points_of(set));
-        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
     TEST_CASE("a finish between any rounds leaves a prefix, and the run as it was") {
@@ -80,7 +80,7 @@ TEST_SUITE("limits") {
         small.window_capacity = 8; // And overflows.
         small.stages = 2;
         DeviceRun run(mesh, params, small);
-        const Points want = float_set(mesh, params, run.plan().guard);
+        const Points want = float_set(mesh, params, run.plan().error_bound);
         std::uint32_t ready = 0, within_batches = 0;
         for (const std::uint32_t first : {0u, 2u}) {
             run.set_stages(first, 2);
@@ -112,11 +112,12 @@ TEST_SUITE("limits") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 5));
         const SampleParams params = params_for(mesh, 40);
         RunnerOptions options;
-        options.plan.guard = 0x1p-30;
+        options.plan.error_bound = 0x1p-30;
         const SampleSet set = sample(mesh, params, options);
-        CHECK(set.report.plan.guard > 0x1p-30);
-        CHECK(ErrorBound(mesh, params).covers(set.report.plan.guard, set.report.longest_chain));
-        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
+        CHECK(set.report.plan.error_bound > 0x1p-30);
+        CHECK(ErrorModel(mesh, params).error_of(set.report.longest_chain) <=
+              set.report.plan.error_bound);
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
     TEST_CASE("an overflow decides nothing until slices are larger") {

@@ -21,11 +21,11 @@ void check_against_reference(const PreparedMesh& mesh, double count, std::uint64
                              const RadiusField* radii = nullptr) {
     const SampleParams params = params_for(mesh, count, seed, radii);
     const SampleSet set = sample(mesh, params);
-    const double guard = set.report.plan.guard;
-    CHECK(ErrorBound(mesh, params).covers(guard, set.report.longest_chain));
-    CHECK(points_of(set) == float_set(mesh, params, guard));
-    if (points_of(set) != double_set(mesh, params, guard)) {
-        const ReplayReport report = replay(mesh, params, guard);
+    const double bound = set.report.plan.error_bound;
+    CHECK(ErrorModel(mesh, params).error_of(set.report.longest_chain) <= bound);
+    CHECK(points_of(set) == float_set(mesh, params, bound));
+    if (points_of(set) != double_set(mesh, params, bound)) {
+        const ReplayReport report = replay(mesh, params, bound);
         CHECK(report.wrong == 0);
         CHECK(report.ties > 0);
         CHECK(report.accepted == set.samples.size());
@@ -99,9 +99,9 @@ TEST_SUITE("pipeline") {
         Runner runner = expect(Runner::create(context.device(), context.queue()));
         for (int i = 0; i < 2; ++i) { // Compiled, and as compiled before.
             CHECK(points_of(expect(runner.sample_and_wait(mesh, one))) ==
-                  float_set(mesh, one, first_guard(mesh, one)));
+                  float_set(mesh, one, first_error(mesh, one)));
             CHECK(points_of(expect(runner.sample_and_wait(mesh, varying))) ==
-                  float_set(mesh, varying, first_guard(mesh, varying)));
+                  float_set(mesh, varying, first_error(mesh, varying)));
         }
         const PreparedMesh other = prepared(builtin("icosphere", 3));
         const auto refused = pool_size(other, varying);
@@ -181,7 +181,7 @@ TEST_SUITE("invariance") {
         const RunnerOptions plain;
         const SampleSet base = sample(mesh, params, plain);
         const auto want = points_of(base);
-        CHECK(want == float_set(mesh, params, base.report.plan.guard));
+        CHECK(want == float_set(mesh, params, base.report.plan.error_bound));
 
         const auto same = [&](const RunnerOptions& options) {
             return points_of(sample(mesh, params, options)) == want;
@@ -284,7 +284,7 @@ TEST_SUITE("invariance") {
         const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.05));
         const SampleParams params = params_for(mesh, 500, 1, &rough);
         const SampleSet base = sample(mesh, params);
-        CHECK(points_of(base) == float_set(mesh, params, base.report.plan.guard));
+        CHECK(points_of(base) == float_set(mesh, params, base.report.plan.error_bound));
         RunnerOptions tight;
         tight.plan.slots = 9;
         tight.plan.lanes = 3;
@@ -309,17 +309,17 @@ TEST_SUITE("invariance") {
     TEST_CASE("no tuning changes the guard of a repeated run") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 4));
         const SampleParams params = params_for(mesh, 60);
-        std::vector<double> guards;
+        std::vector<double> bounds;
         std::vector<Points> sets;
         for (const std::uint32_t slots : {8u, 16u, 1000u}) {
             RunnerOptions options;
             options.plan.slots = slots;
-            options.plan.guard = 0x1p-30;
+            options.plan.error_bound = 0x1p-30;
             const SampleSet set = sample(mesh, params, options);
-            guards.push_back(set.report.plan.guard);
+            bounds.push_back(set.report.plan.error_bound);
             sets.push_back(points_of(set));
         }
-        CHECK(guards == std::vector<double>(3, guards[0]));
+        CHECK(bounds == std::vector<double>(3, bounds[0]));
         CHECK(sets == std::vector<Points>(3, sets[0]));
     }
 }

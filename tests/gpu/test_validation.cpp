@@ -28,7 +28,7 @@ TEST_SUITE("validation") {
             Runner runner = expect(Runner::create(context.device(), context.queue(), tight));
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));
             CHECK(set.report.regrown > 0);
-            CHECK(points_of(set) == float_set(mesh, params, set.report.plan.guard));
+            CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
             // And later stages the samples of those before, in a buffer that has to grow.
             tight.plan.stages = 1;
             tight.plan.slots = 16;
@@ -37,7 +37,7 @@ TEST_SUITE("validation") {
             CHECK(points_of(expect(runner.sample_and_wait(mesh, params))) == points_of(set));
 
             CHECK(points_of(expect(runner.sample_and_wait(mesh, varying))) ==
-                  float_set(mesh, varying, set.report.plan.guard));
+                  float_set(mesh, varying, set.report.plan.error_bound));
         }
         for (const std::string& message : expect(context.validation_messages())) {
             MESSAGE(message);

@@ -144,14 +144,14 @@ Darts thrown(const PreparedMesh& mesh, const SampleParams& params) {
     Darts darts;
     darts.min_distance = params.min_distance;
     darts.pool = points_of(pool);
-    const ErrorBound error(mesh, params);
-    for (double guard = first_guard(mesh, params);; guard *= 2) {
-        darts.tolerances = error.tolerances(guard);
+    const ErrorModel model(mesh, params);
+    for (double bound = first_error(mesh, params);; bound *= 2) {
+        darts.tolerances = model.tolerances(bound);
         ref::RunResult run =
             ref::throw_darts(surface, pool, darts.tolerances,
                              params.stop_count != 0 ? params.stop_count : kMostCandidates);
         darts.ranks = std::move(run.ranks);
-        if (error.covers(guard, run.longest_chain)) {
+        if (model.error_of(run.longest_chain) <= bound) {
             return darts;
         }
     }
@@ -179,7 +179,7 @@ void check_spacing(const TestMesh& mesh, const std::vector<Point>& samples, doub
 }
 
 void check_covered(const TestMesh& mesh, const Darts& darts) {
-    const double limit = darts.tolerances.limit + darts.tolerances.guard;
+    const double limit = darts.tolerances.limit + darts.tolerances.error_bound;
     std::vector<bool> covered(darts.pool.size(), false);
     for (const std::uint32_t rank : darts.ranks) {
         covered[rank] = true;
@@ -198,7 +198,7 @@ void check_covered(const TestMesh& mesh, const Darts& darts) {
 void check_maximal(const PreparedMesh& mesh, const Darts& darts) {
     const ref::Surface<double> surface(mesh, darts.min_distance);
     const ref::Bins<double> bins(surface, darts.pool);
-    const double guard = darts.tolerances.guard;
+    const double guard = darts.tolerances.error_bound;
     const double limit = darts.tolerances.limit + guard;
     ref::Detector<double> detector(surface, bins, darts.tolerances, limit);
     std::vector<bool> covered(darts.pool.size(), false);

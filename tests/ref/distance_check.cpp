@@ -50,9 +50,9 @@ void check_documented(const DistanceCase& c, const char* kind, const PreparedMes
                       const std::vector<double>& truth) {
     const std::vector<double> found = query.from(source);
     // A chain longer than provided widens the promise, as the program does.
-    const double guard = std::max(first_guard(mesh, c.reach),
-                                  ErrorBound(mesh, c.reach).guard_for(query.count().chain));
-    const double bound = guard * c.reach;
+    const ErrorModel model(mesh, c.reach);
+    const double error = std::max(first_error(mesh, c.reach), model.error_of(query.count().chain));
+    const double bound = model.guard_for(error) * c.reach;
     report(c, kind, source, worst_error(found, truth, c.reach, 3 * bound), bound);
 }
 

@@ -177,7 +177,7 @@ void check_pairs(const std::string& name, const Case& c, double count) {
     const ref::Surface<double> exact(c.surface, params);
     const std::vector<Point> pool = ref::draw_pool(exact, c.surface, params).by_rank();
     const auto size = static_cast<std::uint32_t>(pool.size());
-    const double guard = first_guard(c.surface, params);
+    const double guard = first_tolerances(c.surface, params).guard;
     std::vector<bool> accepted(size, false), covered(size, false);
     for (const std::uint32_t rank : ranks) {
         accepted[rank] = true;
@@ -206,7 +206,7 @@ void check_pairs(const std::string& name, const Case& c, double count) {
 
 void check_replay(const std::string& name, const Case& c, const SampleParams& params) {
     INFO(name << " at a distance of " << params.min_distance);
-    const ReplayReport judged = replay(c.surface, params, first_guard(c.surface, params));
+    const ReplayReport judged = replay(c.surface, params, first_error(c.surface, params));
     CHECK(judged.wrong == 0);
     CHECK(judged.ties <= 2);
     check_deviation(name, judged);

@@ -24,7 +24,7 @@ void check_darts(const std::string& name, const TestMesh& mesh, double count) {
     CHECK(static_cast<double>(darts.ranks.size()) > 0.7 * count);
     check_spacing(mesh, darts.samples(), params.min_distance);
     check_maximal(surface, darts);
-    const ReplayReport judged = replay(surface, params, darts.tolerances.guard);
+    const ReplayReport judged = replay(surface, params, darts.tolerances.error_bound);
     CHECK(judged.wrong == 0);
     CHECK(judged.accepted == darts.ranks.size());
     check_deviation(name, judged);
@@ -213,7 +213,7 @@ TEST_CASE("darts: faces turned over leave the sample valid") {
         const SampleParams params = params_for(surface, 500);
         const Darts darts = thrown<float>(surface, params);
         check_maximal(surface, darts);
-        CHECK(replay(surface, params, darts.tolerances.guard).wrong == 0);
+        CHECK(replay(surface, params, darts.tolerances.error_bound).wrong == 0);
         std::vector<Point> samples = darts.samples();
         for (Point& p : samples) {
             if (p.face % 3 == 0) {
@@ -235,7 +235,7 @@ TEST_CASE("darts: surfaces that CGAL cannot take are sampled to the full") {
             const SampleParams params = params_for(surface, 300);
             const Darts darts = thrown<float>(surface, params);
             check_maximal(surface, darts);
-            CHECK(replay(surface, params, darts.tolerances.guard).wrong == 0);
+            CHECK(replay(surface, params, darts.tolerances.error_bound).wrong == 0);
         }
     }
 }

@@ -104,7 +104,7 @@ struct Scene {
         const ref::Surface<double> of(surface, params);
         const auto pool = ref::draw_pool(of, surface, params);
         const Tolerances tolerances =
-            ErrorBound(surface, params).tolerances(2 * first_guard(surface, params));
+            ErrorModel(surface, params).tolerances(4 * first_error(surface, params));
         std::vector<Point> points;
         for (const std::uint32_t rank : ref::throw_darts(of, pool, tolerances).ranks) {
             points.push_back(pool.candidate(rank));

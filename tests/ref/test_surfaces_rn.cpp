@@ -90,7 +90,7 @@ void check_sampled(const std::string& name, const TestMesh& mesh, double count) 
     CHECK(smallest >= params.min_distance);
     CHECK(smallest < 1.1 * params.min_distance); // Found at all.
     check_maximal(surface, darts);
-    const ReplayReport judged = replay(surface, params, darts.tolerances.guard);
+    const ReplayReport judged = replay(surface, params, darts.tolerances.error_bound);
     CHECK(judged.wrong == 0);
     CHECK(judged.accepted == darts.ranks.size());
     check_deviation(name, judged);

@@ -74,8 +74,8 @@ void judge(const Distances& hits, const Distances& truth, const Limit& limit_wit
 
 } // namespace
 
-ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double guard) {
-    const Tolerances tolerances = ErrorBound(mesh, params).tolerances(guard);
+ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
+    const Tolerances tolerances = ErrorModel(mesh, params).tolerances(error_bound);
     Side<float> floats(mesh, params, tolerances, tolerances.limit);
     Side<double> doubles(mesh, params, tolerances, tolerances.limit + 2 * tolerances.guard);
     std::vector<bool> decided(floats.pool.size(), false);

@@ -19,7 +19,7 @@ struct ReplayReport {
 };
 
 /// Sequential dart throwing as the float twin decides, with every disk checked in double precision.
-ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double guard);
+ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 
 /// Prints how far the run named so deviates; a failure where the guard does not cover it.
 void check_deviation(const std::string& name, const ReplayReport& report);

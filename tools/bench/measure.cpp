@@ -113,8 +113,9 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
     const SampleParams params = params_for(mesh, count);
 
     SampleSet set = run_device(runner, mesh.prepared, params, what);
-    const ReferenceJob job{mesh.prepared, params,
-                           ErrorBound(mesh.prepared, params).tolerances(set.report.plan.guard)};
+    const ReferenceJob job{
+        mesh.prepared, params,
+        ErrorModel(mesh.prepared, params).tolerances(set.report.plan.error_bound)};
     check_equal(set.samples, run_reference(ref::Surface<float>(mesh.prepared, params), job).samples,
                 what);
 

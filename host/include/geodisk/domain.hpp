@@ -43,7 +43,7 @@ class GEODISK_API Domain {
     /// they refer to, must outlive the domain and its runs.
     ///
     /// Candidates are placed to 2^-31 of the bounding box, so conflicts are tested against
-    /// `min_distance * (1 + guard)` with RunPlan::guard = 2^-20 + 2^-30 * box / D. No two samples
+    /// `min_distance * (1 + guard)` with RunReport::guard = 2^-20 + 2^-30 * box / D. No two samples
     /// are closer in space than D. Normals are those of the vertices, weighted by the areas of
     /// their faces, and interpolated.
     ///

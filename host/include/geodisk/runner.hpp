@@ -91,7 +91,7 @@ struct RunnerOptions {
     /// binding of the device.
     std::uint64_t pool_bytes = std::uint64_t{256} << 20;
     /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice
-    /// changes the samples, but `guard`, and with it the ties.
+    /// changes the samples, but `error_bound`, and with it the ties.
     RunPlan plan;
     /// Measures the device time of each stage by timestamps, where the queue has them.
     bool time_stages = false;

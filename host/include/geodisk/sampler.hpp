@@ -19,7 +19,7 @@
 //   8. set_stages           if the plan's stages are fewer than the job's: the next ones, and on
 //                           with 5 after a finish, until all were drawn or `accepted` has reached
 //                           the count to stop at
-//   9. widen_plan           tells whether the guard was wide enough; if not, start over
+//   9. widen_plan           tells whether the error bound held; if not, start over
 #pragma once
 
 #include <array>
@@ -137,8 +137,8 @@ struct WorkspaceNeeds {
     GEODISK_API VkDeviceSize total() const noexcept;
 };
 
-/// How a job is cut into work. Nothing but `guard` bears on which samples come out, and that only
-/// where a distance is within it of the minimum.
+/// How a job is cut into work. Nothing but `error_bound` bears on which samples come out, and that
+/// only where a distance is within the guard of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time, at least kLeastSlots.
     std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another.
@@ -155,8 +155,9 @@ struct RunPlan {
     std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
     std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
                                        ///< at most 2^23.
-    double guard = 0; ///< Conflicts are tested against min_distance * (1 + guard), since distances
-                      ///< are float; at most 1/2. See host/docs/precision.md.
+    /// Of what rounding does to a distance, in minimum distances, at most 1/2. The guard is that,
+    /// of surfaces rounded up to a power of two (host/docs/precision.md).
+    double error_bound = 0;
 
     /// A lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;
@@ -207,8 +208,8 @@ class GEODISK_API Sampler {
     Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
                               std::uint64_t pool_bytes) const noexcept;
 
-    /// The plan to start over with where ControlRec::longest_chain came out too long for the guard,
-    /// which is wider then; else the same plan.
+    /// The plan to start over with where ControlRec::longest_chain came out too long for
+    /// `error_bound`, which is larger then; else the same plan.
     RunPlan widen_plan(const Domain& domain, RunPlan plan,
                        std::uint32_t longest_chain) const noexcept;
 
@@ -271,7 +272,7 @@ class GEODISK_API Job {
 
     const RunPlan& plan() const noexcept;
     /// Replaces the plan, for rounds recorded from now on. Its slots must not be more than the job
-    /// was made with, its stages and guard the same, and its pool must fit the workspace's.
+    /// was made with, its stages and error_bound the same, and its pool must fit the workspace's.
     Result<Done> set_plan(const RunPlan& plan) noexcept;
     /// The same with another pool. No command buffer of the job may be pending.
     Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;

@@ -73,7 +73,7 @@ void GridDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
     const double conflicts = in_disk(plan, candidates);
     plan.list_capacity = std::max(4u, pow2_at_least(conflicts + 6 * std::sqrt(conflicts) + 8));
     plan.step_budget = most_steps(report);
-    plan.guard = guard_;
+    plan.error_bound = guard_;
 }
 
 double GridDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {
@@ -89,8 +89,8 @@ std::uint32_t GridDomain::most_steps(const DeviceReport& report) const {
     return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips : kDefaultTrips;
 }
 
-std::uint64_t GridDomain::cells(std::uint32_t candidates, double guard) const {
-    return grid(candidates, guard).heads;
+std::uint64_t GridDomain::cells(std::uint32_t candidates, double error_bound) const {
+    return grid(candidates, error_bound).heads;
 }
 
 void GridDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
@@ -101,7 +101,7 @@ void GridDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
 }
 
 void GridDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
-    push.limit = grid(push.capacity, plan.guard).limit2;
+    push.limit = grid(push.capacity, plan.error_bound).limit2;
 }
 
 std::size_t GridDomain::upload_size(BufferRole role) const {
@@ -112,7 +112,7 @@ std::size_t GridDomain::upload_size(BufferRole role) const {
 
 Result<Done> GridDomain::write_upload(const RunPlan& plan, BufferRole,
                                       std::span<std::byte> out) const {
-    const BoxGrid drawn = grid(capacity_for(stages, plan.stages), plan.guard);
+    const BoxGrid drawn = grid(capacity_for(stages, plan.stages), plan.error_bound);
     std::memcpy(out.data(), drawn.axes.data(), out.size());
     return Done{};
 }

@@ -14,15 +14,15 @@ class GridDomain : public Domain::Impl {
                     const DeviceReport& report) const override;
     double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
     std::uint32_t most_steps(const DeviceReport& report) const override;
-    std::uint64_t cells(std::uint32_t candidates, double guard) const override;
+    std::uint64_t cells(std::uint32_t candidates, double error_bound) const override;
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
     void set_push(gpu::Push& push, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role,
                               std::span<std::byte> out) const override;
-    double guard_for(std::uint32_t) const override { return guard_; }
-    bool covers(double guard, std::uint32_t) const override { return guard >= guard_; }
+    double error_of(std::uint32_t) const override { return guard_; }
+    double guard_for(double error_bound) const override { return error_bound; }
 
   protected:
     /// Points of so many words, with coordinates on `lattice`. A disk holds about `crowd` of them

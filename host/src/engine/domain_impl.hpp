@@ -27,7 +27,8 @@ struct Domain::Impl {
     /// Of device memory, about.
     std::uint64_t bytes_per_candidate = 0;
     std::uint32_t dimension = 0; ///< Of a box.
-    /// Whether the disk of each slot is computed by an invocation of its own, whatever RunPlan::lanes.
+    /// Whether the disk of each slot is computed by an invocation of its own, whatever
+    /// RunPlan::lanes.
     bool has_lane_per_slot = false;
 
     Impl() = default;
@@ -41,7 +42,7 @@ struct Domain::Impl {
     virtual std::uint64_t most_candidates(const DeviceLimits& limits,
                                           std::uint32_t slots) const = 0;
     /// Sets what disks ask of a plan with slots, for so many candidates at once: lanes,
-    /// window_capacity, table_capacity, list_capacity, step_budget and guard.
+    /// window_capacity, table_capacity, list_capacity, step_budget and error_bound.
     virtual void plan_disks(RunPlan& plan, std::uint32_t candidates,
                             const DeviceReport& report) const = 0;
     /// Dispatches of detect in which a batch should be done, most of all batches.
@@ -49,7 +50,7 @@ struct Domain::Impl {
     /// Most steps that one dispatch of detect may safely take.
     virtual std::uint32_t most_steps(const DeviceReport& report) const = 0;
     /// Words of the table of cells but two; 0 where it is that of the units' starts.
-    virtual std::uint64_t cells(std::uint32_t candidates, double guard) const = 0;
+    virtual std::uint64_t cells(std::uint32_t candidates, double error_bound) const = 0;
     /// Bytes of the buffers that the domain alone has, for so many candidates.
     virtual void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                            const RunPlan& plan) const = 0;
@@ -61,9 +62,9 @@ struct Domain::Impl {
     virtual std::size_t upload_size(BufferRole role) const = 0;
     virtual Result<Done> write_upload(const RunPlan& plan, BufferRole role,
                                       std::span<std::byte> out) const = 0;
-    /// The guard for window chains of so many crossings.
-    virtual double guard_for(std::uint32_t chain) const = 0;
-    virtual bool covers(double guard, std::uint32_t chain) const = 0;
+    /// Of distances, by window chains of so many crossings.
+    virtual double error_of(std::uint32_t chain) const = 0;
+    virtual double guard_for(double error_bound) const = 0;
     virtual void coordinates(const gpu::SampleRec&, std::span<double>) const {}
 };
 

@@ -19,7 +19,7 @@ namespace geodisk {
 namespace {
 
 // Beside a minimum distance of one.
-constexpr double kWidestGuard = 0.5;
+constexpr double kMostError = 0.5;
 
 Error range_error(Status status, std::size_t role, const std::string& what) {
     return Error{status, std::string("the workspace's buffer ") +
@@ -99,9 +99,9 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
                      "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
     }
     // The vertex table tags distances by the bits that those below 2 leave clear.
-    if (!(plan.guard > 0 && plan.guard <= kWidestGuard)) {
+    if (!(plan.error_bound > 0 && plan.error_bound <= kMostError)) {
         return Error{Status::invalid_argument,
-                     "the plan's guard of " + number_text(plan.guard) +
+                     "the plan's error_bound of " + number_text(plan.error_bound) +
                          " is not above 0 and at most half of the minimum distance"};
     }
     // Vulkan promises no more work groups.
@@ -126,9 +126,10 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
         return checked;
     }
     if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
-        plan.sample_capacity != job.plan.sample_capacity || plan.guard != job.plan.guard) {
+        plan.sample_capacity != job.plan.sample_capacity ||
+        plan.error_bound != job.plan.error_bound) {
         return Error{Status::invalid_argument,
-                     "the plan has another guard, or other stages, idle_capacity or "
+                     "the plan has another error_bound, or other stages, idle_capacity or "
                      "sample_capacity than the job was made for"};
     }
     const std::uint32_t most_slots = job.most_slots;
@@ -330,7 +331,7 @@ Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
         push.capacity = capacity_for(of.stages, plan.stages);
         push.buckets = bucket_count(push.capacity);
         push.faces = static_cast<std::uint32_t>(of.units);
-        push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, plan.guard));
+        push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, plan.error_bound));
         push.seed_low = static_cast<std::uint32_t>(of.seed);
         push.seed_high = static_cast<std::uint32_t>(of.seed >> 32);
         push.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;

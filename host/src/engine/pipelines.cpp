@@ -84,10 +84,10 @@ Result<Done> Pipelines::create_layout(std::size_t kernel) {
     set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     set_info.pBindings = bindings.data();
     VkDescriptorSetLayout& set_layout = set_layouts_[kernel];
-    VkResult result = null_unless_success(
-        vk_.vkCreateDescriptorSetLayout(device_.device, &set_info, device_.host_allocator,
-                                        &set_layout),
-        set_layout);
+    VkResult result =
+        null_unless_success(vk_.vkCreateDescriptorSetLayout(device_.device, &set_info,
+                                                            device_.host_allocator, &set_layout),
+                            set_layout);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateDescriptorSetLayout", result);
     }
@@ -98,10 +98,10 @@ Result<Done> Pipelines::create_layout(std::size_t kernel) {
     layout_info.pSetLayouts = &set_layout;
     layout_info.pushConstantRangeCount = 1;
     layout_info.pPushConstantRanges = &range;
-    result = null_unless_success(vk_.vkCreatePipelineLayout(device_.device, &layout_info,
-                                                            device_.host_allocator,
-                                                            &layouts_[kernel]),
-                                 layouts_[kernel]);
+    result =
+        null_unless_success(vk_.vkCreatePipelineLayout(device_.device, &layout_info,
+                                                       device_.host_allocator, &layouts_[kernel]),
+                            layouts_[kernel]);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreatePipelineLayout", result);
     }
@@ -153,11 +153,10 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
     pipeline_info.stage.pSpecializationInfo = &specialization;
     pipeline_info.layout = layouts_[static_cast<std::size_t>(kernel)];
     VkPipeline pipeline = VK_NULL_HANDLE;
-    result = null_unless_success(vk_.vkCreateComputePipelines(device_.device,
-                                                              device_.pipeline_cache, 1,
-                                                              &pipeline_info,
-                                                              device_.host_allocator, &pipeline),
-                                 pipeline);
+    result = null_unless_success(
+        vk_.vkCreateComputePipelines(device_.device, device_.pipeline_cache, 1, &pipeline_info,
+                                     device_.host_allocator, &pipeline),
+        pipeline);
     vk_.vkDestroyShaderModule(device_.device, module, device_.host_allocator);
     if (result != VK_SUCCESS) {
         Error error = vk_error("vkCreateComputePipelines", result);

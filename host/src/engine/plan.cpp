@@ -160,7 +160,8 @@ std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceRepo
     // No lane is to wait for the others with its last one.
     const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
     aim = aim < lanes ? aim : (aim + lanes - 1) / lanes * lanes;
-    return aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
+    return aim <= gpu::kMostRanked ? aim
+                                   : aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
 }
 
 // Borders, creases and thin parts hold more samples than their area tells. Where the device cannot
@@ -198,7 +199,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.pool_block, wanted.pool_block);
     replace(plan.stages, wanted.stages);
     replace(plan.idle_capacity, wanted.idle_capacity);
-    plan.guard = wanted.guard != 0 ? wanted.guard : plan.guard;
+    plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
 }
 
@@ -271,8 +272,8 @@ Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
 RunPlan Sampler::widen_plan(const Domain& domain, RunPlan plan,
                             std::uint32_t longest_chain) const noexcept {
     const Domain::Impl& of = Domain::Impl::of(domain);
-    if (!of.covers(plan.guard, longest_chain)) {
-        plan.guard = std::max(2 * plan.guard, of.guard_for(longest_chain));
+    if (of.error_of(longest_chain) > plan.error_bound) {
+        plan.error_bound = of.error_of(2 * longest_chain);
     }
     return plan;
 }
@@ -284,7 +285,7 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain,
         const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
         const std::uint32_t buckets = bucket_count(candidates);
         const std::uint64_t starts = of.units * plan.stages + 1;
-        const std::uint64_t cells = of.cells(candidates, plan.guard);
+        const std::uint64_t cells = of.cells(candidates, plan.error_bound);
         const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
         WorkspaceNeeds needs;
         needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;

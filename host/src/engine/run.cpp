@@ -113,7 +113,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     }
     slots_ = plan.slots;
     lanes_ = plan.lanes;
-    report_.guard = plan.guard;
+    report_.guard = of_.guard_for(plan.error_bound);
     return Done{};
 }
 
@@ -471,7 +471,7 @@ Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
             return set;
         }
         const RunPlan wider = runner.sampler.widen_plan(domain, *plan, set->report.longest_chain);
-        if (wider.guard == plan->guard) {
+        if (wider.error_bound == plan->error_bound) {
             return set;
         }
         *plan = wider; // Start over.

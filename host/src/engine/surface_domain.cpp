@@ -68,7 +68,7 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
     plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces_per_disk);
     plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * candidates / full_));
     plan.step_budget = most_steps(report);
-    plan.guard = first_guard(mesh_, params_);
+    plan.error_bound = first_error(mesh_, params_);
 }
 
 double SurfaceDomain::detect_passes(const RunPlan& plan, std::uint32_t) const {
@@ -100,7 +100,7 @@ std::string SurfaceDomain::beside_candidates() const {
 }
 
 void SurfaceDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
-    const Tolerances tolerances = error_.tolerances(plan.guard);
+    const Tolerances tolerances = error_.tolerances(plan.error_bound);
     push.limit = tolerances.limit;
     push.margin = tolerances.margin;
     push.slack = tolerances.slack;

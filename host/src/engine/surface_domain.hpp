@@ -16,7 +16,7 @@ class SurfaceDomain : public Domain::Impl {
                     const DeviceReport& report) const override;
     double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
     std::uint32_t most_steps(const DeviceReport& report) const override;
-    std::uint64_t cells(std::uint32_t candidates, double guard) const override;
+    std::uint64_t cells(std::uint32_t candidates, double error_bound) const override;
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
     std::string beside_candidates() const override;
@@ -24,15 +24,13 @@ class SurfaceDomain : public Domain::Impl {
     std::size_t upload_size(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role,
                               std::span<std::byte> out) const override;
-    double guard_for(std::uint32_t chain) const override { return error_.guard_for(chain); }
-    bool covers(double guard, std::uint32_t chain) const override {
-        return error_.covers(guard, chain);
-    }
+    double error_of(std::uint32_t chain) const override { return error_.error_of(chain); }
+    double guard_for(double error_bound) const override { return error_.guard_for(error_bound); }
 
   private:
     const PreparedMesh& mesh_;
     SampleParams params_;
-    ErrorBound error_;
+    ErrorModel error_;
     std::uint32_t cells_; ///< Of all faces; 0 where each has one.
     double full_;         ///< Samples that a full surface holds, at least two: no disk covers
                           ///< more than all faces.

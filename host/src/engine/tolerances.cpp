@@ -9,9 +9,8 @@ namespace geodisk {
 namespace {
 
 constexpr double kRounding = 0x1p-22;
-// Of the guard and of the slack.
-constexpr double kLeastRoundings = 512;
-constexpr double kLeastSlack = 16;
+constexpr double kLeastGuard = 0x1p-13;
+constexpr double kLeastSlack = 16; // In roundings.
 // Factors are floats, and radii are summed in float: each errs by 2^-23 at most.
 constexpr double kRadiiRounding = 0x1p-21;
 constexpr double kLeastChain = 64;
@@ -48,36 +47,34 @@ double working_distance(const PreparedMesh& mesh, const SampleParams& params) no
                                    : working_distance(mesh, params.min_distance);
 }
 
-ErrorBound::ErrorBound(const PreparedMesh& mesh, double min_distance) noexcept
+ErrorModel::ErrorModel(const PreparedMesh& mesh, double min_distance) noexcept
     : longest_(mesh.statistics().longest_edge / working_distance(mesh, min_distance)) {}
 
-ErrorBound::ErrorBound(const PreparedMesh& mesh, const SampleParams& params) noexcept
+ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params) noexcept
     : longest_(mesh.statistics().longest_edge / working_distance(mesh, params)),
       further_(params.radii != nullptr ? kRadiiRounding : 0) {}
 
-double ErrorBound::roundings(std::uint32_t chain) const noexcept {
-    return chain + 4 * std::ceil(longest_);
+double ErrorModel::error_of(std::uint32_t chain) const noexcept {
+    return kRounding * (chain + 4 * std::ceil(longest_)) + further_;
 }
 
-double ErrorBound::guard_for(std::uint32_t chain) const noexcept {
-    return kRounding * power_of_two_from(roundings(chain), kLeastRoundings) + further_;
+double ErrorModel::guard_for(double error_bound) const noexcept {
+    return power_of_two_from(error_bound - further_, kLeastGuard) + further_;
 }
 
-bool ErrorBound::covers(double guard, std::uint32_t chain) const noexcept {
-    return kRounding * roundings(chain) + further_ <= guard;
+Tolerances ErrorModel::tolerances(double error_bound) const noexcept {
+    const double guard = guard_for(error_bound);
+    return {static_cast<float>(1 + guard), static_cast<float>(error_bound),
+            static_cast<float>(kRounding * power_of_two_from(2 + longest_, kLeastSlack)), guard,
+            error_bound};
 }
 
-Tolerances ErrorBound::tolerances(double guard) const noexcept {
-    return {static_cast<float>(1 + guard), static_cast<float>(guard),
-            static_cast<float>(kRounding * power_of_two_from(2 + longest_, kLeastSlack)), guard};
+double first_error(const PreparedMesh& mesh, double min_distance) noexcept {
+    return ErrorModel(mesh, min_distance).error_of(guessed_chain(mesh, min_distance));
 }
 
-double first_guard(const PreparedMesh& mesh, double min_distance) noexcept {
-    return ErrorBound(mesh, min_distance).guard_for(guessed_chain(mesh, min_distance));
-}
-
-double first_guard(const PreparedMesh& mesh, const SampleParams& params) noexcept {
-    return ErrorBound(mesh, params).guard_for(guessed_chain(mesh, params.min_distance));
+double first_error(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    return ErrorModel(mesh, params).error_of(guessed_chain(mesh, params.min_distance));
 }
 
 } // namespace geodisk

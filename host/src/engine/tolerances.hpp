@@ -26,38 +26,37 @@ struct Tolerances {
     float margin; ///< A window is dropped only when beaten by more than this.
     float slack;  ///< Intervals are widened by this for hits and apexes.
     double guard;
+    double error_bound; ///< That they are for.
 };
 
 /// How far rounding takes a distance on a mesh: by at most 2^-22 of the distances met at each
 /// crossing of its window chain. The largest met is one disk plus the longest edge.
-class GEODISK_API ErrorBound {
+class GEODISK_API ErrorModel {
   public:
-    ErrorBound(const PreparedMesh& mesh, double min_distance) noexcept;
+    ErrorModel(const PreparedMesh& mesh, double min_distance) noexcept;
     /// Where radii vary, with a little more for their rounding.
-    ErrorBound(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+    ErrorModel(const PreparedMesh& mesh, const SampleParams& params) noexcept;
 
-    /// The guard for chains of so many crossings: in steps of two from 2^-13 on, so that an edit
+    /// Of chains of so many crossings.
+    double error_of(std::uint32_t chain) const noexcept;
+    /// That is safe while errors keep to the bound: in steps of two from 2^-13 on, so that an edit
     /// somewhere does not decide anew about ties elsewhere.
-    double guard_for(std::uint32_t chain) const noexcept;
-    /// Whether a guard is wide enough for chains of so many crossings.
-    bool covers(double guard, std::uint32_t chain) const noexcept;
-    Tolerances tolerances(double guard) const noexcept;
+    double guard_for(double error_bound) const noexcept;
+    Tolerances tolerances(double error_bound) const noexcept;
 
   private:
-    double roundings(std::uint32_t chain) const noexcept;
-
     double longest_; ///< Edge.
     double further_ = 0;
 };
 
-/// The guard to begin with, for a guess of the longest chain by the faces that a disk covers.
-GEODISK_API double first_guard(const PreparedMesh& mesh, double min_distance) noexcept;
-GEODISK_API double first_guard(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+/// The bound to begin with, for a guess of the longest chain by the faces that a disk covers.
+GEODISK_API double first_error(const PreparedMesh& mesh, double min_distance) noexcept;
+GEODISK_API double first_error(const PreparedMesh& mesh, const SampleParams& params) noexcept;
 
-/// Those of the guard to begin with.
+/// Those of the bound to begin with.
 template <class Params>
 Tolerances first_tolerances(const PreparedMesh& mesh, const Params& params) noexcept {
-    return ErrorBound(mesh, params).tolerances(first_guard(mesh, params));
+    return ErrorModel(mesh, params).tolerances(first_error(mesh, params));
 }
 
 } // namespace geodisk
