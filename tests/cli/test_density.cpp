@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "common/sample_file.hpp"
+#include "files/sample_file.hpp"
 #include "unit/png_bytes.hpp"
 
 namespace geodisk::test {

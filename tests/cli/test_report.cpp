@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "common/sample_file.hpp"
+#include "files/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

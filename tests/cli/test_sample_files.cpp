@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cli/command.hpp"
-#include "common/sample_file.hpp"
+#include "files/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/command.hpp"
-#include "common/sample_file.hpp"
+#include "files/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

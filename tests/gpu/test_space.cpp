@@ -60,7 +60,7 @@ Points plain_set(const TestMesh& mesh, const SampleParams& params, double guard)
             {candidates[rank].face, candidates[rank].weight1, candidates[rank].weight2});
         bool is_free = true;
         for (std::size_t i = 0; i < samples.size() && is_free; ++i) {
-            is_free = tools::length(samples[i] - at) >= limit;
+            is_free = glm::length(samples[i] - at) >= limit;
         }
         if (is_free) {
             ranks.push_back(rank);

@@ -17,7 +17,7 @@
 namespace geodisk::test {
 namespace {
 
-using tools::length;
+using glm::length;
 
 /// The faces near one point as a mesh of their own, small enough to ask CGAL about each sample.
 ///

@@ -200,9 +200,9 @@ namespace {
 /// The point at the given distances from a, b and c, on the side of their plane that `side` tells.
 Vec3 trilaterated(Vec3 a, Vec3 b, Vec3 c, double from_a, double from_b, double from_c,
                   double side) {
-    const Vec3 x = tools::normalized(b - a);
+    const Vec3 x = normalize(b - a);
     const Vec3 along = dot(c - a, x) * x;
-    const Vec3 y = tools::normalized(c - a - along);
+    const Vec3 y = normalize(c - a - along);
     const double ab = length(b - a);
     const double cx = dot(c - a, x);
     const double cy = dot(c - a, y);
@@ -245,7 +245,7 @@ struct TwoWays {
 
     /// s after turning by `angle` around m b.
     Vec3 folded(Vec3 m, double angle) const {
-        const Vec3 axis = tools::normalized(b - m);
+        const Vec3 axis = normalize(b - m);
         const Vec3 along = dot(s_in_a - m, axis) * axis;
         const Vec3 out = s_in_a - m - along;
         return m + along + std::cos(angle) * out + std::sin(angle) * cross(axis, out);

@@ -260,8 +260,8 @@ TEST_CASE("blocks: copies of a surface are prepared alike, whichever thread take
 TEST_CASE("frames: a needle keeps its height") {
     // Along a slanted direction, so that no coordinate is the height itself; the foot lies inside,
     // at an end and beyond it.
-    const Vec3 x = tools::normalized({2, -3, 5});
-    const Vec3 y = tools::normalized(cross(x, Vec3{1, 1, 1}));
+    const Vec3 x = normalize(Vec3{2, -3, 5});
+    const Vec3 y = normalize(cross(x, Vec3{1, 1, 1}));
     for (const double foot : {0.3, 1e-6, 0.0, -0.4}) {
         for (const double height : {1e-3, 1e-7}) {
             TestMesh needle;

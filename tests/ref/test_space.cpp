@@ -29,7 +29,7 @@ TEST_CASE("space: sets of straight distances are those of brute force") {
             const auto brute = ref::throw_brute_force(
                 static_cast<std::uint32_t>(positions.size()),
                 [&](std::uint32_t a, std::uint32_t b) {
-                    return tools::length(positions[a] - positions[b]) < limit;
+                    return glm::length(positions[a] - positions[b]) < limit;
                 });
             CHECK(ref::throw_darts(ref::space_pool<double>(points, false)) == brute);
             CHECK(ref::throw_darts(ref::space_pool<float>(points, false)) == brute);

@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include "common/lift.hpp"
-#include "common/mesh_file.hpp"
+#include "files/mesh_file.hpp"
+#include "geometry/lift.hpp"
 #include "ref/dart_check.hpp"
 #include "ref/distance_check.hpp"
 #include "support/replay.hpp"

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/builtin_shapes.hpp"
-#include "common/mesh_file.hpp"
+#include "files/mesh_file.hpp"
 #include "kernels/pool.hpp"
+#include "shapes/builtin_shapes.hpp"
 #include "support/data_file.hpp"
 
 namespace geodisk::test {

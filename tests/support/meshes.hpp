@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/vec3.hpp"
 #include "geodisk/mesh.hpp"
+#include "geometry/vec.hpp"
 #include "lib/surface.hpp"
 
 namespace geodisk::test {

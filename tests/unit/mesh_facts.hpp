@@ -1,8 +1,8 @@
 // Independent measurements of a triangle mesh, for checking readers and generators.
 #pragma once
 
-#include "common/mesh_file.hpp"
-#include "common/vec3.hpp"
+#include "files/mesh_file.hpp"
+#include "geometry/vec.hpp"
 
 #include <algorithm>
 #include <cmath>

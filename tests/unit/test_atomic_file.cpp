@@ -1,4 +1,4 @@
-#include "common/atomic_file.hpp"
+#include "files/output_file.hpp"
 
 #include "test_files.hpp"
 

@@ -2,8 +2,8 @@
 #include "bench/statistics.hpp"
 #include "bench/subdivision.hpp"
 
-#include "common/builtin_shapes.hpp"
 #include "mesh_facts.hpp"
+#include "shapes/builtin_shapes.hpp"
 #include "test_files.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-#include "common/builtin_shapes.hpp"
-#include "common/shape_makers.hpp"
+#include "shapes/builtin_shapes.hpp"
+#include "shapes/shape_makers.hpp"
 
 #include "mesh_facts.hpp"
 #include "test_files.hpp"
@@ -302,7 +302,7 @@ TEST_CASE("the crossed sheet comes back to where it was, at a right angle") {
     const auto column = [&](std::size_t i) { return position_at(mesh, i * (parts + 1)); };
     REQUIRE(mesh.positions.size() / 3 == (6 * parts + 1) * (parts + 1));
     CHECK(length(column(parts) - column(5 * parts)) < 0.002);
-    const auto way = [&](std::size_t i) { return normalized(column(i + 1) - column(i - 1)); };
+    const auto way = [&](std::size_t i) { return normalize(column(i + 1) - column(i - 1)); };
     CHECK(std::abs(dot(way(parts), way(5 * parts))) < 0.05);
 }
 

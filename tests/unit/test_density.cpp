@@ -1,12 +1,12 @@
 // What radii that vary are made of: images, texture coordinates, values of vertices and curvature;
 // and the radius of samples in files.
-#include "common/builtin_shapes.hpp"
-#include "common/grey_image.hpp"
-#include "common/mean_curvature.hpp"
-#include "common/mesh_file.hpp"
-#include "common/sample_file.hpp"
-#include "common/sidecar_files.hpp"
+#include "files/grey_image.hpp"
+#include "files/mesh_file.hpp"
+#include "files/sample_file.hpp"
+#include "files/sidecar_files.hpp"
+#include "geometry/mean_curvature.hpp"
 #include "png_bytes.hpp"
+#include "shapes/builtin_shapes.hpp"
 #include "test_files.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Files and errors in the tests of the tools.
 #pragma once
 
-#include "common/user_error.hpp"
+#include "program/failure.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // The odd and broken files, and the real meshes where they are.
-#include "common/mesh_file.hpp"
-#include "common/text.hpp"
+#include "files/mesh_file.hpp"
+#include "program/exact_text.hpp"
 
 #include "mesh_facts.hpp"
 #include "support/data_file.hpp"

@@ -1,4 +1,4 @@
-#include "common/mesh_file.hpp"
+#include "files/mesh_file.hpp"
 
 #include "mesh_facts.hpp"
 #include "test_files.hpp"

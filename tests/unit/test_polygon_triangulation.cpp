@@ -1,6 +1,6 @@
-#include "common/polygon_triangulation.hpp"
+#include "geometry/polygon_triangulation.hpp"
 
-#include "common/vec3.hpp"
+#include "geometry/vec.hpp"
 #include "mesh_facts.hpp"
 
 #include <doctest/doctest.h>

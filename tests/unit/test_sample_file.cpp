@@ -1,6 +1,6 @@
-#include "common/sample_file.hpp"
+#include "files/sample_file.hpp"
 
-#include "common/mesh_file.hpp"
+#include "files/mesh_file.hpp"
 #include "test_files.hpp"
 
 #include <cmath>

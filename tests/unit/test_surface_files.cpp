@@ -1,8 +1,7 @@
 // Meshes with more than three coordinates, sidecar files, lifts, and samples of such meshes.
-#include "common/lift.hpp"
-#include "common/mesh_file.hpp"
-#include "common/mesh_writer.hpp"
-#include "common/sample_file.hpp"
+#include "files/mesh_file.hpp"
+#include "files/sample_file.hpp"
+#include "geometry/lift.hpp"
 #include "test_files.hpp"
 
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <geodisk/version.hpp>
 
 #include "bench/commit.hpp"
-#include "common/text.hpp"
+#include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::bench {

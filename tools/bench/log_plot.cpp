@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "common/number_text.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::bench {
 namespace {

@@ -16,11 +16,10 @@
 #include "bench/sweep.hpp"
 #include "bench/table.hpp"
 #include "bench/tune.hpp"
-#include "common/user_error.hpp"
+#include "files/tuning_file.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 #include "program/program.hpp"
-#include "program/tuning_file.hpp"
 
 namespace {
 
@@ -85,8 +84,7 @@ void run(const bench::Options& options) {
         measure(context, options, meshes);
     }
     if (!std::cout) {
-        throw tools::UserError(tools::ExitCode::bad_output,
-                               "the table cannot be written to standard output");
+        tools::fail_output("the table cannot be written to standard output");
     }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/tolerances.hpp"
+#include "geometry/mesh.hpp"
 #include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"

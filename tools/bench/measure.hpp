@@ -6,7 +6,8 @@
 #include <geodisk/runner.hpp>
 
 #include "bench/measurement.hpp"
-#include "common/mesh_file.hpp"
+#include "geometry/mesh.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::bench {
 

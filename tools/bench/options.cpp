@@ -3,9 +3,10 @@
 #include <memory>
 #include <utility>
 
-#include "common/user_error.hpp"
+#include "files/tuning_file.hpp"
 #include "program/arguments.hpp"
-#include "program/tuning_file.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::bench {
 namespace {
@@ -36,19 +37,18 @@ Options checked(const RawOptions& raw) {
     Options options = raw.options;
     options.runner.sampler.count_trips = options.runner.time_stages;
     if (options.scaling && raw.has_counts) {
-        throw UserError(ExitCode::usage, "--count and --scaling contradict each other; a sweep "
-                                         "takes its counts from --scaling-counts");
+        tools::fail_usage("--count and --scaling contradict each other; a sweep "
+                          "takes its counts from --scaling-counts");
     }
     if (!options.scaling && raw.has_sweep) {
-        throw UserError(ExitCode::usage,
-                        "options that begin with --scaling- need --scaling as well");
+        tools::fail_usage("options that begin with --scaling- need --scaling as well");
     }
     if (options.tune && (options.scaling || !options.json.empty() || !options.csv.empty())) {
-        throw UserError(ExitCode::usage,
-                        "--tune measures nothing else and contradicts --scaling, --json and --csv");
+        tools::fail_usage(
+            "--tune measures nothing else and contradicts --scaling, --json and --csv");
     }
     if (!options.scaling && !options.plot.empty()) {
-        throw UserError(ExitCode::usage, "--plot draws sweeps, so it needs --scaling");
+        tools::fail_usage("--plot draws sweeps, so it needs --scaling");
     }
     options.counts = options.scaling ? parse_counts("--scaling-counts", raw.scaling_counts)
                                      : parse_counts("--count", raw.counts);

@@ -9,6 +9,8 @@
 
 #include <geodisk/runner.hpp>
 
+#include "program/failure.hpp"
+
 namespace geodisk::bench {
 
 /// The command line, checked as far as that is possible without meshes and device.

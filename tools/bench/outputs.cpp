@@ -5,9 +5,8 @@
 
 #include "bench/plots.hpp"
 #include "bench/report.hpp"
-#include "common/atomic_file.hpp"
-#include "common/user_error.hpp"
-#include "program/output_path.hpp"
+#include "files/output_file.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::bench {
 namespace {
@@ -41,8 +40,7 @@ void check_outputs(const Options& options) {
         others.insert(others.end(), paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(i));
         for (const std::string& other : others) {
             if (tools::is_same_file(paths[i], other)) {
-                throw tools::UserError(tools::ExitCode::usage,
-                                       paths[i] + ": the output would replace " + other);
+                tools::fail_usage(paths[i] + ": the output would replace " + other);
             }
         }
         tools::check_writable(paths[i]);

@@ -6,6 +6,7 @@
 #include "bench/circumstances.hpp"
 #include "bench/measurement.hpp"
 #include "bench/options.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::bench {
 

@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/fields.hpp"
-#include "common/number_text.hpp"
-#include "common/text.hpp"
+#include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::bench {

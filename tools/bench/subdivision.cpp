@@ -5,6 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geometry/mesh.hpp"
+
 namespace geodisk::bench {
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/mesh_file.hpp"
+#include "geometry/mesh.hpp"
 
 namespace geodisk::bench {
 

@@ -6,6 +6,7 @@
 
 #include "bench/measure.hpp"
 #include "bench/subdivision.hpp"
+#include "files/mesh_file.hpp"
 
 namespace geodisk::bench {
 namespace {

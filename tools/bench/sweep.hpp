@@ -10,7 +10,9 @@
 
 #include "bench/measurement.hpp"
 #include "bench/options.hpp"
-#include "common/mesh_file.hpp"
+#include "files/mesh_file.hpp"
+#include "geometry/mesh.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::bench {
 

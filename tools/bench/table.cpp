@@ -4,7 +4,6 @@
 #include <iostream>
 #include <string>
 
-#include "common/number_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::bench {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "bench/measure.hpp"
-#include "common/user_error.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::bench {

@@ -10,6 +10,7 @@
 
 #include "bench/options.hpp"
 #include "bench/sweep.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::bench {
 

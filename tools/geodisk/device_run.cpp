@@ -2,28 +2,30 @@
 
 #include <algorithm>
 
-#include "common/user_error.hpp"
+#include "files/tuning_file.hpp"
+#include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/tuning_file.hpp"
+#include "program/interrupt.hpp"
+#include "program/stopwatch.hpp"
 
 namespace geodisk::tools {
+namespace {
 
-Context open_device(const std::string& device, bool validate, double& seconds,
-                    ProgressLine& progress) {
-    ContextOptions options;
-    options.device = device;
-    options.validation = validate;
+/// As --device and --validate ask.
+Context open_device(const RunOptions& options, ProgressLine& progress) {
     progress.begin_stage("opening the device");
-    Context context = timed(seconds, [&] { return take(Context::create(options)); });
+    Context context = take(Context::create({options.device, options.validate, {}}));
     check_interrupted();
     return context;
 }
 
+/// `options` with the tuning that is kept for the device.
 RunnerOptions tuned(RunnerOptions options, const DeviceReport& device) {
     options.sampler.tuning = load_tuning(device).value_or(Tuning());
     return options;
 }
 
+/// Draws how far a run is that should give about `expected` samples, and stops it on a signal.
 ProgressCallback show_progress(ProgressLine& progress, double expected) {
     return [&progress, expected](const Progress& state) {
         // Work is in the disks of accepted candidates, but only the darts are sure to reach the
@@ -35,25 +37,14 @@ ProgressCallback show_progress(ProgressLine& progress, double expected) {
     };
 }
 
-Runner open_runner(const Context& context, const RunnerOptions& options, const Domain& domain,
-                   double& seconds, ProgressLine& progress) {
-    progress.begin_stage("compiling the shaders");
-    Runner runner = timed(seconds, [&] {
-        Runner made = take(
-            Runner::create(context.device(), context.queue(), tuned(options, context.report())));
-        take(made.sampler().prepare(domain));
-        return made;
-    });
-    check_interrupted();
-    return runner;
-}
-
+/// Throws UserError for an error of a run that --memory can help with.
 void check_run(const Error& error) {
     if (error.status == Status::workspace_too_small) {
         throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
     }
 }
 
+/// Throws UserError if the validation layer had something to say.
 void check_validation(const Context& context) {
     if (context.validation_message_count() > 0) {
         const auto messages = take(context.validation_messages());
@@ -61,6 +52,40 @@ void check_validation(const Context& context) {
                         std::to_string(context.validation_message_count()) +
                             " messages of the validation layer, the first: " + messages.front());
     }
+}
+
+} // namespace
+
+std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
+                                              const RunnerOptions& runner_options,
+                                              const Domain& domain, double expected,
+                                              ProgressLine& progress) {
+    DeviceRun done;
+    Stopwatch watch;
+    const Context context = open_device(options, progress);
+    done.open_seconds = watch.seconds();
+    done.device = context.report();
+
+    progress.begin_stage("compiling the shaders");
+    watch = Stopwatch();
+    Runner runner = take(
+        Runner::create(context.device(), context.queue(), tuned(runner_options, done.device)));
+    take(runner.sampler().prepare(domain));
+    done.compile_seconds = watch.seconds();
+    done.tuning = runner.sampler().tuning();
+    check_interrupted();
+
+    progress.begin_stage("sampling");
+    auto result = runner.sample_and_wait(domain, show_progress(progress, expected));
+    progress.clear();
+    check_interrupted();
+    if (!result) {
+        check_run(result.error());
+    }
+    SampleSet set = take(std::move(result));
+    check_validation(context);
+    done.run = set.report;
+    return {std::move(set), std::move(done)};
 }
 
 } // namespace geodisk::tools

@@ -3,12 +3,7 @@
 
 #include <geodisk/version.hpp>
 
-#include "geodisk/cmd_box.hpp"
-#include "geodisk/cmd_info.hpp"
-#include "geodisk/cmd_sample.hpp"
-#include "geodisk/cmd_shapes.hpp"
-#include "geodisk/cmd_transfer.hpp"
-#include "geodisk/cmd_verify.hpp"
+#include "geodisk/commands/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/program.hpp"
 

@@ -1,7 +1,4 @@
 // Sections 5.9 and 6: speed in boxes of one to six dimensions, beside sequential methods.
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -10,8 +7,8 @@
 
 #include "baselines/box_darts.hpp"
 #include "bench/statistics.hpp"
-#include "common/user_error.hpp"
 #include "kernels/grid.hpp"
+#include "paper/commands.hpp"
 #include "paper/device.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "bench/statistics.hpp"
+#include "files/tuning_file.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
-#include "program/tuning_file.hpp"
 
 namespace geodisk::paper {
 

@@ -1,8 +1,5 @@
 // Fig. 13: what the closed form of Bowers et al. 2010 saves against exact distances, and priorities
 // beside phase groups with the same closed form (section 6.1).
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -13,6 +10,7 @@
 #include "baselines/phase_groups.hpp"
 #include "baselines/space_disks.hpp"
 #include "bench/statistics.hpp"
+#include "paper/commands.hpp"
 #include "paper/metrics.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"

@@ -1,8 +1,5 @@
 // Fig. 14: packing density against |P|/|S| in the unit square, beside that of maximal sampling
 // (section 6.4).
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -11,6 +8,7 @@
 #include <geodisk/params.hpp>
 
 #include "baselines/box_darts.hpp"
+#include "paper/commands.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
 #include "program/arguments.hpp"

@@ -1,10 +1,8 @@
 // Fig. 5: speed against N, speed and packing density against |P|/|S| (sections 5.1 and 5.2).
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <iostream>
 #include <memory>
 
+#include "paper/commands.hpp"
 #include "paper/device.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"

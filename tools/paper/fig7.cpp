@@ -1,17 +1,16 @@
 // Fig. 7: samples that distances through space lose where parts of a surface lie close together or
 // cross, and exact distances do not (section 6.1).
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <array>
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include "paper/commands.hpp"
 #include "paper/metrics.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
 #include "program/arguments.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::paper {
 namespace {

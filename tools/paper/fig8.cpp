@@ -1,10 +1,8 @@
 // Fig. 8: as many samples on a surface at several resolutions (section 5.7).
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <iostream>
 #include <memory>
 
+#include "paper/commands.hpp"
 #include "paper/device.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"

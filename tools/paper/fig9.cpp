@@ -1,15 +1,14 @@
 // Fig. 9: samples that the closed form of Bowers et al. 2010 places too close together, by exact
 // distances (section 5.2).
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <iostream>
 #include <memory>
 
+#include "paper/commands.hpp"
 #include "paper/metrics.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
 #include "program/arguments.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::paper {
 namespace {

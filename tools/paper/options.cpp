@@ -1,6 +1,7 @@
 #include "paper/options.hpp"
 
 #include "program/arguments.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::paper {
 

@@ -6,11 +6,9 @@
 
 #include <geodisk/version.hpp>
 
-#include "common/atomic_file.hpp"
-#include "common/user_error.hpp"
+#include "files/output_file.hpp"
 #include "paper/commit.hpp"
 #include "program/human_text.hpp"
-#include "program/output_path.hpp"
 
 namespace geodisk::paper {
 
@@ -48,8 +46,7 @@ void Outputs::write() const {
     }
     std::cout << std::flush;
     if (!std::cout) {
-        throw tools::UserError(tools::ExitCode::bad_output,
-                               "the table cannot be written to standard output");
+        tools::fail_output("the table cannot be written to standard output");
     }
 }
 

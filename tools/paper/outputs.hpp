@@ -6,6 +6,7 @@
 
 #include "bench/log_plot.hpp"
 #include "paper/table.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::paper {
 

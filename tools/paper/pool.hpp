@@ -9,8 +9,8 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 
-#include "common/mesh_file.hpp"
 #include "engine/tolerances.hpp"
+#include "geometry/mesh.hpp"
 #include "lib/surface.hpp"
 
 namespace geodisk::paper {

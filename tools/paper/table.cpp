@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/text.hpp"
+#include "program/exact_text.hpp"
 
 namespace geodisk::paper {
 namespace {

@@ -1,7 +1,4 @@
 // Table 1: how often CheckStatus calls itself (section 5.4), in the reference and on a device.
-#include "common/number_text.hpp"
-#include "paper/commands.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -9,6 +6,7 @@
 
 #include "baselines/batches.hpp"
 #include "baselines/geodesic_disks.hpp"
+#include "paper/commands.hpp"
 #include "paper/device.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"

@@ -5,16 +5,16 @@
 #include <optional>
 #include <string_view>
 
-#include "common/number_text.hpp"
-#include "common/text.hpp"
-#include "common/user_error.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
 
 [[noreturn]] void fail(const std::string& option, const std::string& text,
                        const std::string& message) {
-    throw UserError(ExitCode::usage, option + ": " + in_quotes(text) + " " + message);
+    fail_usage(option + ": " + in_quotes(text) + " " + message);
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "program/failure.hpp"
+
 namespace geodisk::tools {
 
 /// A positive length, in mesh units or relative to the diagonal of the bounding box.

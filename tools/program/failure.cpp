@@ -2,6 +2,18 @@
 
 namespace geodisk::tools {
 
+void fail_usage(const std::string& message) {
+    throw UserError(ExitCode::usage, message);
+}
+
+void fail_input(const std::filesystem::path& path, const std::string& message) {
+    throw UserError(ExitCode::bad_input, path.string() + ": " + message);
+}
+
+void fail_output(const std::string& message) {
+    throw UserError(ExitCode::bad_output, message);
+}
+
 ExitCode exit_code_of(Status status) {
     switch (status) {
     case Status::invalid_argument:

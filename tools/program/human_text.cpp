@@ -1,11 +1,27 @@
 #include "program/human_text.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <iterator>
 
-#include "common/number_text.hpp"
-
 namespace geodisk::tools {
+namespace {
+
+std::string in_format(double value, std::chars_format format, int precision) {
+    char digits[400]; // A double in fixed notation has up to 309 digits before the point.
+    const auto result = std::to_chars(digits, digits + sizeof digits, value, format, precision);
+    return {digits, result.ptr};
+}
+
+} // namespace
+
+std::string rounded(double value, int digits) {
+    return in_format(value, std::chars_format::general, digits);
+}
+
+std::string fixed(double value, int decimals) {
+    return in_format(value, std::chars_format::fixed, decimals);
+}
 
 std::string grouped(std::uint64_t value) {
     std::string text = std::to_string(value);
@@ -75,6 +91,17 @@ std::string driver_text(const DeviceReport& report) {
     }
     return report.driver_info.empty() ? report.driver_name
                                       : report.driver_name + ", " + report.driver_info;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    std::string result = "'";
+    for (const char character : text.substr(0, kLongest)) {
+        const bool printable = character >= ' ' && character <= '~';
+        result += printable ? character : '?';
+    }
+    result += text.size() > kLongest ? "...'" : "'";
+    return result;
 }
 
 std::string one_line(std::string text) {

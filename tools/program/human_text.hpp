@@ -10,6 +10,12 @@
 
 namespace geodisk::tools {
 
+/// Rounded to `digits` significant digits, without trailing zeros.
+std::string rounded(double value, int digits);
+
+/// Rounded to this many digits after the point.
+std::string fixed(double value, int decimals);
+
 /// "1,234,567".
 std::string grouped(std::uint64_t value);
 
@@ -29,6 +35,9 @@ std::string uuid_text(const std::array<std::uint8_t, VK_UUID_SIZE>& uuid);
 
 /// The driver's name and version, as far as it tells.
 std::string driver_text(const DeviceReport& report);
+
+/// `text` in quotes for a one-line message: long text is cut, unprintable bytes become '?'.
+std::string in_quotes(std::string_view text);
 
 /// `text` with blanks for line breaks and '?' for other control characters, for one-line messages.
 std::string one_line(std::string text);

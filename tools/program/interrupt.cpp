@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-#include "common/user_error.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::tools {
 namespace {

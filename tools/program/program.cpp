@@ -5,7 +5,7 @@
 #include <new>
 #include <string>
 
-#include "common/user_error.hpp"
+#include "program/failure.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {

@@ -1,10 +1,23 @@
-// The frame of a command line program: parses, runs, and turns every failure into one line and an
-// exit status.
+// The frame of a command line program: its options, and how it parses, runs, and turns every
+// failure into one line and an exit status.
 #pragma once
+
+#include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "program/human_text.hpp"
+
 namespace geodisk::tools {
+
+/// Adds an option: its names, where its value goes, what help calls the value (TYPE), what it is
+/// for, and under which heading help lists it.
+template <class Value>
+CLI::Option* add_option(CLI::App& command, const std::string& names, Value& value,
+                        const std::string& type, const std::string& text,
+                        const std::string& group = "Options") {
+    return command.add_option(names, value, text)->type_name(type)->group(group);
+}
 
 /// Parses the arguments with `app`, whose callbacks do the work, and returns the exit status of the
 /// process. Prints help and version to standard output, and "NAME: MESSAGE" to standard error for

@@ -1,0 +1,67 @@
+#include "files/input_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+namespace {
+
+struct FileCloser {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+
+[[noreturn]] void fail_with_errno(const std::filesystem::path& path, int error) {
+    fail_input(path, "cannot read: " + std::generic_category().message(error));
+}
+
+} // namespace
+
+std::string read_file(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) {
+        fail_input(path, "no such file");
+    }
+    if (error) {
+        fail_input(path, "cannot read: " + error.message());
+    }
+    if (std::filesystem::is_directory(status)) {
+        fail_input(path, "is a folder, not a file");
+    }
+    // A device or pipe may never end.
+    if (!std::filesystem::is_regular_file(status)) {
+        fail_input(path, "is not a regular file");
+    }
+    const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.string().c_str(), "rb"));
+    if (!file) {
+        fail_with_errno(path, errno);
+    }
+    std::string bytes;
+    bytes.reserve(static_cast<std::size_t>(std::filesystem::file_size(path, error)));
+    char buffer[1 << 16];
+    std::size_t count = 0;
+    while ((count = std::fread(buffer, 1, sizeof buffer, file.get())) > 0) {
+        bytes.append(buffer, count);
+    }
+    if (std::ferror(file.get()) != 0) {
+        fail_with_errno(path, errno);
+    }
+    return bytes;
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& character : extension) {
+        if (character >= 'A' && character <= 'Z') {
+            character = static_cast<char>(character - 'A' + 'a');
+        }
+    }
+    return extension;
+}
+
+} // namespace geodisk::tools

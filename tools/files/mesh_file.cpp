@@ -1,0 +1,387 @@
+#include "files/mesh_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "files/input_file.hpp"
+#include "files/polygon_mesh.hpp"
+#include "files/sidecar_files.hpp"
+#include "geometry/mesh.hpp"
+#include "geometry/polygon_triangulation.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "shapes/builtin_shapes.hpp"
+
+namespace geodisk::tools {
+
+namespace {
+
+using Path = std::filesystem::path;
+
+bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
+    const auto coordinates =
+        std::span(mesh.positions).subspan(vertex * mesh.dimension, mesh.dimension);
+    return std::all_of(coordinates.begin(), coordinates.end(),
+                       [](double x) { return std::isfinite(x); });
+}
+
+/// The number the mesh file gives its first vertex.
+std::uint32_t first_vertex_of(const PolygonMesh& mesh) {
+    return mesh.face_lines.empty() ? 0 : 1;
+}
+
+std::string place_of_face(const PolygonMesh& mesh, std::size_t face) {
+    return mesh.face_lines.empty() ? "element face, record " + std::to_string(face)
+                                   : "line " + std::to_string(mesh.face_lines[face]);
+}
+
+/// OBJ users count vertices from 1 and look for lines, PLY users count records from 0.
+[[noreturn]] void fail_index(const Path& path, const PolygonMesh& mesh, std::size_t face,
+                             std::uint32_t vertex) {
+    fail_input(path, place_of_face(mesh, face) + ": vertex index " +
+                         std::to_string(std::uint64_t{vertex} + first_vertex_of(mesh)) +
+                         " is out of range, the file has " + std::to_string(mesh.vertex_count()) +
+                         " vertices");
+}
+
+[[noreturn]] void fail_not_finite(const Path& path, const PolygonMesh& mesh, std::size_t vertex) {
+    const std::string place = mesh.vertex_lines.empty()
+                                  ? "element vertex, record " + std::to_string(vertex)
+                                  : "line " + std::to_string(mesh.vertex_lines[vertex]) +
+                                        ", vertex " + std::to_string(vertex + 1);
+    fail_input(path, place + ": the coordinates are not finite");
+}
+
+void warn(MeshFile& mesh, const std::string& what, std::size_t count) {
+    if (count > 0) {
+        mesh.warnings.push_back(what + ": " + std::to_string(count));
+    }
+}
+
+/// A face may name any vertex then, so that their number has to be bounded.
+void check_bare_corners(const Path& path, const PolygonMesh& polygons) {
+    const std::uint64_t bound = polygons.corners.size();
+    for (const std::uint32_t vertex : polygons.corners) {
+        if (vertex >= bound) {
+            fail_input(path, "vertex index " +
+                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
+                                 " is out of range: without coordinates, a mesh of " +
+                                 std::to_string(bound) + " corners has at most so many vertices");
+        }
+    }
+}
+
+/// Checks every face against the vertices; warns of unused vertices that are not finite.
+void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
+    const std::size_t vertex_count = polygons.vertex_count();
+    if (vertex_count > std::numeric_limits<std::uint32_t>::max()) {
+        fail_input(path, "has more vertices than a face can refer to");
+    }
+    std::size_t face = 0;
+    for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
+        while (i >= polygons.face_ends[face]) {
+            ++face;
+        }
+        const std::uint32_t vertex = polygons.corners[i];
+        if (vertex >= vertex_count) {
+            fail_index(path, polygons, face, vertex);
+        }
+        if (!is_finite(polygons, vertex)) {
+            fail_not_finite(path, polygons, vertex);
+        }
+    }
+    std::size_t not_finite = 0;
+    for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+        not_finite += is_finite(polygons, vertex) ? 0u : 1u;
+    }
+    warn(mesh, "unused vertices that are not finite", not_finite);
+}
+
+/// Splits all faces. Faces that repeat a vertex keep what is left of them without the repetition.
+void split_faces(const PolygonMesh& polygons, MeshFile& mesh) {
+    std::size_t too_small = 0;
+    std::size_t repeating = 0;
+    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> parts;
+    std::size_t begin = 0;
+    for (const std::size_t end : polygons.face_ends) {
+        const std::span<const std::uint32_t> face(&polygons.corners[0] + begin, end - begin);
+        begin = end;
+        if (face.size() < 3) {
+            ++too_small;
+            continue;
+        }
+        corners.assign(face.begin(), face.end());
+        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+        while (corners.size() > 1 && corners.front() == corners.back()) {
+            corners.pop_back();
+        }
+        parts.clear();
+        triangulate_polygon(polygons.positions, corners, parts, polygons.dimension);
+        const std::size_t size_before = mesh.triangles.size();
+        for (std::size_t i = 0; i < parts.size(); i += 3) {
+            const std::uint32_t a = parts[i], b = parts[i + 1], c = parts[i + 2];
+            if (a != b && b != c && c != a) {
+                mesh.triangles.insert(mesh.triangles.end(), {a, b, c});
+            }
+        }
+        repeating += mesh.triangles.size() - size_before < 3 * (face.size() - 2) ? 1u : 0u;
+    }
+    warn(mesh, "faces with fewer than 3 corners dropped", too_small);
+    warn(mesh, "faces with a repeated vertex dropped or simplified", repeating);
+}
+
+/// Drops every triangle whose three vertices an earlier triangle has, whichever way round.
+void drop_copies(MeshFile& mesh) {
+    using Key = std::array<std::uint32_t, 4>; // sorted vertices, then the triangle
+    const std::size_t count = mesh.triangles.size() / 3;
+    std::vector<Key> keys(count);
+    for (std::size_t t = 0; t < count; ++t) {
+        const std::uint32_t* corner = &mesh.triangles[3 * t];
+        keys[t] = {corner[0], corner[1], corner[2], static_cast<std::uint32_t>(t)};
+        std::sort(keys[t].begin(), keys[t].begin() + 3);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<bool> is_copy(count, false);
+    std::size_t copies = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+        if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin())) {
+            is_copy[keys[i][3]] = true;
+            ++copies;
+        }
+    }
+    if (copies == 0) {
+        return;
+    }
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < count; ++t) {
+        if (!is_copy[t]) {
+            std::copy_n(&mesh.triangles[3 * t], 3, &mesh.triangles[3 * kept++]);
+        }
+    }
+    mesh.triangles.resize(3 * kept);
+    warn(mesh, "duplicate triangles dropped", copies);
+}
+
+/// Whether the triangle is more than a line or point, up to rounding, at any scale.
+bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
+    const auto coordinate = [&](int k, std::size_t axis) {
+        return mesh.positions[std::size_t{corner[k]} * mesh.dimension + axis];
+    };
+    double largest = 0;
+    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
+        for (int k = 0; k < 3; ++k) {
+            largest = std::max(largest, std::abs(coordinate(k, axis)));
+        }
+    }
+    if (largest == 0) {
+        return false;
+    }
+    std::array<double, kMostCoordinates> longer{}, shorter{}; // Two sides.
+    double longer2 = 0, shorter2 = 0, product = 0;
+    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
+        const double a = 1 / largest * coordinate(0, axis);
+        longer[axis] = 1 / largest * coordinate(1, axis) - a;
+        shorter[axis] = 1 / largest * coordinate(2, axis) - a;
+        longer2 += longer[axis] * longer[axis];
+        shorter2 += shorter[axis] * shorter[axis];
+        product += longer[axis] * shorter[axis];
+    }
+    if (longer2 < shorter2) {
+        std::swap(longer, shorter);
+        std::swap(longer2, shorter2);
+    }
+    double height2 = 0; // Of the shorter side above the longer one.
+    for (std::size_t axis = 0; axis < mesh.dimension && longer2 > 0; ++axis) {
+        const double part = shorter[axis] - product / longer2 * longer[axis];
+        height2 += part * part;
+    }
+    constexpr double kFlat = 1e-15; // Less height is the rounding of coordinates, which are <= 1.
+    return height2 > kFlat * kFlat;
+}
+
+/// Refuses a mesh all of whose faces are flat.
+void check_areas(const Path& path, MeshFile& mesh) {
+    std::size_t without_area = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        without_area += has_area(mesh, &mesh.triangles[i]) ? 0u : 1u;
+    }
+    if (3 * without_area == mesh.triangles.size()) {
+        fail_input(path, "has no face with an area");
+    }
+    warn(mesh, "triangles without area kept", without_area);
+}
+
+/// Polygons have sides but no diagonals.
+void check_triangles(const Path& path, const PolygonMesh& polygons) {
+    std::size_t begin = 0;
+    for (std::size_t face = 0; face < polygons.face_ends.size(); ++face) {
+        const std::size_t size = polygons.face_ends[face] - begin;
+        begin = polygons.face_ends[face];
+        if (size > 3) {
+            fail_input(path, place_of_face(polygons, face) + ": has " + std::to_string(size) +
+                                 " corners; with edge lengths all faces must be triangles");
+        }
+    }
+}
+
+void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            mesh.lengths.push_back(
+                lengths.between(mesh.triangles[i + k], mesh.triangles[i + (k + 1) % 3]));
+        }
+    }
+    warn(mesh, "lengths of edges that no face has ignored", lengths.unused());
+}
+
+void take_coordinates(const MeshSources& sources, PolygonMesh& polygons) {
+    Coordinates given = read_coordinates(sources.coordinates);
+    const std::size_t count = given.positions.size() / given.dimension;
+    if (!polygons.positions.empty() && count != polygons.vertex_count()) {
+        fail_input(sources.coordinates, "has the coordinates of " + std::to_string(count) +
+                                            " vertices, but " + sources.mesh + " has " +
+                                            std::to_string(polygons.vertex_count()));
+    }
+    polygons.positions = std::move(given.positions);
+    polygons.dimension = given.dimension;
+}
+
+/// Every corner must have texture coordinates, finite ones.
+void take_uvs(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
+    std::size_t face = 0;
+    for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
+        while (i >= polygons.face_ends[face]) {
+            ++face;
+        }
+        const std::uint32_t vertex = polygons.corners[i];
+        const auto fail = [&](const std::string& message) {
+            fail_input(path, place_of_face(polygons, face) + ": vertex " +
+                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
+                                 message);
+        };
+        const std::uint32_t uv = polygons.corner_uvs[i];
+        if (uv == PolygonMesh::kNoUv) {
+            fail(" has no texture coordinates");
+        }
+        const double u = polygons.uvs[std::size_t{2} * uv];
+        const double v = polygons.uvs[std::size_t{2} * uv + 1];
+        if (!std::isfinite(u) || !std::isfinite(v)) {
+            fail(" has texture coordinates that are not finite");
+        }
+        mesh.uvs.push_back({vertex, u, v});
+    }
+    std::sort(mesh.uvs.begin(), mesh.uvs.end());
+    mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
+}
+
+MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
+    const Path path = sources.mesh;
+    const bool has_lengths = !sources.edge_lengths.empty();
+    MeshFile mesh;
+    mesh.warnings = std::move(polygons.warnings);
+    if (polygons.face_ends.empty()) {
+        fail_input(path, "has no faces");
+    }
+    if (!sources.coordinates.empty()) {
+        take_coordinates(sources, polygons);
+    }
+    if (has_lengths) {
+        check_triangles(path, polygons);
+    }
+    if (has_lengths && polygons.positions.empty()) {
+        check_bare_corners(path, polygons);
+    } else {
+        check_corners(path, polygons, mesh);
+    }
+    if (sources.has_uvs) {
+        take_uvs(path, polygons, mesh);
+    }
+    split_faces(polygons, mesh);
+    if (mesh.triangles.size() / 3 > std::numeric_limits<std::uint32_t>::max()) {
+        fail_input(path, "has too many triangles");
+    }
+    mesh.positions = std::move(polygons.positions);
+    mesh.dimension = polygons.dimension;
+    mesh.attributes = std::move(polygons.attributes);
+    drop_copies(mesh);
+    if (has_lengths) {
+        EdgeLengths lengths(sources.edge_lengths, first_vertex_of(polygons));
+        take_lengths(lengths, mesh);
+    } else {
+        check_areas(path, mesh);
+    }
+    return mesh;
+}
+
+/// `spec` is NAME or NAME:RESOLUTION.
+MeshFile read_builtin(std::string_view spec) {
+    const std::size_t colon = std::min(spec.find(':'), spec.size());
+    std::optional<int> resolution;
+    if (colon < spec.size()) {
+        resolution = parse_integer<int>(spec.substr(colon + 1));
+        if (!resolution) {
+            fail_usage("builtin:" + std::string(spec) + ": " + in_quotes(spec.substr(colon + 1)) +
+                       " is not a resolution");
+        }
+    }
+    return make_builtin(spec.substr(0, colon), resolution);
+}
+
+void check_no_attributes(const MeshSources& sources) {
+    if (!sources.attributes.empty()) {
+        fail_input(sources.mesh, "has no vertex properties, so no " +
+                                     in_quotes(sources.attributes.front()) + "; only PLY files do");
+    }
+}
+
+void check_no_uvs(const MeshSources& sources) {
+    if (sources.has_uvs) {
+        fail_input(sources.mesh, "has no texture coordinates; OBJ and PLY files may");
+    }
+}
+
+} // namespace
+
+MeshFile read_mesh(const MeshSources& sources) {
+    const std::string& path = sources.mesh;
+    constexpr std::string_view kBuiltin = "builtin:";
+    if (!sources.coordinates.empty() && !sources.edge_lengths.empty()) {
+        fail_usage("--coordinates and --edge-lengths contradict each other; give just one");
+    }
+    if (path.starts_with(kBuiltin)) {
+        if (!sources.coordinates.empty() || !sources.edge_lengths.empty()) {
+            fail_usage(path + " is complete; --coordinates and "
+                              "--edge-lengths are for mesh files");
+        }
+        check_no_attributes(sources);
+        check_no_uvs(sources);
+        return read_builtin(std::string_view(path).substr(kBuiltin.size()));
+    }
+    const std::string extension = lower_extension(path);
+    if (extension == ".obj") {
+        check_no_attributes(sources);
+        return to_triangles(sources, read_obj(path, sources.has_uvs));
+    }
+    if (extension == ".ply") {
+        const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
+        return to_triangles(
+            sources, read_ply(path, {!has_other_source, sources.attributes, sources.has_uvs}));
+    }
+    fail_input(path, "unknown mesh format; known are .obj, .ply and builtin:NAME");
+}
+
+MeshFile read_mesh(const std::string& path) {
+    MeshSources sources;
+    sources.mesh = path;
+    return read_mesh(sources);
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,44 @@
+// Reads triangle meshes from OBJ and PLY files and from the built-in generators, and writes them to
+// PLY files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+/// The files that make up a mesh.
+struct MeshSources {
+    std::string mesh; ///< `*.obj`, `*.ply` (in capitals or not) or `builtin:NAME[:RESOLUTION]`.
+    std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
+    std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
+    std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
+    bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
+};
+
+/// Reads a mesh.
+///
+/// Every index is in range, every used vertex is finite, at least one triangle has an area (but
+/// with edge lengths, which are not judged), and no triangle repeats a vertex or is a copy of an
+/// earlier one: such faces are dropped with a warning. Triangles without area are kept, as paths
+/// may lead through them.
+///
+/// Throws UserError(bad_input) that names the file, the cause, and the line or element;
+/// UserError(usage) for an unknown built-in name or resolution, or sources that contradict each
+/// other.
+MeshFile read_mesh(const MeshSources& sources);
+
+/// Of one file.
+MeshFile read_mesh(const std::string& path);
+
+/// Writes positions and triangles as binary PLY that reads back exactly: element vertex with double
+/// x y z, and beyond three dimensions also x0 x1 ..., of which x y z repeat the first three so that
+/// viewers show them; element face with vertex_indices. The file appears complete or not at all.
+/// Throws UserError(usage) for another extension, UserError(bad_output) when it cannot be written.
+void write_mesh(const std::filesystem::path& path, const MeshFile& mesh);
+
+} // namespace geodisk::tools

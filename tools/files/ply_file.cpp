@@ -1,0 +1,366 @@
+#include "files/ply_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "files/input_file.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+
+namespace {
+
+struct TypeName {
+    std::string_view name;
+    PlyType type;
+};
+
+constexpr std::array<TypeName, 16> kTypeNames{{
+    {"char", PlyType::int8},
+    {"int8", PlyType::int8},
+    {"uchar", PlyType::uint8},
+    {"uint8", PlyType::uint8},
+    {"short", PlyType::int16},
+    {"int16", PlyType::int16},
+    {"ushort", PlyType::uint16},
+    {"uint16", PlyType::uint16},
+    {"int", PlyType::int32},
+    {"int32", PlyType::int32},
+    {"uint", PlyType::uint32},
+    {"uint32", PlyType::uint32},
+    {"float", PlyType::float32},
+    {"float32", PlyType::float32},
+    {"double", PlyType::float64},
+    {"float64", PlyType::float64},
+}};
+
+constexpr std::size_t size_of(PlyType type) {
+    switch (type) {
+    case PlyType::int8:
+    case PlyType::uint8:
+        return 1;
+    case PlyType::int16:
+    case PlyType::uint16:
+        return 2;
+    case PlyType::int32:
+    case PlyType::uint32:
+    case PlyType::float32:
+        return 4;
+    case PlyType::float64:
+        return 8;
+    }
+    return 0;
+}
+
+template <typename Value>
+double value_of(const unsigned char* bytes) {
+    Value value;
+    std::memcpy(&value, bytes, sizeof value);
+    return static_cast<double>(value);
+}
+
+double value_of(PlyType type, const unsigned char* bytes) {
+    switch (type) {
+    case PlyType::int8:
+        return value_of<std::int8_t>(bytes);
+    case PlyType::uint8:
+        return value_of<std::uint8_t>(bytes);
+    case PlyType::int16:
+        return value_of<std::int16_t>(bytes);
+    case PlyType::uint16:
+        return value_of<std::uint16_t>(bytes);
+    case PlyType::int32:
+        return value_of<std::int32_t>(bytes);
+    case PlyType::uint32:
+        return value_of<std::uint32_t>(bytes);
+    case PlyType::float32:
+        return value_of<float>(bytes);
+    case PlyType::float64:
+        return value_of<double>(bytes);
+    }
+    return 0;
+}
+
+/// A list count must be a whole number that the rest of the file can hold.
+std::optional<std::size_t> list_size(double count, std::size_t largest) {
+    if (!(count >= 0 && count <= static_cast<double>(largest))) {
+        return std::nullopt;
+    }
+    const std::size_t size = static_cast<std::size_t>(count);
+    return static_cast<double>(size) == count ? std::optional(size) : std::nullopt;
+}
+
+std::optional<std::size_t> find_property(const PlyElement& element, std::string_view name,
+                                         bool is_list) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        if (property.name == name && property.count_type.has_value() == is_list) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::size_t> PlyElement::find_scalar(std::string_view wanted) const {
+    return find_property(*this, wanted, false);
+}
+
+std::optional<std::size_t> PlyElement::find_list(std::string_view wanted) const {
+    return find_property(*this, wanted, true);
+}
+
+PlyFile::PlyFile(const std::filesystem::path& path) : path_(path), bytes_(read_file(path)) {
+    parse_header();
+}
+
+void PlyFile::fail_header(const std::string& message) const {
+    fail_input(path_, "line " + std::to_string(line_) + ": " + message);
+}
+
+void PlyFile::fail(const PlyElement& element, std::uint64_t record,
+                   const std::string& message) const {
+    fail_input(path_,
+               "element " + element.name + ", record " + std::to_string(record) + ": " + message);
+}
+
+std::string_view PlyFile::next_line() {
+    const std::size_t end = std::min(bytes_.find('\n', position_), bytes_.size());
+    std::string_view line(bytes_.data() + position_, end - position_);
+    position_ = std::min(end + 1, bytes_.size());
+    ++line_;
+    if (line.ends_with('\r')) {
+        line.remove_suffix(1);
+    }
+    return line;
+}
+
+void PlyFile::parse_header() {
+    if (bytes_.empty()) {
+        fail_input(path_, "is empty");
+    }
+    if (trimmed(next_line()) != "ply") {
+        fail_input(path_, "is not a PLY file: it does not begin with a line 'ply'");
+    }
+    bool more = true;
+    while (more) {
+        const std::string_view line = next_line();
+        if (position_ == bytes_.size() && trimmed(line) != "end_header") {
+            fail_header("the file ends inside the header, before end_header");
+        }
+        more = parse_header_line(line);
+    }
+    if (!format_) {
+        fail_input(path_, "the header has no format record");
+    }
+}
+
+bool PlyFile::parse_header_line(std::string_view line) {
+    std::vector<std::string_view> tokens;
+    split_tokens(line, tokens);
+    const std::string_view keyword = tokens.empty() ? std::string_view() : tokens[0];
+    if (keyword == "end_header") {
+        return false;
+    }
+    if (keyword == "comment") {
+        comments_.emplace_back(trimmed(trimmed(line).substr(keyword.size())));
+    } else if (keyword == "format") {
+        parse_format(tokens);
+    } else if (keyword == "element") {
+        parse_element(tokens);
+    } else if (keyword == "property") {
+        parse_property(tokens);
+    } else if (!keyword.empty() && keyword != "obj_info") {
+        fail_header("unknown header record " + in_quotes(keyword));
+    }
+    return true;
+}
+
+void PlyFile::parse_format(const std::vector<std::string_view>& tokens) {
+    if (tokens.size() != 3 || tokens[2] != "1.0" || format_) {
+        fail_header("the header needs one record 'format FORMAT 1.0'");
+    }
+    if (tokens[1] == "ascii") {
+        format_ = Format::ascii;
+    } else if (tokens[1] == "binary_little_endian") {
+        format_ = Format::little_endian;
+    } else if (tokens[1] == "binary_big_endian") {
+        format_ = Format::big_endian;
+    } else {
+        fail_header("unknown format " + in_quotes(tokens[1]));
+    }
+}
+
+void PlyFile::parse_element(const std::vector<std::string_view>& tokens) {
+    if (tokens.size() != 3) {
+        fail_header("an element record reads 'element NAME COUNT'");
+    }
+    const std::optional<std::uint64_t> count = parse_integer<std::uint64_t>(tokens[2]);
+    if (!count) {
+        fail_header(in_quotes(tokens[2]) + " is not an element count");
+    }
+    for (const PlyElement& element : elements_) {
+        if (element.name == tokens[1]) {
+            fail_header("element " + in_quotes(tokens[1]) + " is declared twice");
+        }
+    }
+    elements_.push_back({std::string(tokens[1]), *count, {}});
+}
+
+void PlyFile::parse_property(const std::vector<std::string_view>& tokens) {
+    const auto type_named = [this](std::string_view name) {
+        for (const TypeName& entry : kTypeNames) {
+            if (entry.name == name) {
+                return entry.type;
+            }
+        }
+        fail_header("unknown property type " + in_quotes(name));
+    };
+    if (elements_.empty()) {
+        fail_header("a property comes before any element");
+    }
+    const bool is_list = tokens.size() > 1 && tokens[1] == "list";
+    if (tokens.size() != (is_list ? 5u : 3u)) {
+        fail_header("a property record reads 'property TYPE NAME' or "
+                    "'property list COUNT_TYPE TYPE NAME'");
+    }
+    PlyProperty property{std::string(tokens.back()), type_named(tokens[tokens.size() - 2]), {}};
+    if (is_list) {
+        property.count_type = type_named(tokens[2]);
+        if (*property.count_type >= PlyType::float32) {
+            fail_header("a list count must be an integer, not " + in_quotes(tokens[2]));
+        }
+    }
+    PlyElement& element = elements_.back();
+    if (find_property(element, property.name, is_list)) {
+        fail_header("property " + in_quotes(property.name) + " is declared twice");
+    }
+    element.properties.push_back(std::move(property));
+}
+
+void PlyFile::read_records(const PlyElement& element, const Visitor& visit) {
+    if (element.properties.empty()) {
+        return; // Without values a record takes no bytes; the count could be anything.
+    }
+    PlyRecord record;
+    record.scalars.resize(element.properties.size());
+    record.lists.resize(element.properties.size());
+    for (std::uint64_t index = 0; index < element.count; ++index) {
+        if (format_ == Format::ascii) {
+            read_ascii_record(element, index, record);
+        } else {
+            read_binary_record(element, index, record);
+        }
+        visit(index, record);
+    }
+}
+
+void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, PlyRecord& record) {
+    tokens_.clear();
+    while (tokens_.empty()) {
+        if (position_ == bytes_.size()) {
+            fail(element, index, "the file ends inside element " + element.name);
+        }
+        split_tokens(next_line(), tokens_);
+    }
+    std::size_t next = 0;
+    const auto read_value = [&] {
+        if (next == tokens_.size()) {
+            fail(element, index, "the line has too few values");
+        }
+        const std::string_view token = tokens_[next++];
+        const std::optional<double> value = parse_real(token);
+        if (!value) {
+            fail(element, index, in_quotes(token) + " is not a number");
+        }
+        return *value;
+    };
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const double value = read_value();
+        if (!element.properties[i].count_type) {
+            record.scalars[i] = value;
+            continue;
+        }
+        const std::optional<std::size_t> size = list_size(value, tokens_.size() - next);
+        if (!size) {
+            fail(element, index,
+                 "the line has no room for a list of " + in_quotes(tokens_[next - 1]) + " values");
+        }
+        record.lists[i].resize(*size);
+        std::generate(record.lists[i].begin(), record.lists[i].end(), read_value);
+    }
+    if (next != tokens_.size()) {
+        fail(element, index, "the line has too many values");
+    }
+}
+
+std::optional<double> PlyFile::read_binary_value(PlyType type) {
+    const std::size_t size = size_of(type);
+    if (bytes_.size() - position_ < size) {
+        return std::nullopt;
+    }
+    std::array<unsigned char, 8> bytes;
+    std::memcpy(bytes.data(), bytes_.data() + position_, size);
+    position_ += size;
+    const bool file_is_little = format_ == Format::little_endian;
+    if (file_is_little != (std::endian::native == std::endian::little)) {
+        std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    }
+    return value_of(type, bytes.data());
+}
+
+void PlyFile::read_binary_record(const PlyElement& element, std::uint64_t index,
+                                 PlyRecord& record) {
+    const auto read_value = [&](PlyType type) {
+        const std::optional<double> value = read_binary_value(type);
+        if (!value) {
+            fail(element, index, "the file ends inside element " + element.name);
+        }
+        return *value;
+    };
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        if (!property.count_type) {
+            record.scalars[i] = read_value(property.type);
+            continue;
+        }
+        const double count = read_value(*property.count_type);
+        const std::size_t room = (bytes_.size() - position_) / size_of(property.type);
+        const std::optional<std::size_t> size = list_size(count, room);
+        if (!size) {
+            fail(element, index,
+                 count < 0 ? "a list has a negative count"
+                           : "the file ends inside element " + element.name);
+        }
+        record.lists[i].resize(*size);
+        for (double& value : record.lists[i]) {
+            value = read_value(property.type);
+        }
+    }
+}
+
+std::size_t PlyFile::possible_records(const PlyElement& element) const {
+    std::size_t smallest = 1;
+    for (const PlyProperty& property : element.properties) {
+        const std::size_t in_binary = size_of(property.count_type.value_or(property.type));
+        smallest += format_ == Format::ascii ? 1 : in_binary;
+    }
+    const std::size_t room = (bytes_.size() - position_) / std::max<std::size_t>(1, smallest - 1);
+    return static_cast<std::size_t>(std::min<std::uint64_t>(element.count, room));
+}
+
+std::string PlyFile::trailing_data_warning() const {
+    std::string_view rest(bytes_.data() + position_, bytes_.size() - position_);
+    if (format_ == Format::ascii && rest.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+        return {};
+    }
+    return rest.empty() ? ""
+                        : std::to_string(rest.size()) + " bytes after the last element ignored";
+}
+
+} // namespace geodisk::tools

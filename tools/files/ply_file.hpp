@@ -1,0 +1,103 @@
+// A strict PLY parser: ascii and both binary orders, any elements and properties. It knows nothing
+// of meshes; ply_reader.cpp and sample_reader.cpp pick what they need.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct PlyProperty {
+    std::string name;
+    PlyType type;
+    std::optional<PlyType> count_type; ///< Set for list properties.
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0; ///< As promised by the header: not to be trusted for allocations.
+    std::vector<PlyProperty> properties;
+
+    /// Index of the scalar (or list) property `name`.
+    std::optional<std::size_t> find_scalar(std::string_view name) const;
+    std::optional<std::size_t> find_list(std::string_view name) const;
+};
+
+/// The values of one record, by property index. A double holds every PLY value exactly.
+struct PlyRecord {
+    std::vector<double> scalars;            ///< 0 for lists.
+    std::vector<std::vector<double>> lists; ///< Empty for scalars.
+};
+
+class PlyFile {
+  public:
+    using Visitor = std::function<void(std::uint64_t index, const PlyRecord& record)>;
+
+    /// Reads `path` and parses its header. Like all members it throws UserError(bad_input) naming
+    /// the file and the header line or the element and record (counting from 0).
+    explicit PlyFile(const std::filesystem::path& path);
+
+    const std::vector<PlyElement>& elements() const noexcept { return elements_; }
+    const std::vector<std::string>& comments() const noexcept { return comments_; }
+
+    /// Reads all records of `element`. Every element must be read, in the order of elements().
+    void read_records(const PlyElement& element, const Visitor& visit);
+
+    /// How many records of `element` the rest of the file can hold at most.
+    std::size_t possible_records(const PlyElement& element) const;
+
+    /// Once all elements are read: a warning if data follow, or "".
+    std::string trailing_data_warning() const;
+
+    [[noreturn]] void fail(const PlyElement& element, std::uint64_t record,
+                           const std::string& message) const;
+
+  private:
+    void parse_header();
+    bool parse_header_line(std::string_view line);
+    void parse_format(const std::vector<std::string_view>& tokens);
+    void parse_element(const std::vector<std::string_view>& tokens);
+    void parse_property(const std::vector<std::string_view>& tokens);
+    [[noreturn]] void fail_header(const std::string& message) const;
+
+    std::string_view next_line();
+    void read_ascii_record(const PlyElement& element, std::uint64_t index, PlyRecord& record);
+    void read_binary_record(const PlyElement& element, std::uint64_t index, PlyRecord& record);
+    std::optional<double> read_binary_value(PlyType type);
+
+    enum class Format { ascii, little_endian, big_endian };
+
+    std::filesystem::path path_;
+    std::string bytes_;
+    std::size_t position_ = 0; ///< The next byte to read.
+    std::size_t line_ = 0;     ///< 1-based, of the header line being parsed.
+    std::optional<Format> format_;
+    std::vector<PlyElement> elements_;
+    std::vector<std::string> comments_;
+    std::vector<std::string_view> tokens_; ///< Of the ascii record being parsed.
+};
+
+/// Appends a value as the binary files that are written have it.
+template <typename Value>
+void append_little_endian(std::string& bytes, Value value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if constexpr (std::endian::native == std::endian::big) {
+        std::reverse(raw, raw + sizeof raw);
+    }
+    bytes.append(raw, sizeof raw);
+}
+
+} // namespace geodisk::tools

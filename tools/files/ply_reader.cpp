@@ -1,0 +1,171 @@
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "files/ply_file.hpp"
+#include "files/polygon_mesh.hpp"
+#include "files/sidecar_files.hpp"
+#include "geometry/mesh.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+
+namespace {
+
+/// The properties x0, x1 and so on.
+std::vector<std::size_t> numbered_columns(const std::filesystem::path& path,
+                                          const PlyElement& element) {
+    std::vector<std::size_t> columns;
+    for (std::uint32_t i = 0; i <= kMostCoordinates; ++i) {
+        const char name[] = {'x', static_cast<char>('0' + i), '\0'};
+        const std::optional<std::size_t> column = element.find_scalar(name);
+        if (column && columns.size() < i) {
+            fail_input(path, std::string("element vertex has a property ") + name + " but no x" +
+                                 std::to_string(columns.size()));
+        }
+        if (column) {
+            columns.push_back(*column);
+        }
+    }
+    if (columns.size() < kFewestCoordinates || columns.size() > kMostCoordinates) {
+        fail_input(path, "element vertex has properties x0 to x" +
+                             std::to_string(columns.size() - 1) +
+                             "; a vertex has 3 to 8 coordinates");
+    }
+    return columns;
+}
+
+/// Where the coordinates stand; nowhere if the element has none and need not.
+std::vector<std::size_t> coordinate_columns(const std::filesystem::path& path,
+                                            const PlyElement& element, bool must_exist) {
+    if (element.find_scalar("x0")) {
+        return numbered_columns(path, element);
+    }
+    std::vector<std::size_t> columns;
+    std::string missing;
+    for (const char* const name : {"x", "y", "z"}) {
+        if (const std::optional<std::size_t> column = element.find_scalar(name)) {
+            columns.push_back(*column);
+        } else if (missing.empty()) {
+            missing = name;
+        }
+    }
+    if (!missing.empty() && (must_exist || !columns.empty())) {
+        fail_input(path, "element vertex has no property " + missing);
+    }
+    return columns;
+}
+
+std::size_t attribute_column(const std::filesystem::path& path, const PlyElement& element,
+                             const std::string& name) {
+    const std::optional<std::size_t> column = element.find_scalar(name);
+    if (!column) {
+        fail_input(path, "element vertex has no " +
+                             std::string(element.find_list(name) ? "scalar " : "") + "property " +
+                             in_quotes(name));
+    }
+    return *column;
+}
+
+/// The two columns of texture coordinates.
+std::vector<std::size_t> uv_columns(const std::filesystem::path& path, const PlyElement& element) {
+    for (const auto& [u, v] :
+         {std::pair{"s", "t"}, std::pair{"u", "v"}, std::pair{"texture_u", "texture_v"}}) {
+        const std::optional<std::size_t> first = element.find_scalar(u);
+        const std::optional<std::size_t> second = element.find_scalar(v);
+        if (first && second) {
+            return {*first, *second};
+        }
+    }
+    fail_input(path, "element vertex has no texture coordinates: none of s t, u v and texture_u "
+                     "texture_v");
+}
+
+void read_vertices(const std::filesystem::path& path, PlyFile& file, const PlyElement& element,
+                   const PlyWanted& wanted, PolygonMesh& mesh) {
+    const std::vector<std::size_t> columns =
+        coordinate_columns(path, element, wanted.has_coordinates);
+    std::vector<std::size_t> attributes;
+    for (const std::string& name : wanted.attributes) {
+        attributes.push_back(attribute_column(path, element, name));
+    }
+    const std::vector<std::size_t> uvs =
+        wanted.has_uvs ? uv_columns(path, element) : std::vector<std::size_t>();
+    mesh.dimension = columns.empty() ? 3 : static_cast<std::uint32_t>(columns.size());
+    mesh.attributes.resize(attributes.size());
+    mesh.positions.reserve(columns.size() * file.possible_records(element));
+    file.read_records(element, [&](std::uint64_t, const PlyRecord& record) {
+        for (const std::size_t column : columns) {
+            mesh.positions.push_back(record.scalars[column]);
+        }
+        for (const std::size_t column : uvs) {
+            mesh.uvs.push_back(record.scalars[column]);
+        }
+        for (std::size_t i = 0; i < attributes.size(); ++i) {
+            mesh.attributes[i].push_back(record.scalars[attributes[i]]);
+        }
+    });
+}
+
+void read_faces(const std::filesystem::path& path, PlyFile& file, const PlyElement& element,
+                PolygonMesh& mesh) {
+    std::optional<std::size_t> column = element.find_list("vertex_indices");
+    if (!column) {
+        column = element.find_list("vertex_index");
+    }
+    if (!column) {
+        fail_input(path, "element face has no list property vertex_indices");
+    }
+    mesh.face_ends.reserve(file.possible_records(element));
+    file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
+        for (const double value : record.lists[*column]) {
+            const bool in_range = value >= 0 && value <= std::numeric_limits<std::uint32_t>::max();
+            const std::uint32_t corner = in_range ? static_cast<std::uint32_t>(value) : 0;
+            if (!in_range || static_cast<double>(corner) != value) {
+                file.fail(element, index,
+                          "vertex index " + exact_text(value) +
+                              " is out of range or not a whole number");
+            }
+            mesh.corners.push_back(corner);
+        }
+        mesh.face_ends.push_back(mesh.corners.size());
+    });
+}
+
+} // namespace
+
+PolygonMesh read_ply(const std::filesystem::path& path, const PlyWanted& wanted) {
+    PlyFile file(path);
+    PolygonMesh mesh;
+    bool has_vertices = false;
+    bool has_faces = false;
+    for (const PlyElement& element : file.elements()) {
+        if (element.name == "vertex") {
+            has_vertices = true;
+            read_vertices(path, file, element, wanted, mesh);
+        } else if (element.name == "face") {
+            has_faces = true;
+            read_faces(path, file, element, mesh);
+        } else {
+            file.read_records(element, [](std::uint64_t, const PlyRecord&) {});
+        }
+    }
+    if (!has_vertices) {
+        fail_input(path, "has no element vertex");
+    }
+    if (!has_faces) {
+        fail_input(path, "has no faces: there is no element face");
+    }
+    if (wanted.has_uvs) {
+        mesh.corner_uvs = mesh.corners;
+    }
+    if (std::string warning = file.trailing_data_warning(); !warning.empty()) {
+        mesh.warnings.push_back(std::move(warning));
+    }
+    return mesh;
+}
+
+} // namespace geodisk::tools

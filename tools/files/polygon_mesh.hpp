@@ -1,0 +1,55 @@
+// The OBJ and PLY readers, and what they hand over: faces as the file lists them, not yet checked
+// against the vertices and not yet split into triangles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+struct PolygonMesh {
+    std::vector<double> positions; ///< `dimension` coordinates per vertex, if any.
+    std::uint32_t dimension = 3;
+    std::vector<std::vector<double>> attributes; ///< Those asked for, a value per vertex each.
+    std::vector<std::uint32_t> corners; ///< Vertex indices of all faces, one face after another.
+    std::vector<std::size_t> face_ends; ///< For each face, the end of its corners.
+    /// Where asked for: texture coordinates, two each, and the one of every corner, or kNoUv.
+    std::vector<double> uvs;
+    std::vector<std::uint32_t> corner_uvs;
+    std::vector<std::string> warnings;
+
+    /// 1-based line of each vertex and face for messages; empty where records have no lines.
+    std::vector<std::uint32_t> vertex_lines;
+    std::vector<std::uint32_t> face_lines;
+
+    static constexpr std::uint32_t kNoUv = std::numeric_limits<std::uint32_t>::max();
+
+    std::size_t vertex_count() const { return positions.size() / dimension; }
+};
+
+/// Reads the `v`, `f` and, where asked for, `vt` records of an OBJ file; everything else in it is
+/// ignored. Understands every line end, line continuation, a byte order mark, relative
+/// indices and faces of any size. Throws UserError(bad_input) naming the line.
+PolygonMesh read_obj(const std::filesystem::path& path, bool has_uvs = false);
+
+/// What to read of element `vertex`.
+struct PlyWanted {
+    bool has_coordinates = true;             ///< False: if it has no coordinates, do without.
+    std::span<const std::string> attributes; ///< Names of scalar properties.
+    bool has_uvs = false; ///< Texture coordinates: s t, u v or texture_u texture_v.
+};
+
+/// Reads the coordinates of element `vertex`, which are x0 x1 ..., 3 to 8 of them, where there is
+/// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`,
+/// in any format, type and order; everything else is skipped. Throws UserError(bad_input) naming
+/// the element and record.
+PolygonMesh read_ply(const std::filesystem::path& path, const PlyWanted& wanted);
+
+} // namespace geodisk::tools

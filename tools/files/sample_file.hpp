@@ -1,0 +1,96 @@
+// Sample files: what `geodisk sample` writes and `geodisk verify` reads.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "geometry/mesh.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+/// One sample. `position` holds as many coordinates as its file or mesh has. `bary` are the weights
+/// of the three corners of triangle `face`, in the order of MeshFile::triangles.
+struct SampleRow {
+    double position[8] = {};
+    float normal[3] = {};
+    std::uint32_t face = 0;
+    float bary[3] = {};
+    double radius = 0; ///< In mesh units, where radii vary; 0 in all rows where they do not.
+};
+
+/// Whether radii vary.
+inline bool has_radii(std::span<const SampleRow> rows) {
+    return !rows.empty() && rows.front().radius > 0;
+}
+
+using HeaderEntries = std::vector<std::pair<std::string, std::string>>;
+
+/// Key and value of each header comment, in order: version, mesh, parameters, device and so on.
+/// Line breaks in them are written as blanks.
+struct SampleHeader {
+    HeaderEntries entries;
+
+    /// The value of the first entry with this key; null without one.
+    const std::string* find(std::string_view key) const;
+};
+
+class AtomicFile;
+
+struct SampleFile {
+    std::vector<SampleRow> rows;
+    SampleHeader header;
+    std::uint32_t dimension = 3; ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
+};
+
+/// Writes `rows` in the format of the extension of `path`:
+///   .ply  binary little endian, or ascii on request: element vertex with x y z nx ny nz
+///         face_index bary_u bary_v bary_w, and radius as double where radii vary; the
+///         header as "comment KEY: VALUE". x y z are float, or double where float would blur them:
+///         far from the origin for their extent.
+///   .csv  a header row with the same names; the header before it as "# KEY: VALUE"
+///   .xyz  x y z per line and nothing else
+/// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY has besides x y z so
+/// that viewers show the first three, and there are no normals; with 0, of a mesh of edge lengths
+/// without coordinates, there are neither. XYZ takes 3 alone.
+/// Numbers in text are the shortest that read back exactly. The file appears complete or not at
+/// all. Throws UserError as check_output_path() and check_dimension() do.
+void write_samples(const std::filesystem::path& path, const SampleHeader& header,
+                   std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension = 3);
+
+/// The same into `file`, which the caller opened for `path` and commits.
+void write_samples(AtomicFile& file, const std::filesystem::path& path, const SampleHeader& header,
+                   std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension = 3);
+
+/// The same for samples in a box of 1 to 6 dimensions: no normals, faces and weights; coordinates
+/// are double. PLY has x y z in any case and XYZ is such a line: 0 for what a box of fewer
+/// dimensions lacks; CSV has just the coordinates there are.
+void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
+                       const SampleHeader& header, std::span<const SampleRow> rows, bool ascii_ply,
+                       std::uint32_t dimension);
+
+/// Fails before long work where write_samples() would fail after it: UserError(usage) for an
+/// unknown extension, UserError(bad_output) for a folder, a missing folder or no permission.
+void check_output_path(const std::filesystem::path& path);
+
+/// UserError(usage) if the format cannot hold samples of so many coordinates.
+void check_dimension(const std::filesystem::path& path, std::uint32_t dimension);
+/// The same for samples in a box.
+void check_box_dimension(const std::filesystem::path& path, std::uint32_t dimension);
+
+/// Reads a sample file of either PLY format or CSV. Columns may come in any order and type;
+/// face_index bary_u bary_v bary_w must be there, and either x0 x1 ... or x y z or none of these;
+/// the others are 0 if absent, unknown ones are skipped. Throws UserError(bad_input) naming the
+/// file and the line or record.
+SampleFile read_samples(const std::filesystem::path& path);
+
+/// The same for samples in a box, which need have neither faces nor weights, and coordinates x0 x1
+/// ... or x, x y or x y z.
+SampleFile read_box_samples(const std::filesystem::path& path);
+
+} // namespace geodisk::tools

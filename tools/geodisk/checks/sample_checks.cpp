@@ -1,0 +1,103 @@
+#include "geodisk/checks/sample_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "geodisk/checks/spacing.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+std::string coordinates_text(std::uint32_t dimension) {
+    return dimension == 0 ? "no coordinates" : std::to_string(dimension) + " coordinates";
+}
+
+void check_dimensions(const std::string& samples_path, const SampleFile& samples,
+                      const std::string& mesh_path, const MeshInput& mesh) {
+    if (samples.dimension != mesh.dimension()) {
+        fail_input(samples_path, "its samples have " + coordinates_text(samples.dimension) +
+                                     ", the vertices of " + mesh_path + " have " +
+                                     coordinates_text(mesh.dimension()));
+    }
+}
+
+} // namespace
+
+double header_distance(const std::string& samples_path, const SampleHeader& header) {
+    const std::string* const value = header.find("min_distance");
+    if (value == nullptr) {
+        fail_usage(samples_path + ": its header has no minimum distance; give --min-distance");
+    }
+    const std::optional<double> distance = parse_real(trimmed(*value));
+    if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
+        fail_input(samples_path, "its header has the minimum distance " + in_quotes(*value) +
+                                     ", which is not a positive number; give --min-distance");
+    }
+    return *distance;
+}
+
+void check_rows(const std::string& samples_path, const SampleFile& samples,
+                const std::string& mesh_path, const MeshInput& mesh) {
+    check_dimensions(samples_path, samples, mesh_path, mesh);
+    constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
+    for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
+        const SampleRow& row = samples.rows[i];
+        if (row.face >= mesh.prepared.face_count()) {
+            fail_input(samples_path,
+                       "sample " + std::to_string(i) + ": face " + std::to_string(row.face) +
+                           " is out of range, " + mesh_path + " has " +
+                           counted(mesh.prepared.face_count(), "triangle", "triangles"));
+        }
+        double sum = 0;
+        double least = 1;
+        for (const double weight : row.bary) {
+            sum += weight;
+            least = std::min(least, weight);
+        }
+        if (!(least >= -kTolerance && std::abs(sum - 1) <= kTolerance)) {
+            fail_input(samples_path, "sample " + std::to_string(i) +
+                                         ": the weights are not those of a point in a triangle");
+        }
+    }
+}
+
+std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh) {
+    double largest = 0;
+    double diagonal = 0;
+    for (std::size_t axis = 0; axis < mesh.dimension(); ++axis) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const std::uint32_t vertex : mesh.file.triangles) {
+            const double x = mesh.file.positions[std::size_t{vertex} * mesh.dimension() + axis];
+            low = std::min(low, x);
+            high = std::max(high, x);
+        }
+        largest = std::max({largest, std::abs(low), std::abs(high)});
+        diagonal = std::hypot(diagonal, high - low);
+    }
+    // Files hold floats, or doubles where the mesh is farther from the origin than this.
+    const double allowed = 0x1p-22 * std::min(largest, 16 * diagonal);
+    std::vector<StrayRow> strays;
+    for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
+        const SampleRow& row = samples.rows[i];
+        const std::array<double, 8> point = mesh.point(row.face, row.bary);
+        double offset = 0;
+        for (std::size_t axis = 0; axis < point.size(); ++axis) {
+            offset = std::hypot(offset, row.position[axis] - point[axis]);
+        }
+        if (!(offset <= allowed)) {
+            strays.push_back({i, offset});
+        }
+    }
+    return strays;
+}
+
+std::string offset_text(const StrayRow& stray) {
+    return rounded(stray.offset, 3) + " away from where its face and weights put it";
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,35 @@
+// Whether samples lie on a mesh, as their file says.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "files/sample_file.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+/// A sample whose position is not where its face and weights put it.
+struct StrayRow {
+    std::uint32_t row;
+    double offset;
+};
+
+/// The minimum distance that the header tells. Throws UserError if it tells none, or nonsense.
+double header_distance(const std::string& samples_path, const SampleHeader& header);
+
+/// The rows must at least name points of the mesh, with as many coordinates as it has. Throws
+/// UserError(bad_input) naming the first that does not; the paths are those of the files.
+void check_rows(const std::string& samples_path, const SampleFile& samples,
+                const std::string& mesh_path, const MeshInput& mesh);
+
+/// The samples whose positions differ from those of their faces and weights by more than a sample
+/// file rounds. The rows must have passed check_rows(); without coordinates there are none.
+std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh);
+
+/// How far `stray` is off, as the end of a sentence.
+std::string offset_text(const StrayRow& stray);
+
+} // namespace geodisk::tools

@@ -1,0 +1,107 @@
+#include "geodisk/checks/spacing.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// Doubles round at 2^-53; chains of crossings may add up some thousand such errors.
+constexpr double kSmallestViolation = 1e-9;
+/// Enough to say that a file is hopeless, and little enough to hold.
+constexpr std::size_t kMostViolations = 1'000'000;
+constexpr std::size_t kNamedViolations = 10;
+
+std::string count_text(std::size_t count, bool is_complete) {
+    return (is_complete ? "" : "at least ") + grouped(count);
+}
+
+} // namespace
+
+bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than) {
+    return !than || std::tie(pair.ratio, pair.row_a, pair.row_b) <
+                        std::tie(than->ratio, than->row_a, than->row_b);
+}
+
+bool SpacingResult::add(const ClosePair& pair) {
+    if (pair.ratio <= cut && is_closer(pair, closest)) {
+        closest = pair;
+    }
+    if (pair.ratio < 1 - kSmallestViolation) {
+        violations.push_back(pair);
+    }
+    is_complete = violations.size() < kMostViolations;
+    return is_complete;
+}
+
+void SpacingResult::finish() {
+    std::sort(violations.begin(), violations.end(), [](const ClosePair& a, const ClosePair& b) {
+        return std::tie(a.row_a, a.row_b, a.distance) < std::tie(b.row_a, b.row_b, b.distance);
+    });
+    const auto end = std::unique(violations.begin(), violations.end(),
+                                 [](const ClosePair& a, const ClosePair& b) {
+                                     return a.row_a == b.row_a && a.row_b == b.row_b;
+                                 });
+    violations.erase(end, violations.end());
+    std::stable_sort(violations.begin(), violations.end(),
+                     [](const ClosePair& a, const ClosePair& b) { return a.ratio < b.ratio; });
+}
+
+std::size_t SpacingResult::violating_samples() const {
+    std::vector<std::uint32_t> rows;
+    for (const ClosePair& pair : violations) {
+        rows.insert(rows.end(), {pair.row_a, pair.row_b});
+    }
+    std::sort(rows.begin(), rows.end());
+    return static_cast<std::size_t>(std::unique(rows.begin(), rows.end()) - rows.begin());
+}
+
+std::string smallest_text(const SpacingResult& result, double min_distance) {
+    return result.closest ? rounded(result.closest->distance, 9) + ", " +
+                                rounded(result.closest->ratio, 9) + " of the minimum distance"
+                          : "> " + rounded(result.cut * min_distance, 6);
+}
+
+void print_violations(std::ostream& out, const SampleFile& samples, const SpacingResult& result,
+                      bool with_ratios) {
+    out << "violations    " << count_text(result.violations.size(), result.is_complete) << '\n';
+    for (std::size_t i = 0; i < std::min(result.violations.size(), kNamedViolations); ++i) {
+        const ClosePair& pair = result.violations[i];
+        out << "              "
+            << "samples " << pair.row_a << " and " << pair.row_b << ": "
+            << rounded(pair.distance, 9);
+        if (with_ratios) {
+            out << ", " << rounded(pair.ratio, 9) << " of the sum of their radii";
+        }
+        out << '\n';
+    }
+    if (!result.violations.empty()) {
+        out << "too close     " << count_text(result.violating_samples(), result.is_complete)
+            << " of " << counted(samples.rows.size(), "sample", "samples") << '\n';
+    }
+}
+
+std::string violation_text(const SpacingResult& result, const std::string& what) {
+    const std::size_t count = result.violations.size();
+    return count == 0 ? ""
+                      : count_text(count, result.is_complete) +
+                            (count == 1 ? " pair of samples is" : " pairs of samples are") +
+                            " closer than " + what;
+}
+
+Json pair_json(const std::optional<ClosePair>& pair) {
+    if (!pair) {
+        return nullptr;
+    }
+    return {{"distance", pair->distance}, {"samples", {pair->row_a, pair->row_b}}};
+}
+
+Json violations_json(const SpacingResult& result) {
+    return {{"pairs", result.violations.size()},
+            {"samples", result.violating_samples()},
+            {"complete", result.is_complete}};
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,82 @@
+// Distances between samples computed anew in double precision, on surfaces with the reference
+// implementation: what a check finds, and how commands tell it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <geodisk/box.hpp>
+
+#include "files/sample_file.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/json.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+/// Two rows of the sample file, the lower one first, and their distance.
+struct ClosePair {
+    std::uint32_t row_a, row_b;
+    double distance;
+    double ratio; ///< Of the distance to what it should be at least; of find_closest() itself.
+};
+
+/// Whether the pair is closer, by ratio.
+bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than);
+
+struct SpacingResult {
+    double cut = 1.25;                 ///< Pairs were looked at up to this ratio.
+    std::optional<ClosePair> closest;  ///< By ratio; none if all are farther apart than the cut.
+    std::vector<ClosePair> violations; ///< The closest pair first, by ratio.
+    bool is_complete = true;           ///< False if the check stopped at too many violations.
+
+    /// Takes a pair that was found, in any order, and more than once if it was found so. It is a
+    /// violation when it is closer by more than a billionth. False if there are too many.
+    bool add(const ClosePair& pair);
+    /// Sorts the violations; of a pair found more than once, the shortest distance counts.
+    void finish();
+
+    /// Samples in at least one violation.
+    std::size_t violating_samples() const;
+};
+
+/// Computes the geodesic distances of all pairs that are not farther apart than a cut somewhat
+/// beyond the sum of their radii, which are positive, one to a row.
+///
+/// Every row's face must be one of the mesh. Throws UserError when interrupted.
+SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                            std::span<const double> radii, ProgressLine& progress);
+
+/// The closest pair of all, by distance, however far apart; none if no path joins any two samples.
+/// Conditions and errors are those of check_spacing().
+std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
+                                      ProgressLine& progress);
+
+/// Computes the distances of all pairs that are not much farther apart than the minimum distance
+/// of the box. Rows must lie in it. Throws UserError when interrupted.
+SpacingResult check_box_spacing(const BoxParams& box, std::span<const SampleRow> rows,
+                                ProgressLine& progress);
+
+/// The smallest distance, and what part of `min_distance` it is, the least for all pairs.
+std::string smallest_text(const SpacingResult& result, double min_distance);
+
+/// Prints how many violations there are, the first ones, and how many samples are in them.
+/// `with_ratios` tells what part of the sum of its radii the distance of a pair is.
+void print_violations(std::ostream& out, const SampleFile& samples, const SpacingResult& result,
+                      bool with_ratios);
+
+/// "3 pairs of samples are closer than WHAT"; empty without violations.
+std::string violation_text(const SpacingResult& result, const std::string& what);
+
+/// Distance, rows and candidates of a pair; null without one.
+Json pair_json(const std::optional<ClosePair>& pair);
+/// Numbers of pairs and samples.
+Json violations_json(const SpacingResult& result);
+
+} // namespace geodisk::tools

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <geodisk/params.hpp>
+
+#include "constants.h"
+#include "geodisk/checks/spacing.hpp"
+#include "kernels/bins.hpp"
+#include "kernels/detect.hpp"
+#include "lib/surface.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// Of the distance expected.
+constexpr double kCutFactor = 1.25;
+constexpr double kMostCells = 0x1p26;
+
+/// Cells of the reference's grids when lengths are in units of `unit`.
+double cell_count(const PreparedMesh& mesh, double unit) {
+    const double cells_per_length = gpu::kCellsPerDistance / unit;
+    double total = 0;
+    for (std::size_t h = 0; h < mesh.half_edges().size(); h += 3) {
+        double longest = 0;
+        double height = 0;
+        for (std::size_t side = h; side < h + 3; ++side) {
+            const HalfEdge& edge = mesh.half_edges()[side];
+            if (edge.length > longest) {
+                longest = edge.length;
+                height = edge.apex_y;
+            }
+        }
+        total +=
+            std::floor(longest * cells_per_length + 1) * std::floor(height * cells_per_length + 1);
+    }
+    return total;
+}
+
+/// The reference wants lengths in units of about the distance looked for. A distance out of all
+/// proportion to the mesh gets a unit that keeps the numbers and the grids in bounds.
+double choose_unit(const PreparedMesh& mesh, double min_distance) {
+    const double extent = std::max(mesh.statistics().diagonal, mesh.statistics().longest_edge);
+    double unit = std::min(min_distance, extent);
+    while (cell_count(mesh, unit) > kMostCells) {
+        unit *= 2;
+    }
+    return unit;
+}
+
+std::vector<ref::FacePoint<double>> points_of(std::span<const SampleRow> rows) {
+    std::vector<ref::FacePoint<double>> points;
+    points.reserve(rows.size());
+    for (const SampleRow& row : rows) {
+        points.push_back({row.face, row.bary[1], row.bary[2]});
+    }
+    return points;
+}
+
+/// Calls `visit(row_a, row_b, distance)` for all pairs not farther apart than `cut_of(row)` of one
+/// of them, from each such row, until it returns false. The lower row comes first.
+template <class CutOf, class Visit>
+void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, double unit,
+                   const CutOf& cut_of, ProgressLine& progress, const Visit& visit) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    const ref::Surface<double> surface(mesh.prepared, unit);
+    const ref::Bins<double> bins(surface, points_of(rows));
+    ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);
+
+    std::vector<double> distances(rows.size(), kUnknown); // By place, of the current source.
+    std::vector<std::uint32_t> near;                      // Places with a distance.
+    bool goes_on = true;
+    for (std::uint32_t source = 0; source < rows.size() && goes_on; ++source) {
+        check_interrupted();
+        progress.update(static_cast<double>(source) / static_cast<double>(rows.size()),
+                        grouped(source) + " samples");
+        detector.set_limit(cut_of(bins.order[source]) / unit);
+        detector.run(
+            bins.points[source], [&](std::uint32_t place) { return place != source; },
+            [&](std::uint32_t place, double distance) {
+                if (distances[place] == kUnknown) {
+                    near.push_back(place);
+                }
+                distances[place] = std::min(distances[place], distance * unit);
+            });
+        for (const std::uint32_t place : near) {
+            const double distance = std::exchange(distances[place], kUnknown);
+            const auto [low, high] = std::minmax(bins.order[source], bins.order[place]);
+            goes_on = visit(low, high, distance) && goes_on;
+        }
+        near.clear();
+    }
+    progress.clear();
+}
+
+/// No shortest path is longer: it meets each edge and each triangle at most once.
+double longest_path(const PreparedMesh& mesh) {
+    double length = 0;
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        length += edge.length;
+    }
+    return length;
+}
+
+} // namespace
+
+SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                            std::span<const double> radii, ProgressLine& progress) {
+    SpacingResult result;
+    const double largest = radii.empty() ? 1 : *std::max_element(radii.begin(), radii.end());
+    progress.begin_stage("verifying");
+    // From the sample with the larger radius, every pair is found this way.
+    const auto cut_of = [&](std::uint32_t row) { return result.cut * 2 * radii[row]; };
+    for_each_pair(mesh, rows, choose_unit(mesh.prepared, 2 * largest), cut_of, progress,
+                  [&](std::uint32_t row_a, std::uint32_t row_b, double distance) {
+                      const double ratio = distance / (radii[row_a] + radii[row_b]);
+                      return result.add({row_a, row_b, distance, ratio});
+                  });
+    result.finish();
+    return result;
+}
+
+std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
+                                      ProgressLine& progress) {
+    std::optional<ClosePair> closest;
+    if (rows.size() < 2) {
+        return closest;
+    }
+    progress.begin_stage("measuring");
+    const double longest = longest_path(mesh.prepared);
+    // Samples spread well are no farther apart; of others only few disks are that large.
+    double distance =
+        distance_for_count(mesh.prepared.statistics().area, static_cast<double>(rows.size()));
+    while (!closest) {
+        const double cut = kCutFactor * distance;
+        for_each_pair(
+            mesh, rows, choose_unit(mesh.prepared, distance), [cut](std::uint32_t) { return cut; },
+            progress,
+            [&](std::uint32_t row_a, std::uint32_t row_b, double length) {
+                const ClosePair pair{row_a, row_b, length, length};
+                if (is_closer(pair, closest)) {
+                    closest = pair;
+                }
+                return true;
+            });
+        if (cut > longest) {
+            break;
+        }
+        distance *= 2;
+    }
+    return closest;
+}
+
+} // namespace geodisk::tools

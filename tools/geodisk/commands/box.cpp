@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/domain.hpp>
+
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/device_run.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/box_report.hpp"
+#include "program/arguments.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// As given on the command line.
+struct BoxOptions {
+    std::string dimension, min_distance, count;
+    std::vector<std::string> extents;
+    std::string pool_ratio = "20";
+    bool is_periodic = false;
+    OutputOptions out;
+    RunOptions run;
+};
+
+std::vector<double> parse_sides(const BoxOptions& options) {
+    std::size_t dimension = options.extents.size();
+    if (!options.dimension.empty()) {
+        const double given = parse_count("--dim", options.dimension);
+        if (given > kMostBoxDimensions) {
+            fail_usage("--dim: boxes have 1 to 6 dimensions");
+        }
+        if (dimension != 0 && static_cast<double>(dimension) != given) {
+            fail_usage("--dim " + options.dimension + " and the " +
+                       counted(dimension, "side", "sides") + " of --extents contradict each other");
+        }
+        dimension = static_cast<std::size_t>(given);
+    }
+    if (dimension == 0) {
+        fail_usage("no box given; give --dim, --extents or both");
+    }
+    if (dimension > kMostBoxDimensions) {
+        fail_usage("--extents: boxes have 1 to 6 sides, not " + std::to_string(dimension));
+    }
+    std::vector<double> sides(dimension, 1.0);
+    for (std::size_t axis = 0; axis < options.extents.size(); ++axis) {
+        const auto side = parse_real(trimmed(options.extents[axis]));
+        if (!side || !(*side > 0) || !std::isfinite(*side)) {
+            fail_usage("--extents: " + in_quotes(options.extents[axis]) +
+                       " is not a positive, finite length");
+        }
+        sides[axis] = *side;
+    }
+    return sides;
+}
+
+BoxJob parse_job(const BoxOptions& options) {
+    if (options.min_distance.empty() == options.count.empty()) {
+        fail_usage(options.count.empty()
+                       ? "no distance given; give one of --min-distance and --count"
+                       : "--min-distance and --count contradict each other; give just one");
+    }
+    BoxJob job;
+    job.out = options.out;
+    job.run = options.run;
+    BoxParams& box = job.box;
+    box.extents = parse_sides(options);
+    box.is_periodic = options.is_periodic;
+    box.seed = options.run.parsed_seed();
+    box.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
+    if (options.count.empty()) {
+        box.min_distance =
+            parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));
+    } else {
+        job.wanted_count = parse_count("--count", options.count);
+        box.min_distance = distance_for_count(box, job.wanted_count);
+    }
+    job.runner.pool_bytes = options.run.pool_bytes();
+    return job;
+}
+
+std::vector<SampleRow> to_rows(const std::vector<double>& points, std::size_t dimension) {
+    std::vector<SampleRow> rows(points.size() / dimension);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(i * dimension), dimension,
+                    rows[i].position);
+    }
+    return rows;
+}
+
+void run_box(const BoxOptions& options) {
+    const BoxJob job = parse_job(options);
+    const Domain domain = take(Domain::box(job.box)); // Fails before a device is needed.
+    check_outputs(job.out, "the samples", {});
+    check_box_dimension(job.out.output, domain.dimension());
+    ProgressLine progress(job.out.quiet);
+    const auto [set, done] =
+        run_on_device(job.run, job.runner, domain, expected_count(job.box), progress);
+    const std::vector<SampleRow> rows = to_rows(set.points, domain.dimension());
+    const BoxReport report(job, rows.size(), done);
+    write_outputs(job.out, progress, report, [&](AtomicFile& file) {
+        write_box_samples(file, job.out.output, report.header(), rows, job.out.ascii,
+                          domain.dimension());
+    });
+}
+
+} // namespace
+
+void add_box_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("box", "Put samples in a box of R^n, by straight-line distance");
+    const auto options = std::make_shared<BoxOptions>();
+    add_output_argument(*command, options->out,
+                        "File to write: *.csv, *.ply (binary; 0 for coordinates that a\n"
+                        "box of fewer than three lacks) or *.xyz (positions only)");
+    const char* const box = "Box";
+    add_option(*command, "--dim", options->dimension, "N", "Dimensions, 1 to 6; sides of 1", box);
+    add_option(*command, "--extents", options->extents, "A,...",
+               "Sides instead; the box begins at the origin", box)
+        ->delimiter(',');
+    command
+        ->add_flag("--periodic", options->is_periodic,
+                   "Glue opposite sides together: distances go around")
+        ->group(box);
+    const char* const distance = "Distance, give one";
+    add_option(*command, "-d,--min-distance", options->min_distance, "D",
+               "Least distance, in the units of the sides, or with %\n"
+               "of the diagonal",
+               distance);
+    add_option(*command, "-n,--count", options->count, "N",
+               "Choose the distance that should give about N samples", distance);
+    add_option(*command, "--pool-ratio", options->pool_ratio, "Q",
+               "Candidates per expected sample, 1 to 10000; more leave fewer gaps")
+        ->capture_default_str();
+    add_run_options(*command, options->run);
+    add_output_options(*command, options->out);
+    command->callback([options] { run_box(*options); });
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,30 @@
+// The subcommands of `geodisk`. Each function adds one to `app`; when the user chooses it, it does
+// its work, which throws UserError on failure.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace geodisk::tools {
+
+/// Samples a mesh on a Vulkan device and writes the samples to a file.
+void add_sample_command(CLI::App& app);
+
+/// Checks a sample file against its mesh or box, without a device. UserError(violation) if samples
+/// are too close or off the mesh.
+void add_verify_command(CLI::App& app);
+
+/// Carries samples over to another mesh of the same connectivity.
+void add_transfer_command(CLI::App& app);
+
+/// Samples a box of R^n on a Vulkan device.
+void add_box_command(CLI::App& app);
+
+/// Lists the built-in surfaces, which need no mesh file, or writes one of them to a PLY file.
+void add_shapes_command(CLI::App& app);
+
+/// Lists the Vulkan devices and whether they can run geodisk. UserError(no_device) if none can.
+void add_info_command(CLI::App& app);
+
+} // namespace geodisk::tools

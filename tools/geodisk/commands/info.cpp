@@ -1,0 +1,153 @@
+
+#include <array>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/context.hpp>
+#include <geodisk/version.hpp>
+
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/reports/json.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+std::string version_text(std::uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + '.' +
+           std::to_string(VK_API_VERSION_MINOR(version)) + '.' +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+std::string timestamp_text(const DeviceReport& report) {
+    if (report.timestamp_valid_bits == 0)
+        return "none";
+    return std::to_string(report.timestamp_valid_bits) + " bits, " +
+           rounded(report.limits.timestamp_period, 6) + " ns per tick";
+}
+
+void print_device(std::ostream& out, std::size_t index, const DeviceReport& report,
+                  bool is_default) {
+    const DeviceLimits& limits = report.limits;
+    out << index << "  " << report.name << (is_default ? "  [default]\n" : "\n")
+        << "   type             " << type_name(report.type) << '\n'
+        << "   Vulkan           " << version_text(report.api_version) << '\n'
+        << "   driver           " << driver_text(report) << '\n'
+        << "   UUID             " << uuid_text(report.uuid) << '\n'
+        << "   memory           " << size_text(report.largest_device_local_heap)
+        << " in the largest device-local heap\n"
+        << "   storage buffers  " << limits.max_storage_buffers_per_stage << " per stage, "
+        << size_text(limits.max_storage_buffer_range) << " each\n"
+        << "   workgroup        " << limits.max_workgroup_invocations << " invocations, "
+        << limits.max_workgroup_size_x << " in x, " << size_text(limits.max_shared_memory_size)
+        << " shared memory, subgroups of " << limits.subgroup_size << '\n'
+        << "   push constants   " << size_text(limits.max_push_constants_size) << '\n'
+        << "   timestamps       " << timestamp_text(report) << '\n'
+        << "   float rounding   "
+        << (report.rounds_natively ? "exact as on the host" : "within the bounds of Vulkan") << '\n'
+        << "   runs geodisk     " << (report.usable() ? "yes" : "no:") << '\n';
+    for (const std::string& reason : report.reasons_against)
+        out << "                    " << reason << '\n';
+}
+
+Json to_json(std::size_t index, const DeviceReport& report) {
+    const DeviceLimits& limits = report.limits;
+    const auto family = report.compute_queue_family;
+    return Json{
+        {"index", index},
+        {"name", report.name},
+        {"type", type_name(report.type)},
+        {"api_version", version_text(report.api_version)},
+        {"uuid", uuid_text(report.uuid)},
+        {"vendor_id", report.vendor_id},
+        {"device_id", report.device_id},
+        {"driver",
+         {{"id", static_cast<std::int64_t>(report.driver_id)},
+          {"name", report.driver_name},
+          {"info", report.driver_info},
+          {"version", report.driver_version}}},
+        {"limits",
+         {{"max_storage_buffer_range", limits.max_storage_buffer_range},
+          {"max_memory_allocation_size", limits.max_memory_allocation_size},
+          {"min_storage_buffer_offset_alignment", limits.min_storage_buffer_offset_alignment},
+          {"min_texel_buffer_offset_alignment", limits.min_texel_buffer_offset_alignment},
+          {"max_texel_buffer_elements", limits.max_texel_buffer_elements},
+          {"non_coherent_atom_size", limits.non_coherent_atom_size},
+          {"max_memory_allocation_count", limits.max_memory_allocation_count},
+          {"max_storage_buffers_per_stage", limits.max_storage_buffers_per_stage},
+          {"max_workgroup_invocations", limits.max_workgroup_invocations},
+          {"max_workgroup_size_x", limits.max_workgroup_size_x},
+          {"max_workgroup_count_x", limits.max_workgroup_count_x},
+          {"max_shared_memory_size", limits.max_shared_memory_size},
+          {"max_push_constants_size", limits.max_push_constants_size},
+          {"subgroup_size", limits.subgroup_size},
+          {"timestamp_period", limits.timestamp_period}}},
+        {"largest_device_local_heap", report.largest_device_local_heap},
+        {"compute_queue_family", family ? Json(*family) : Json(nullptr)},
+        {"timestamp_valid_bits", report.timestamp_valid_bits},
+        {"rounds_natively", report.rounds_natively},
+        {"usable", report.usable()},
+        {"reasons_against", report.reasons_against},
+    };
+}
+
+void print_text(std::ostream& out, const std::vector<DeviceReport>& reports,
+                std::optional<std::size_t> best) {
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        if (i > 0)
+            out << '\n';
+        print_device(out, i, reports[i], best == i);
+    }
+}
+
+void print_json(std::ostream& out, const std::vector<DeviceReport>& reports,
+                std::optional<std::size_t> best) {
+    Json devices = Json::array();
+    for (std::size_t i = 0; i < reports.size(); ++i)
+        devices.push_back(to_json(i, reports[i]));
+    const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
+                        {"default_device", best ? Json(*best) : Json(nullptr)},
+                        {"devices", std::move(devices)}};
+    out << text_of(document);
+}
+
+void run_info(bool as_json) {
+    Result<std::vector<DeviceReport>> listed = list_devices();
+    const std::vector<DeviceReport> reports =
+        listed ? std::move(listed).value() : std::vector<DeviceReport>{};
+    std::optional<std::size_t> best;
+    if (const Result<std::size_t> chosen = select_device(reports, ""))
+        best = *chosen;
+
+    if (as_json)
+        print_json(std::cout, reports, best);
+    else
+        print_text(std::cout, reports, best);
+    std::cout.flush();
+    if (!std::cout)
+        fail_output("the list of devices cannot be written");
+    if (!listed)
+        throw UserError(exit_code_of(listed.error().status), listed.error().message);
+    if (!best)
+        throw UserError(ExitCode::no_device, "none of the Vulkan devices listed can run geodisk");
+}
+
+} // namespace
+
+void add_info_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("info", "List the Vulkan devices and whether they can run geodisk");
+    const auto as_json = std::make_shared<bool>(false); // Lives in the callback, like the option.
+    command->add_flag("--json", *as_json, "Write the list as JSON");
+    command->callback([as_json] { run_info(*as_json); });
+}
+
+} // namespace geodisk::tools

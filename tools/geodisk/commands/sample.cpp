@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <geodisk/domain.hpp>
+
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/device_run.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/sample_options.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/sample_report.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// Darts for each sample a surface has room for, after which a count counts as out of reach.
+constexpr double kDartsPerSample = 1000;
+
+/// Finds out before the work that it would be in vain.
+void check_files(const SampleJob& job) {
+    std::vector<NamedFile> read = job.mesh.files("the mesh");
+    for (const NamedFile& file : job.density.files("the density")) {
+        read.push_back(file);
+    }
+    check_outputs(job.out, "the samples", read);
+}
+
+void check_dimensions(const SampleJob& job, const MeshInput& mesh) {
+    check_dimension(job.out.output, mesh.dimension());
+    if (!job.is_geodesic() && mesh.dimension() != 3) {
+        fail_usage("--metric " + job.metric + " needs three coordinates per vertex; the mesh has " +
+                   (mesh.dimension() == 0 ? "none" : std::to_string(mesh.dimension())));
+    }
+}
+
+/// The parameters on a mesh. Where a count alone is to stop the darts, they end at a number that
+/// leaves hardly any gap.
+SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
+    SampleParams params = job.params;
+    params.radii = mesh.radii ? &*mesh.radii : nullptr;
+    const double area = effective_area(mesh.prepared, params);
+    params.min_distance = job.min_distance
+                              ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics())
+                              : distance_for_count(area, job.wanted_count);
+    if (params.stop_count != 0 && params.throws == 0) {
+        const double room = std::max(1.0, expected_count(area, params.min_distance));
+        params.throws = static_cast<std::uint32_t>(
+            std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * room)));
+    }
+    return params;
+}
+
+/// Samples to reckon with, at least one.
+double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
+    const double expected =
+        std::max(1.0, expected_count(effective_area(mesh, params), params.min_distance));
+    return params.stop_count != 0 ? std::min<double>(expected, params.stop_count) : expected;
+}
+
+Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params) {
+    if (job.is_geodesic()) {
+        return take(Domain::surface(mesh.prepared, params));
+    }
+    const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
+    return take(Domain::surface_in_space(
+        view, mesh.prepared, params,
+        job.metric == "euclidean" ? Metric::euclidean : Metric::approximate));
+}
+
+/// A count asked for, with no number of darts that would do, must be reached.
+void check_count(const SampleJob& job, const SampleParams& params, std::size_t samples,
+                 const DeviceRun& done) {
+    if (job.params.throws == 0 && samples < job.params.stop_count) {
+        fail_usage("--count: only " + grouped(samples) + " of " + grouped(job.params.stop_count) +
+                   " samples " + rounded(params.min_distance, 6) + " apart found room with " +
+                   grouped(done.run.candidates) +
+                   " darts; ask for fewer samples, a smaller distance or, with --throws, for what "
+                   "there is");
+    }
+}
+
+std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
+                               const std::vector<Sample>& samples) {
+    std::vector<SampleRow> rows;
+    rows.reserve(samples.size());
+    for (const Sample& sample : samples) {
+        SampleRow row;
+        row.face = sample.face;
+        std::copy_n(sample.weights, 3, row.bary);
+        mesh.place(row);
+        row.radius = mesh.radius(sample.face, sample.weights, min_distance);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+void run_sample(const SampleOptions& options) {
+    const SampleJob job = parse_job(options);
+    check_files(job);
+    ProgressLine progress(job.out.quiet);
+    const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
+    check_dimensions(job, mesh);
+
+    const SampleParams params = params_on(mesh, job);
+    const Domain domain = domain_of(job, mesh, params); // Fails before a device is needed.
+    auto [set, done] = run_on_device(job.run, job.runner, domain,
+                                     expected_samples(mesh.prepared, params), progress);
+    check_count(job, params, set.samples.size(), done);
+    const SampleResult result{params, std::move(done),
+                              to_rows(mesh, params.min_distance, set.samples)};
+
+    const SampleReport report(job, mesh, result);
+    write_outputs(job.out, progress, report, [&](AtomicFile& file) {
+        write_samples(file, job.out.output, report.header(), result.rows, job.out.ascii,
+                      mesh.dimension());
+    });
+}
+
+} // namespace
+
+void add_sample_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("sample", "Put samples on a mesh and write them to a file");
+    const auto options = std::make_shared<SampleOptions>();
+    add_sample_options(*command, *options);
+    command->callback([options, command] {
+        options->has_pool_ratio = command->count("--pool-ratio") > 0;
+        run_sample(*options);
+    });
+}
+
+} // namespace geodisk::tools

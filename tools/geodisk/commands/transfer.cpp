@@ -1,0 +1,178 @@
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <geodisk/version.hpp>
+
+#include "files/output_file.hpp"
+#include "files/sample_file.hpp"
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/spacing.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/mesh_options.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/json.hpp"
+#include "geometry/mesh.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+struct TransferOptions {
+    std::string samples;
+    MeshOptions from, to;
+    OutputOptions out;
+};
+
+void check_files(const TransferOptions& options) {
+    std::vector<NamedFile> read{{"the samples read", options.samples}};
+    for (const MeshOptions* mesh : {&options.from, &options.to}) {
+        for (const NamedFile& file : mesh->files("a mesh")) {
+            read.push_back(file);
+        }
+    }
+    check_outputs(options.out, "the output", read);
+}
+
+std::string corners_text(const MeshFile& mesh, std::size_t face) {
+    std::string text;
+    for (std::size_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
+        text += (text.empty() ? "" : " ") + std::to_string(mesh.triangles[corner]);
+    }
+    return text;
+}
+
+/// A face and weights mean the same place only where the corners are the same.
+void check_connectivity(const TransferOptions& options, const MeshFile& from, const MeshFile& to) {
+    const std::size_t count = from.triangles.size() / 3;
+    if (to.triangles.size() != from.triangles.size()) {
+        fail_input(options.to.mesh, "has " +
+                                        counted(to.triangles.size() / 3, "triangle", "triangles") +
+                                        ", but " + options.from.mesh + " has " + grouped(count) +
+                                        "; samples go over between meshes of the same faces alone");
+    }
+    const auto difference =
+        std::mismatch(from.triangles.begin(), from.triangles.end(), to.triangles.begin()).first;
+    if (difference != from.triangles.end()) {
+        const auto face = static_cast<std::size_t>(difference - from.triangles.begin()) / 3;
+        fail_input(options.to.mesh,
+                   "face " + std::to_string(face) + " has the corners " + corners_text(to, face) +
+                       ", but " + corners_text(from, face) + " in " + options.from.mesh +
+                       " (all counted from 0); samples go over between meshes of the same faces "
+                       "alone");
+    }
+}
+
+/// Samples of another mesh would land anywhere.
+void check_samples(const TransferOptions& options, const SampleFile& samples,
+                   const MeshInput& from) {
+    check_rows(options.samples, samples, options.from.mesh, from);
+    const std::vector<StrayRow> strays = find_strays(samples, from);
+    if (!strays.empty()) {
+        fail_input(options.samples, "sample " + std::to_string(strays.front().row) + " is " +
+                                        offset_text(strays.front()) + " on " + options.from.mesh +
+                                        "; are these samples of another mesh?");
+    }
+}
+
+/// What holds of the new samples, then what the header of the old ones said, as "source_KEY".
+SampleHeader transferred_header(const TransferOptions& options, const SampleHeader& source,
+                                const std::optional<ClosePair>& closest) {
+    SampleHeader header{
+        {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", options.to.mesh}}};
+    for (const auto& entry : options.to.additions()) {
+        header.entries.push_back(entry);
+    }
+    if (closest) {
+        header.entries.emplace_back("min_distance", exact_text(closest->distance));
+    }
+    header.entries.emplace_back("transferred_from", options.samples);
+    for (const auto& [key, value] : source.entries) {
+        header.entries.emplace_back("source_" + key, value);
+    }
+    return header;
+}
+
+std::string report_text(const TransferOptions& options, const SampleFile& samples,
+                        const std::optional<ClosePair>& closest) {
+    return text_of(Json{{"version", GEODISK_VERSION_STRING},
+                        {"transferred_from", options.samples},
+                        {"mesh_a", options.from.mesh},
+                        {"mesh_b", options.to.mesh},
+                        {"output", options.out.output},
+                        {"samples", samples.rows.size()},
+                        {"smallest", pair_json(closest)}});
+}
+
+std::string summary_text(const TransferOptions& options, const SampleFile& samples,
+                         const std::optional<ClosePair>& closest) {
+    std::ostringstream out;
+    out << "from          " << one_line(options.from.mesh) << '\n'
+        << "to            " << one_line(options.to.mesh) << '\n'
+        << "samples       " << grouped(samples.rows.size()) << " of " << one_line(options.samples)
+        << '\n'
+        << "smallest      ";
+    if (closest) {
+        out << rounded(closest->distance, 9) << " in mesh units, "
+            << "samples " << closest->row_a << " and " << closest->row_b << '\n';
+    } else {
+        out << "none, no path joins two of them\n";
+    }
+    out << "file          " << one_line(options.out.output) << '\n';
+    return out.str();
+}
+
+void run_transfer(const TransferOptions& options) {
+    check_files(options);
+    ProgressLine progress(options.out.quiet);
+    const MeshInput from = load_mesh(options.from, progress);
+    const MeshInput to = load_mesh(options.to, progress);
+    check_connectivity(options, from.file, to.file);
+    check_dimension(options.out.output, to.dimension());
+    progress.begin_stage("reading the samples");
+    SampleFile samples = read_samples(options.samples);
+    progress.clear();
+    check_samples(options, samples, from);
+
+    for (SampleRow& row : samples.rows) {
+        to.place(row);
+        row.radius = 0; // That was one on the other mesh.
+    }
+    const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
+    AtomicFile file(options.out.output);
+    write_samples(file, options.out.output, transferred_header(options, samples.header, closest),
+                  samples.rows, options.out.ascii, to.dimension());
+    file.sync();
+    publish(options.out, file, report_text(options, samples, closest),
+            summary_text(options, samples, closest));
+}
+
+} // namespace
+
+void add_transfer_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "transfer", "Carry samples over to another pose of their mesh: the same faces,\n"
+                    "elsewhere; tells their smallest distance there");
+    const auto options = std::make_shared<TransferOptions>();
+    add_option(*command, "SAMPLES", options->samples, "", "Samples of MESH_A: *.ply or *.csv")
+        ->required();
+    add_mesh_argument(*command, options->from, "Mesh they were made on", "MESH_A");
+    add_mesh_argument(*command, options->to, "Mesh of the same faces to put them on", "MESH_B");
+    add_output_argument(*command, options->out);
+    add_sidecar_options(*command, options->from, "MESH_A", "-a");
+    add_sidecar_options(*command, options->to, "MESH_B", "-b");
+    add_lift_option(*command, options->to, "-b");
+    add_output_options(*command, options->out);
+    command->callback([options] { run_transfer(*options); });
+}
+
+} // namespace geodisk::tools

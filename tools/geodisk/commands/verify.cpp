@@ -1,0 +1,265 @@
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <geodisk/params.hpp>
+#include <geodisk/version.hpp>
+
+#include "files/input_file.hpp"
+#include "files/sample_file.hpp"
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/spacing.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/verify_box.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/mesh_options.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/json.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr std::size_t kNamedStrays = 10;
+
+struct VerifyOptions {
+    MeshOptions mesh;
+    DensityOptions density;
+    std::string samples, min_distance;
+    OutputOptions out; ///< No samples.
+};
+
+/// A sample of another surface would show as a violation, or worse, would not.
+void warn_of_other_surface(const VerifyOptions& options, const SampleFile& samples) {
+    const auto lifts_of = [](const auto& entries) {
+        std::vector<std::string> lifts;
+        for (const auto& [key, value] : entries) {
+            if (key == "lift") {
+                lifts.push_back(value);
+            }
+        }
+        return lifts;
+    };
+    const std::vector<std::string> used = lifts_of(samples.header.entries);
+    if (used == lifts_of(options.mesh.additions())) {
+        return;
+    }
+    std::string text;
+    for (const std::string& lift : used) {
+        text += " --lift " + lift;
+    }
+    print_warning(options.samples + ": made with" + (used.empty() ? " no --lift" : text) +
+                  ", which is not what is verified here");
+}
+
+double distance_of(const VerifyOptions& options, const SampleFile& samples,
+                   const MeshStatistics& mesh) {
+    if (!options.min_distance.empty()) {
+        return distance_on_mesh(parse_length("--min-distance", options.min_distance), mesh);
+    }
+    return header_distance(options.samples, samples.header);
+}
+
+/// How far samples must be apart.
+struct Spacing {
+    double min_distance = 0; ///< Of all pairs, or of two with the largest radius; 0 if not known.
+    bool radii_vary = false;
+    std::vector<double> radii; ///< By row.
+    std::size_t wrong = 0;     ///< Rows whose own radius is another.
+};
+
+/// With density options the radii are computed again; without, those of the file count, unless a
+/// distance is given.
+Spacing spacing_of(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
+    Spacing spacing;
+    spacing.radii_vary = mesh.radii || (has_radii(samples.rows) && options.min_distance.empty());
+    if (mesh.radii || !spacing.radii_vary) {
+        spacing.min_distance = distance_of(options, samples, mesh.prepared.statistics());
+    }
+    constexpr double kSame = 1e-6; // Of radii that other programs rounded.
+    for (const SampleRow& row : samples.rows) {
+        const double radius = mesh.radii ? mesh.radius(row.face, row.bary, spacing.min_distance)
+                              : spacing.radii_vary ? row.radius
+                                                   : spacing.min_distance / 2;
+        if (mesh.radii && row.radius > 0 && !(std::abs(row.radius - radius) <= kSame * radius)) {
+            ++spacing.wrong;
+        }
+        spacing.radii.push_back(radius);
+    }
+    return spacing;
+}
+
+std::string smallest_text(const SpacingResult& result, const Spacing& spacing) {
+    if (spacing.radii_vary) {
+        return (result.closest ? rounded(result.closest->ratio, 9)
+                               : "> " + rounded(result.cut, 6)) +
+               " of the sum of two radii";
+    }
+    return smallest_text(result, spacing.min_distance);
+}
+
+/// Of samples that a distance is known of.
+double rho_of(const SampleFile& samples, const MeshInput& mesh, const Spacing& spacing) {
+    SampleParams params;
+    params.radii = mesh.radii ? &*mesh.radii : nullptr;
+    return packing_density(effective_area(mesh.prepared, params), spacing.min_distance,
+                           static_cast<double>(samples.rows.size()));
+}
+
+void print_spacing(std::ostream& out, const SampleFile& samples, const MeshInput& mesh,
+                   const Spacing& spacing) {
+    if (spacing.min_distance > 0) {
+        out << "min distance  " << rounded(spacing.min_distance, 9) << " in mesh units\n"
+            << "rho           " << rounded(rho_of(samples, mesh, spacing), 3) << '\n';
+    }
+    if (spacing.radii_vary && !spacing.radii.empty()) {
+        const auto [least, most] = std::minmax_element(spacing.radii.begin(), spacing.radii.end());
+        out << "radii         " << rounded(*least, 9) << " to " << rounded(*most, 9)
+            << (mesh.radii ? "" : ", as the file has them") << '\n';
+    }
+}
+
+std::string result_text(const VerifyOptions& options, const SampleFile& samples,
+                        const MeshInput& mesh, const Spacing& spacing, const SpacingResult& result,
+                        const std::vector<StrayRow>& strays) {
+    std::ostringstream out;
+    out << "mesh          " << one_line(options.mesh.mesh) << '\n'
+        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
+        << '\n';
+    print_spacing(out, samples, mesh, spacing);
+    out << "smallest      " << smallest_text(result, spacing) << '\n';
+    print_violations(out, samples, result, spacing.radii_vary);
+    if (spacing.wrong > 0) {
+        out << "wrong radii   " << grouped(spacing.wrong) << '\n';
+    }
+    if (!strays.empty()) {
+        out << "off the mesh  " << grouped(strays.size()) << '\n';
+    }
+    for (std::size_t i = 0; i < std::min(strays.size(), kNamedStrays); ++i) {
+        out << "              "
+            << "sample " << strays[i].row << ": " << offset_text(strays[i]) << '\n';
+    }
+    return out.str();
+}
+
+std::string report_text(const VerifyOptions& options, const SampleFile& samples,
+                        const MeshInput& mesh, const Spacing& spacing, const SpacingResult& result,
+                        const std::vector<StrayRow>& strays) {
+    const bool has_distance = spacing.min_distance > 0;
+    return text_of(
+        Json{{"version", GEODISK_VERSION_STRING},
+             {"mesh", options.mesh.mesh},
+             {"samples_file", options.samples},
+             {"samples", samples.rows.size()},
+             {"min_distance", has_distance ? Json(spacing.min_distance) : Json(nullptr)},
+             {"rho", has_distance ? Json(rho_of(samples, mesh, spacing)) : Json(nullptr)},
+             {"radii_vary", spacing.radii_vary},
+             {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
+             {"smallest", pair_json(result.closest)},
+             {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
+             {"violations", violations_json(result)},
+             {"wrong_radii", spacing.wrong},
+             {"off_the_mesh", strays.size()}});
+}
+
+/// Before the work: whether the report can be written.
+void check_files(const VerifyOptions& options) {
+    std::vector<NamedFile> read{{"the samples", options.samples}};
+    for (const NamedFile& file : options.mesh.files("the mesh")) {
+        read.push_back(file);
+    }
+    for (const NamedFile& file : options.density.files("the density")) {
+        read.push_back(file);
+    }
+    check_outputs(options.out, "", read);
+}
+
+void fail_on_violations(const VerifyOptions& options, const Spacing& spacing,
+                        const SpacingResult& result, const std::vector<StrayRow>& strays) {
+    std::string message = violation_text(
+        result, spacing.radii_vary ? "the sum of their radii" : rounded(spacing.min_distance, 9));
+    const auto add = [&message](std::size_t count, const std::string& one, const std::string& many,
+                                const char* what) {
+        if (count > 0) {
+            message += (message.empty() ? "" : ", and ") + counted(count, one, many) + what;
+        }
+    };
+    add(strays.size(), "position does", "positions do", " not agree with face and weights");
+    add(spacing.wrong, "radius is", "radii are", " not what the density options give");
+    if (!message.empty()) {
+        throw UserError(ExitCode::violation, options.samples + ": " + message);
+    }
+}
+
+/// A single file must be one of samples in a box, which has nothing of a surface.
+void check_box(const VerifyOptions& options) {
+    const std::string extension = lower_extension(options.mesh.mesh);
+    if (extension != ".ply" && extension != ".csv" && extension != ".xyz") {
+        fail_usage("SAMPLES is required, except for samples in a box, which "
+                   "are verified without a mesh");
+    }
+    if (!options.mesh.additions().empty() || options.density.is_given()) {
+        fail_usage("options of surfaces need MESH and SAMPLES; a single file "
+                   "is one of samples in a box");
+    }
+}
+
+void run_verify(const VerifyOptions& options) {
+    if (!options.min_distance.empty()) {
+        parse_length("--min-distance", options.min_distance); // Before the files are read.
+    }
+    if (options.samples.empty()) {
+        check_box(options);
+        verify_box({options.mesh.mesh, options.min_distance, options.out});
+        return;
+    }
+    check_files(options);
+    ProgressLine progress(options.out.quiet);
+    const MeshInput mesh = load_mesh(options.mesh, progress, options.density);
+    progress.begin_stage("reading the samples");
+    const SampleFile samples = read_samples(options.samples);
+    progress.clear();
+    check_rows(options.samples, samples, options.mesh.mesh, mesh);
+    warn_of_other_surface(options, samples);
+    const Spacing spacing = spacing_of(options, samples, mesh);
+
+    const std::vector<StrayRow> strays = find_strays(samples, mesh);
+    const SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);
+    publish(options.out, report_text(options, samples, mesh, spacing, result, strays),
+            result_text(options, samples, mesh, spacing, result, strays));
+    fail_on_violations(options, spacing, result, strays);
+}
+
+} // namespace
+
+void add_verify_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "verify", "Check the distances in a sample file, exactly and without a device");
+    const auto options = std::make_shared<VerifyOptions>();
+    add_mesh_argument(*command, options->mesh, "Mesh they were made on");
+    add_option(*command, "SAMPLES", options->samples, "",
+               "Samples to check: *.ply or *.csv; those of geodisk box\n"
+               "stand alone, without a mesh");
+    add_option(*command, "-d,--min-distance", options->min_distance, "D",
+               "Least distance along the surface, in mesh units,\n"
+               "or with % of the bounding-box diagonal;\n"
+               "without it, the radii of the file where it has them,\n"
+               "else the distance of its header");
+    add_mesh_options(*command, options->mesh);
+    add_density_options(*command, options->density);
+    add_json_option(*command, options->out);
+    command->add_flag("-q,--quiet", options->out.quiet,
+                      "No progress and no result but the exit status");
+    command->callback([options] { run_verify(*options); });
+}
+
+} // namespace geodisk::tools

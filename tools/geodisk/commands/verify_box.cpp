@@ -1,0 +1,137 @@
+#include "geodisk/commands/verify_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include <geodisk/box.hpp>
+#include <geodisk/version.hpp>
+
+#include "files/sample_file.hpp"
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/spacing.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/box_report.hpp"
+#include "program/arguments.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// "1 x 0.5": the sides; none if one is no positive number.
+std::vector<double> parse_sides(std::string_view text) {
+    std::vector<double> sides;
+    for (bool more = true; more;) {
+        const std::size_t end = text.find(" x ");
+        const std::optional<double> side = parse_real(trimmed(text.substr(0, end)));
+        if (!side || !(*side > 0) || !std::isfinite(*side)) {
+            return {};
+        }
+        sides.push_back(*side);
+        more = end != std::string_view::npos;
+        text.remove_prefix(more ? end + 3 : text.size());
+    }
+    return sides;
+}
+
+BoxParams box_of(const VerifyBoxOptions& options, const SampleFile& samples) {
+    const std::string* const sides = samples.header.find("box");
+    if (sides == nullptr) {
+        fail_input(options.samples, "its header tells of no box; samples on a mesh are verified "
+                                    "with it: geodisk verify MESH SAMPLES");
+    }
+    BoxParams box;
+    box.extents = parse_sides(*sides);
+    if (box.extents.empty() || box.extents.size() > kMostBoxDimensions) {
+        fail_input(options.samples, "its header has the box " + in_quotes(*sides) +
+                                        ", which is not 1 to 6 positive sides");
+    }
+    if (box.extents.size() > samples.dimension) {
+        fail_input(options.samples, "has " + std::to_string(samples.dimension) +
+                                        " coordinates, but its box has " +
+                                        std::to_string(box.extents.size()) + " sides");
+    }
+    const std::string* const kind = samples.header.find("sides");
+    if (kind == nullptr || (*kind != "open" && *kind != "periodic")) {
+        fail_input(options.samples,
+                   "its header does not tell whether the sides of the box are open or periodic");
+    }
+    box.is_periodic = *kind == "periodic";
+    box.min_distance =
+        options.min_distance.empty()
+            ? header_distance(options.samples, samples.header)
+            : parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));
+    return box;
+}
+
+std::size_t count_outside(const BoxParams& box, const SampleFile& samples) {
+    return static_cast<std::size_t>(
+        std::count_if(samples.rows.begin(), samples.rows.end(), [&](const SampleRow& row) {
+            bool outside = false;
+            for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
+                outside |= !(row.position[axis] >= 0 && row.position[axis] <= box.extents[axis]);
+            }
+            return outside;
+        }));
+}
+
+std::string result_text(const VerifyBoxOptions& options, const BoxParams& box,
+                        const SampleFile& samples, const SpacingResult& result,
+                        std::size_t outside) {
+    std::ostringstream out;
+    out << "box           " << box_text(box) << '\n'
+        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
+        << '\n'
+        << "min distance  " << rounded(box.min_distance, 9) << '\n'
+        << "smallest      " << smallest_text(result, box.min_distance) << '\n';
+    print_violations(out, samples, result, false);
+    if (outside > 0) {
+        out << "outside       " << grouped(outside) << '\n';
+    }
+    return out.str();
+}
+
+std::string report_text(const VerifyBoxOptions& options, const BoxParams& box,
+                        const SampleFile& samples, const SpacingResult& result,
+                        std::size_t outside) {
+    return text_of(Json{{"version", GEODISK_VERSION_STRING},
+                        {"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}},
+                        {"samples_file", options.samples},
+                        {"samples", samples.rows.size()},
+                        {"min_distance", box.min_distance},
+                        {"cut", result.cut * box.min_distance},
+                        {"smallest", pair_json(result.closest)},
+                        {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json()},
+                        {"violations", violations_json(result)},
+                        {"outside", outside}});
+}
+
+} // namespace
+
+void verify_box(const VerifyBoxOptions& options) {
+    check_outputs(options.out, "", {{"the samples", options.samples}});
+    ProgressLine progress(options.out.quiet);
+    progress.begin_stage("reading the samples");
+    const SampleFile samples = read_box_samples(options.samples);
+    progress.clear();
+    const BoxParams box = box_of(options, samples);
+    const std::size_t outside = count_outside(box, samples);
+    const SpacingResult result = check_box_spacing(box, samples.rows, progress);
+    publish(options.out, report_text(options, box, samples, result, outside),
+            result_text(options, box, samples, result, outside));
+    std::string message = violation_text(result, rounded(box.min_distance, 9));
+    if (outside > 0) {
+        message += (message.empty() ? "" : ", and ") + counted(outside, "sample", "samples") +
+                   (outside == 1 ? " lies" : " lie") + " outside the box";
+    }
+    if (!message.empty()) {
+        throw UserError(ExitCode::violation, options.samples + ": " + message);
+    }
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,170 @@
+#include "geodisk/inputs/mesh_input.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "files/mesh_file.hpp"
+#include "geodisk/inputs/radii_input.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geometry/lift.hpp"
+#include "geometry/mesh.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+#include "program/stopwatch.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// The reader has told of faces that repeat a vertex or have no area.
+void print_warnings(const std::string& path, const MeshInput& mesh) {
+    for (const std::string& warning : mesh.file.warnings) {
+        print_warning(path + ": " + warning);
+    }
+    const std::uint64_t flat = mesh.prepared.statistics().zero_area_faces;
+    if (flat > 0 && !mesh.file.lengths.empty()) { // Which the reader does not judge.
+        print_warning(path + ": triangles without area kept: " + std::to_string(flat));
+    }
+    if (const std::uint64_t edges = mesh.prepared.statistics().nonmanifold_edges; edges > 0) {
+        print_warning(
+            path + ": " +
+            counted(edges, "edge joins three or more faces", "edges join three or more faces") +
+            "; distances count paths across all of them");
+    }
+}
+
+/// Normals of faces turned over against each other point apart, and so do vertices lifted by them.
+void warn_of_turned_faces(const std::string& path, const PreparedMesh& mesh) {
+    std::uint64_t sides = 0;
+    for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
+        const std::uint32_t around = mesh.half_edges()[h].around;
+        sides += around_same_way(around) && around_half_edge(around) != h ? 1u : 0u;
+    }
+    if (sides > 0) {
+        print_warning(path + ": " + counted((sides + 1) / 2, "edge has faces", "edges have faces") +
+                      " turned over against each other; --lift normals pulls them apart");
+    }
+}
+
+PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<const Lift> lifts) {
+    if (!file.lengths.empty()) {
+        const std::uint32_t vertices =
+            1 + *std::max_element(file.triangles.begin(), file.triangles.end());
+        return take(PreparedMesh::prepare({file.triangles, file.lengths, vertices}), path);
+    }
+    if (lifts.empty()) {
+        return take(PreparedMesh::prepare({file.positions, file.triangles, file.dimension}), path);
+    }
+    const LiftedPositions lifted = lifted_positions(path, file, lifts);
+    return take(PreparedMesh::prepare({lifted.positions, file.triangles, lifted.dimension}), path);
+}
+
+/// What the lifts and the density need of the mesh file.
+MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
+                       const DensityOptions& density) {
+    MeshSources sources{options.mesh, options.coordinates, options.edge_lengths,
+                        lift_attributes(lifts), !density.map.empty()};
+    if (!density.attribute.empty()) {
+        sources.attributes.push_back(density.attribute);
+    }
+    return sources;
+}
+
+std::vector<Lift> parse_lifts(const MeshOptions& options) {
+    if (!options.lifts.empty() && !options.edge_lengths.empty()) {
+        fail_usage("--lift and --edge-lengths contradict each other: lengths "
+                   "leave no coordinates to lift");
+    }
+    std::vector<Lift> lifts;
+    for (const std::string& text : options.lifts) {
+        lifts.push_back(parse_lift("--lift", text));
+    }
+    return lifts;
+}
+
+} // namespace
+
+std::array<double, 8> MeshInput::point(std::uint32_t face, const float (&weights)[3]) const {
+    std::array<double, 8> sum{};
+    for (std::uint32_t corner = 0; corner < 3 && dimension() > 0; ++corner) {
+        const auto position = vertex(face, corner);
+        for (std::size_t axis = 0; axis < position.size(); ++axis) {
+            sum[axis] += static_cast<double>(weights[corner]) * position[axis];
+        }
+    }
+    return sum;
+}
+
+Vec3 MeshInput::normal(std::uint32_t face) const {
+    if (dimension() != 3) {
+        return {};
+    }
+    const auto corner = [&](std::size_t k) {
+        return point_at(file.positions, file.triangles[std::size_t{3} * face + k]);
+    };
+    const Vec3 a = corner(0);
+    // Edges of unit length first: products of very short or long ones leave the range of double.
+    const Vec3 ab = corner(1) - a;
+    const Vec3 ac = corner(2) - a;
+    if (!(length(ab) > 0) || !(length(ac) > 0)) {
+        return {};
+    }
+    const Vec3 n = cross(normalize(ab), normalize(ac));
+    return length(n) > 0 ? normalize(n) : Vec3{};
+}
+
+void MeshInput::place(SampleRow& row) const {
+    const std::array<double, 8> position = point(row.face, row.bary);
+    std::copy(position.begin(), position.end(), row.position);
+    const Vec3 n = normal(row.face);
+    row.normal[0] = static_cast<float>(n.x);
+    row.normal[1] = static_cast<float>(n.y);
+    row.normal[2] = static_cast<float>(n.z);
+}
+
+MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
+                    const DensityOptions& density) {
+    const std::string& path = options.mesh;
+    const bool radii_vary = density.is_given();
+    const std::vector<Lift> lifts = parse_lifts(options);
+    progress.begin_stage("reading the mesh");
+    Stopwatch watch;
+    MeshFile file = read_mesh(sources_of(options, lifts, density));
+    const double load_seconds = watch.seconds();
+    check_interrupted();
+
+    progress.begin_stage("preparing the mesh");
+    watch = Stopwatch();
+    PreparedMesh prepared = prepare(path, file, lifts);
+    std::optional<RadiusField> radii;
+    std::string radii_warning;
+    if (radii_vary) {
+        LoadedRadii loaded = load_radii(density, path, file, prepared);
+        radii = std::move(loaded.field);
+        radii_warning = std::move(loaded.warning);
+    }
+    MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), load_seconds,
+                   watch.seconds()};
+    check_interrupted();
+    progress.clear();
+    print_warnings(path, mesh);
+    if (!radii_warning.empty()) {
+        print_warning(radii_warning);
+    }
+    if (lift_attributes(lifts).size() < lifts.size()) {
+        warn_of_turned_faces(path, mesh.prepared);
+    }
+    return mesh;
+}
+
+double distance_on_mesh(const Length& length, const MeshStatistics& mesh) {
+    if (length.is_percent && mesh.diagonal == 0) {
+        fail_usage("a mesh of edge lengths has no bounding box to take % of; "
+                   "give the distance in mesh units");
+    }
+    return length.in_mesh_units(mesh.diagonal);
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,58 @@
+// The mesh of a command, read and prepared, with all that is odd about it told to the user.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <geodisk/mesh.hpp>
+#include <geodisk/radius_field.hpp>
+
+#include "files/mesh_file.hpp"
+#include "files/sample_file.hpp"
+#include "geodisk/options/density_options.hpp"
+#include "geodisk/options/mesh_options.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geometry/mesh.hpp"
+#include "geometry/vec.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+struct MeshInput {
+    MeshFile file;
+    PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
+    std::optional<RadiusField> radii; ///< Where the options say that radii vary.
+    double load_seconds = 0;
+    double prepare_seconds = 0;
+
+    /// Coordinates of a sample: those of the file, 0 for a mesh of edge lengths without any.
+    std::uint32_t dimension() const { return file.positions.empty() ? 0 : file.dimension; }
+    std::span<const double> vertex(std::uint32_t face, std::uint32_t corner) const {
+        const std::uint32_t v = file.triangles[std::size_t{3} * face + corner];
+        return std::span(file.positions).subspan(std::size_t{v} * file.dimension, file.dimension);
+    }
+    /// The point of `face` with the given weights of its corners; zero beyond the dimension.
+    std::array<double, 8> point(std::uint32_t face, const float (&weights)[3]) const;
+    /// Of a sample there, in mesh units, where radii vary; else 0.
+    double radius(std::uint32_t face, const float (&weights)[3], double min_distance) const {
+        return radii ? radii->factor_at(face, weights) * min_distance / 2 : 0;
+    }
+    /// Of unit length; zero for a face without area and for a mesh that is not in space.
+    Vec3 normal(std::uint32_t face) const;
+    /// Sets position and normal of `row` by its face and weights.
+    void place(SampleRow& row) const;
+};
+
+/// Reads and prepares a mesh and writes warnings to standard error. Throws UserError as
+/// read_mesh(), lifted_positions() and load_radii(), or bad_input when the mesh is rejected.
+MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
+                    const DensityOptions& density = {});
+
+/// `length` in mesh units. Throws UserError(usage) for % of a mesh that has no bounding box.
+double distance_on_mesh(const Length& length, const MeshStatistics& mesh);
+
+} // namespace geodisk::tools

@@ -1,0 +1,27 @@
+// The radii of a command's mesh, from the files and numbers that its options name.
+#pragma once
+
+#include <string>
+
+#include <geodisk/mesh.hpp>
+#include <geodisk/radius_field.hpp>
+
+#include "geodisk/options/density_options.hpp"
+#include "geometry/mesh.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+struct LoadedRadii {
+    RadiusField field;
+    std::string warning; ///< Empty without.
+};
+
+/// The factors at the vertices of the mesh at `path`, which must have been read with what the
+/// options need: for an attribute as the last one of `file`, for an image with texture coordinates.
+///
+/// Throws UserError(bad_input) naming the source of a value that is no factor, and its vertex.
+LoadedRadii load_radii(const DensityOptions& options, const std::string& path, const MeshFile& file,
+                       const PreparedMesh& mesh);
+
+} // namespace geodisk::tools

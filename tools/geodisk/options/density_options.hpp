@@ -1,0 +1,31 @@
+// The options that say how radii vary over a mesh, the same for every command that takes them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/sample_file.hpp"
+#include "geodisk/options/run_options.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+/// As given on the command line.
+struct DensityOptions {
+    std::string attribute, file, map, floor;
+    bool curvature = false;
+
+    /// Whether radii vary at all. Throws UserError(usage) for options that contradict each other.
+    bool is_given() const;
+    /// The least factor, or nothing where values stay as they are.
+    std::optional<double> least_factor() const;
+    /// The files that are read, called `what`.
+    std::vector<NamedFile> files(const std::string& what) const;
+    /// Name and value of what is given, as the header of a sample file names it.
+    HeaderEntries additions() const;
+};
+
+void add_density_options(CLI::App& command, DensityOptions& options);
+
+} // namespace geodisk::tools

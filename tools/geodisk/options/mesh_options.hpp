@@ -1,0 +1,38 @@
+// The options that say what a mesh is, the same for every command that takes one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files/sample_file.hpp"
+#include "geodisk/options/run_options.hpp"
+
+namespace geodisk::tools {
+
+/// As given on the command line.
+struct MeshOptions {
+    std::string mesh, coordinates, edge_lengths;
+    std::vector<std::string> lifts;
+
+    /// The files that are read, called `what`.
+    std::vector<NamedFile> files(const std::string& what) const;
+    /// Name and value of what shapes the surface besides the mesh file, as the header of a sample
+    /// file names it.
+    HeaderEntries additions() const;
+};
+
+/// Adds the argument `name`, described by `summary`.
+void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary,
+                       const std::string& name = "MESH");
+
+/// Adds the files beside the mesh `mesh_name`; `suffix` ends the options' names.
+void add_sidecar_options(CLI::App& command, MeshOptions& options, const std::string& mesh_name,
+                         const std::string& suffix = "");
+
+/// Adds --lift, with `suffix`.
+void add_lift_option(CLI::App& command, MeshOptions& options, const std::string& suffix = "");
+
+/// Adds all options besides MESH.
+void add_mesh_options(CLI::App& command, MeshOptions& options);
+
+} // namespace geodisk::tools

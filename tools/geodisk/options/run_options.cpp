@@ -1,0 +1,46 @@
+#include "geodisk/options/run_options.hpp"
+
+#include "program/arguments.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+
+void add_output_argument(CLI::App& command, OutputOptions& options, const std::string& summary) {
+    add_option(command, "-o,--output", options.output, "OUT", summary)->required();
+}
+
+void add_json_option(CLI::App& command, OutputOptions& options) {
+    add_option(command, "--json", options.json, "FILE",
+               "Write a report as JSON, - for standard output");
+}
+
+void add_output_options(CLI::App& command, OutputOptions& options) {
+    add_json_option(command, options);
+    command.add_flag("--ascii", options.ascii, "Write PLY as text");
+    command.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
+}
+
+std::uint64_t RunOptions::parsed_seed() const {
+    return parse_seed("--seed", seed);
+}
+
+std::uint64_t RunOptions::pool_bytes() const {
+    return parse_bytes("--memory", memory);
+}
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+    add_option(command, "--seed", options.seed, "S", "64-bit seed; equal seeds give equal samples")
+        ->capture_default_str();
+    add_option(command, "--device", options.device, "NAME|INDEX",
+               "Device by name, index or UUID (geodisk info)");
+    add_option(command, "--memory", options.memory, "BYTES",
+               "Most bytes on the device for disks in progress, with\n"
+               "K, M or G; does not change the samples")
+        ->capture_default_str();
+    command
+        .add_flag("--validate", options.validate,
+                  "Run with the Vulkan validation layer, fail on any message")
+        ->group("Development");
+}
+
+} // namespace geodisk::tools

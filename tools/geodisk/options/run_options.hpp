@@ -1,0 +1,53 @@
+// The options that several commands share: how to run on a device, and where results go.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "program/failure.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace geodisk::tools {
+
+/// A file of the command line, and what it is to the user: "the mesh".
+struct NamedFile {
+    std::string what, path;
+};
+
+/// What a command leaves behind, as given on the command line.
+struct OutputOptions {
+    std::string output; ///< The samples.
+    std::string json;   ///< The report for programs; "-" is standard output. Or "".
+    bool ascii = false, quiet = false;
+
+    /// Whether to print the results for people.
+    bool has_summary() const { return !quiet && json != "-"; }
+};
+
+/// Adds -o, described by `summary`.
+void add_output_argument(CLI::App& command, OutputOptions& options,
+                         const std::string& summary = "File to write: *.ply (binary), *.csv or "
+                                                      "*.xyz (positions only)");
+
+void add_json_option(CLI::App& command, OutputOptions& options);
+
+/// Adds --json, --ascii and --quiet.
+void add_output_options(CLI::App& command, OutputOptions& options);
+
+/// How to sample on a device, as given on the command line.
+struct RunOptions {
+    std::string seed = "0", device, memory = "256M";
+    bool validate = false;
+
+    /// Throw UserError(usage) naming the option whose value will not do.
+    std::uint64_t parsed_seed() const;
+    std::uint64_t pool_bytes() const;
+};
+
+void add_run_options(CLI::App& command, RunOptions& options);
+
+} // namespace geodisk::tools

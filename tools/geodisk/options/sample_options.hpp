@@ -1,0 +1,54 @@
+// The options of `geodisk sample`, and the job that they ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <geodisk/runner.hpp>
+
+#include "geodisk/options/density_options.hpp"
+#include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/run_options.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+/// As given on the command line.
+struct SampleOptions {
+    MeshOptions mesh;
+    DensityOptions density;
+    OutputOptions out;
+    RunOptions run;
+    std::string min_distance, radius, count, throws;
+    std::string method = "psdp", metric = "geodesic", pool_ratio = "20";
+    bool has_pool_ratio = false, count_calls = false;
+};
+
+/// Adds all options of the command; `options` must outlive the parsing.
+void add_sample_options(CLI::App& command, SampleOptions& options);
+
+/// What is asked for, checked as far as that is possible without the mesh.
+struct SampleJob {
+    MeshOptions mesh;
+    DensityOptions density;
+    OutputOptions out;
+    RunOptions run;
+    std::string metric;                 ///< "geodesic", or one that is not along the surface.
+    bool throws_darts = false;          ///< --method pdts.
+    bool counts_calls = false;          ///< --count-calls.
+    std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
+    double wanted_count = 0;            ///< Of --count, where it chooses the distance; else 0.
+    SampleParams params;                ///< All but the distance and the radii.
+    RunnerOptions runner;
+
+    bool is_geodesic() const { return metric == "geodesic"; }
+
+    /// What shapes the surface and its radii besides the mesh file, as the header names it.
+    HeaderEntries additions() const;
+};
+
+/// Throws UserError(usage) for values out of range and options that contradict each other.
+SampleJob parse_job(const SampleOptions& options);
+
+} // namespace geodisk::tools

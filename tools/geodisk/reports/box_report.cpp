@@ -1,0 +1,109 @@
+#include "geodisk/reports/box_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include <geodisk/version.hpp>
+
+#include "geodisk/reports/run_report.hpp"
+#include "program/exact_text.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// "1 x 0.5 x 2".
+std::string sides_text(const BoxParams& box, std::string (*text)(double side)) {
+    std::string sides;
+    for (const double side : box.extents) {
+        sides += (sides.empty() ? "" : " x ") + text(side);
+    }
+    return sides;
+}
+
+/// "open" or "periodic".
+const char* kind_text(const BoxParams& box) {
+    return box.is_periodic ? "periodic" : "open";
+}
+
+} // namespace
+
+std::string box_text(const BoxParams& box) {
+    return sides_text(box, [](double side) { return rounded(side, 6); }) + ", " + kind_text(box);
+}
+
+double diagonal_of(const BoxParams& box) {
+    const double longest = *std::max_element(box.extents.begin(), box.extents.end());
+    double sum = 0;
+    for (const double side : box.extents) {
+        sum += (side / longest) * (side / longest);
+    }
+    return longest * std::sqrt(sum);
+}
+
+BoxReport::BoxReport(const BoxJob& job, std::size_t samples, const DeviceRun& done)
+    : job_(job), done_(done), samples_(samples) {
+    // Volume of the unit ball: pi^(n/2) / Gamma(n/2 + 1).
+    const auto n = static_cast<double>(job.box.extents.size());
+    density_ =
+        static_cast<double>(samples_) * std::pow(std::numbers::pi, n / 2) / std::tgamma(n / 2 + 1);
+    for (const double side : job.box.extents) {
+        density_ *= job.box.min_distance / 2 / side;
+    }
+}
+
+SampleHeader BoxReport::header() const {
+    return {{{"version", "geodisk " GEODISK_VERSION_STRING},
+             {"box", sides_text(job_.box, exact_text<double>)},
+             {"sides", kind_text(job_.box)},
+             {"min_distance", exact_text(job_.box.min_distance)},
+             {"seed", exact_text(job_.box.seed)},
+             {"pool_size", exact_text(done_.run.candidates)},
+             {"device", done_.device.name},
+             {"driver", driver_text(done_.device)}}};
+}
+
+std::string BoxReport::json(double write_seconds) const {
+    const RunReport& run = done_.run;
+    Json document{{"version", GEODISK_VERSION_STRING},
+                  {"box",
+                   {{"dimension", job_.box.extents.size()},
+                    {"extents", job_.box.extents},
+                    {"periodic", job_.box.is_periodic}}},
+                  {"output", job_.out.output},
+                  {"min_distance", job_.box.min_distance},
+                  {"seed", job_.box.seed},
+                  {"pool_ratio", job_.box.pool_ratio},
+                  {"candidates", run.candidates},
+                  {"chunks", run.chunks},
+                  {"samples", samples_},
+                  {"density", density_},
+                  {"iterations", run.iterations},
+                  {"dispatches", run.dispatches},
+                  {"disks", run.disks},
+                  {"rows", run.windows},
+                  {"tested", run.tested},
+                  {"most_conflicts", run.most_conflicts},
+                  {"regrown", run.regrown}};
+    document.update(run_json(done_, stage_seconds({}, done_, write_seconds)));
+    return text_of(document);
+}
+
+std::string BoxReport::summary(double write_seconds) const {
+    std::ostringstream out;
+    out << "box           " << box_text(job_.box) << '\n'
+        << "min distance  " << rounded(job_.box.min_distance, 6) << '\n'
+        << "samples       " << grouped(samples_);
+    if (job_.wanted_count > 0) {
+        out << " of about " << grouped(static_cast<std::uint64_t>(job_.wanted_count))
+            << " asked for";
+    }
+    out << ", disks fill " << rounded(100 * density_, 3) << " %\n"
+        << "candidates    " << grouped(done_.run.candidates) << ", seed " << job_.box.seed << '\n'
+        << run_text(done_, stage_seconds({}, done_, write_seconds), job_.out.output);
+    return out.str();
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,48 @@
+// What `geodisk sample` tells about a run: to people, to programs, and in the sample file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files/sample_file.hpp"
+#include "geodisk/device_run.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/sample_options.hpp"
+#include "geodisk/reports/run_report.hpp"
+
+namespace geodisk::tools {
+
+/// What came of a job.
+struct SampleResult {
+    SampleParams params; ///< Of the job, on its mesh.
+    DeviceRun done;
+    std::vector<SampleRow> rows;
+};
+
+/// Tells of a job, its mesh and its result, which must outlive the report.
+class SampleReport {
+  public:
+    SampleReport(const SampleJob& job, const MeshInput& mesh, const SampleResult& result);
+
+    /// Nothing in it depends on when or how fast the run was, so equal runs give equal files.
+    SampleHeader header() const;
+
+    /// One JSON object and a line break. Writing the samples took `write_seconds`.
+    std::string json(double write_seconds) const;
+
+    std::string summary(double write_seconds) const;
+
+  private:
+    SecondsByStage seconds(double write_seconds) const;
+    const char* stopped_by() const;
+    std::string samples_text() const;
+
+    const SampleJob& job_;
+    const MeshInput& mesh_;
+    const SampleResult& result_;
+    std::size_t samples_;
+    double rho_; ///< Where radii vary, of the samples on a surface of the effective area.
+    double least_radius_ = 0, most_radius_ = 0; ///< Of the samples, where radii vary; else 0.
+};
+
+} // namespace geodisk::tools

@@ -1,0 +1,69 @@
+#include "program/exact_text.hpp"
+
+#include <limits>
+
+namespace geodisk::tools {
+
+void split_tokens(std::string_view line, std::vector<std::string_view>& tokens) {
+    constexpr std::string_view kBlanks = " \t";
+    tokens.clear();
+    std::size_t begin = line.find_first_not_of(kBlanks);
+    while (begin != std::string_view::npos) {
+        const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
+        tokens.push_back(line.substr(begin, end - begin));
+        begin = line.find_first_not_of(kBlanks, end);
+    }
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(" \t");
+    if (begin == std::string_view::npos) {
+        return {};
+    }
+    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+namespace {
+
+/// std::from_chars reports "too big" and "too small" alike; the digits tell which.
+double out_of_range_value(std::string_view text) {
+    const bool negative = text.starts_with('-');
+    const std::size_t exponent = text.find_first_of("eE");
+    const bool small = exponent != std::string_view::npos
+                           ? text.substr(exponent + 1).starts_with('-')
+                           : text.find_first_of("123456789") > text.find('.');
+    const double magnitude = small ? 0.0 : std::numeric_limits<double>::infinity();
+    return negative ? -magnitude : magnitude;
+}
+
+} // namespace
+
+std::optional<double> parse_real(std::string_view text) {
+    if (text.starts_with('+')) {
+        text.remove_prefix(1);
+        if (text.starts_with('-')) {
+            return std::nullopt;
+        }
+    }
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc::invalid_argument || stop != end) {
+        return std::nullopt;
+    }
+    return error == std::errc::result_out_of_range ? out_of_range_value(text) : value;
+}
+
+std::string csv_cell(std::string_view text) {
+    if (text.find_first_of(",\"#\n") == std::string_view::npos) {
+        return std::string(text);
+    }
+    std::string cell = "\"";
+    for (const char character : text) {
+        cell += character;
+        cell += character == '"' ? "\"" : "";
+    }
+    return cell + '"';
+}
+
+} // namespace geodisk::tools
