@@ -1,6 +1,7 @@
 #include "baselines/phase_groups.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
 #include <numeric>
@@ -19,16 +20,15 @@ struct GroupedCandidate {
     auto operator<=>(const GroupedCandidate&) const = default;
 };
 
-std::vector<GroupedCandidate> grouped(std::span<const std::array<double, 3>> positions,
-                                      double side) {
+std::vector<GroupedCandidate> grouped(std::span<const glm::dvec3> positions, double side) {
     // With side * sqrt(3) as the minimum distance, two cells between those of a group are enough.
     constexpr std::int64_t kPerAxis = 3;
     std::vector<GroupedCandidate> candidates;
     for (std::uint32_t rank = 0; rank < positions.size(); ++rank) {
         GroupedCandidate candidate{0, {}, rank};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < 3; ++axis) {
             const auto place = static_cast<std::int64_t>(std::floor(positions[rank][axis] / side));
-            candidate.cell[axis] = place;
+            candidate.cell[static_cast<std::size_t>(axis)] = place;
             candidate.group = candidate.group * kPerAxis + (place % kPerAxis + kPerAxis) % kPerAxis;
         }
         candidates.push_back(candidate);
@@ -118,7 +118,7 @@ void throw_level(const Box& box, const Level& level, std::uint32_t trials, Rando
 
 } // namespace
 
-PhaseGroups::PhaseGroups(std::span<const std::array<double, 3>> positions, double min_distance) {
+PhaseGroups::PhaseGroups(std::span<const glm::dvec3> positions, double min_distance) {
     const std::vector<GroupedCandidate> candidates =
         grouped(positions, min_distance / std::sqrt(3.0));
     for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -2,10 +2,11 @@
 // group after group in a fixed order. Here one after the other, with the same result.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "baselines/box.hpp"
 #include "baselines/disk_query.hpp"
@@ -18,7 +19,7 @@ namespace geodisk::ref {
 class PhaseGroups {
   public:
     /// Sorts a pool, given by its positions in space, into cells.
-    PhaseGroups(std::span<const std::array<double, 3>> positions, double min_distance);
+    PhaseGroups(std::span<const glm::dvec3> positions, double min_distance);
 
     /// Group by group each cell throws one dart per trial, its next candidate in rank order, until
     /// it has none left. A dart that an accepted one has removed costs its trial. `disks` has the

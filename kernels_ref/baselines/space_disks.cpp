@@ -5,28 +5,17 @@
 #include <limits>
 #include <numeric>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 namespace geodisk::ref {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector difference(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-void add_scaled(Vector& sum, double factor, const Vector& v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        sum[axis] += factor * v[axis];
-    }
-}
+using Vector = glm::dvec3;
 
 Vector unit(const Vector& v, const Vector& otherwise) {
-    const double length = std::sqrt(dot(v, v));
-    return length > 0 ? Vector{v[0] / length, v[1] / length, v[2] / length} : otherwise;
+    const double size = length(v);
+    return size > 0 ? v / size : otherwise;
 }
 
 /// The corners of face f.
@@ -41,41 +30,34 @@ std::array<Vector, 3> corners_of(const MeshView& mesh, std::uint32_t f) {
 
 /// Normal of a face, of twice its area in length.
 Vector face_normal(const std::array<Vector, 3>& corners) {
-    const Vector u = difference(corners[1], corners[0]);
-    const Vector v = difference(corners[2], corners[0]);
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    return cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
 /// The bounding box, moved to the origin. A flat one is given some thickness.
 Box bounds(std::span<const OrientedPoint> points, double thickness, Vector& corner) {
     constexpr double kFarther = 1 + 1e-9; // The farthest points lie inside.
-    corner.fill(std::numeric_limits<double>::infinity());
-    Vector most;
-    most.fill(-std::numeric_limits<double>::infinity());
+    corner = Vector(std::numeric_limits<double>::infinity());
+    Vector most = -corner;
     for (const OrientedPoint& point : points) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            corner[axis] = std::min(corner[axis], point.position[axis]);
-            most[axis] = std::max(most[axis], point.position[axis]);
-        }
+        corner = min(corner, point.position);
+        most = max(most, point.position);
     }
+    const Vector size = max((most - corner) * kFarther, thickness);
     Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.sides.push_back(std::max((most[axis] - corner[axis]) * kFarther, thickness));
-    }
+    box.sides = {size.x, size.y, size.z};
     return box;
 }
 
 } // namespace
 
 double straight_length(const OrientedPoint& a, const OrientedPoint& b) {
-    const Vector way = difference(b.position, a.position);
-    return std::sqrt(dot(way, way));
+    return distance(a.position, b.position);
 }
 
 double curve_length(const OrientedPoint& a, const OrientedPoint& b) {
     // Below it the quotient loses more digits than its limit is off.
     constexpr double kSameAngle = 1e-6;
-    const Vector way = difference(b.position, a.position);
+    const Vector way = b.position - a.position;
     const double straight = straight_length(a, b);
     if (straight == 0) {
         return 0;
@@ -91,11 +73,10 @@ double curve_length(const OrientedPoint& a, const OrientedPoint& b) {
 
 std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
                                            std::span<const FacePoint<double>> points) {
-    std::vector<Vector> normals(mesh.positions.size() / 3, Vector{});
+    std::vector<Vector> normals(mesh.positions.size() / 3, Vector());
     for (std::uint32_t f = 0; f < mesh.triangles.size() / 3; ++f) {
         for (std::size_t k = 0; k < 3; ++k) {
-            add_scaled(normals[mesh.triangles[std::size_t{3} * f + k]], 1,
-                       face_normal(corners_of(mesh, f)));
+            normals[mesh.triangles[std::size_t{3} * f + k]] += face_normal(corners_of(mesh, f));
         }
     }
     std::vector<OrientedPoint> result;
@@ -104,12 +85,12 @@ std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
         const std::array<Vector, 3> corners = corners_of(mesh, point.face);
         const Vector flat = unit(face_normal(corners), {0, 0, 1});
         const double weights[3] = {1 - point.weight1 - point.weight2, point.weight1, point.weight2};
-        Vector position{};
-        Vector normal{};
+        Vector position;
+        Vector normal;
         for (std::size_t k = 0; k < 3; ++k) {
-            add_scaled(position, weights[k], corners[k]);
-            add_scaled(normal, weights[k],
-                       unit(normals[mesh.triangles[std::size_t{3} * point.face + k]], flat));
+            position += weights[k] * corners[k];
+            normal +=
+                weights[k] * unit(normals[mesh.triangles[std::size_t{3} * point.face + k]], flat);
         }
         result.push_back({position, unit(normal, flat)});
     }
@@ -135,7 +116,8 @@ SpaceDisks::SpaceDisks(std::span<const OrientedPoint> by_rank, double min_distan
 }
 
 std::array<double, 3> SpaceDisks::in_box(const OrientedPoint& point) const {
-    return difference(point.position, corner_);
+    const Vector place = point.position - corner_;
+    return {place.x, place.y, place.z};
 }
 
 void SpaceDisks::find(std::uint32_t center, std::span<const std::uint8_t> wanted,
@@ -149,7 +131,7 @@ void SpaceDisks::find(std::uint32_t center, std::span<const std::uint8_t> wanted
                 continue;
             }
             const OrientedPoint& to = points_[place];
-            const Vector way = difference(to.position, from.position);
+            const Vector way = to.position - from.position;
             if (dot(way, way) < min_distance_ * min_distance_ &&
                 length_(from, to) < min_distance_) {
                 found.push_back(rank);

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "baselines/box.hpp"
 #include "baselines/disk_query.hpp"
 #include "geodisk/mesh.hpp"
@@ -17,7 +19,7 @@ namespace geodisk::ref {
 
 /// A point of a surface in space, with its unit normal.
 struct OrientedPoint {
-    std::array<double, 3> position, normal;
+    glm::dvec3 position, normal;
 };
 
 /// Length of the straight line, normals aside.
@@ -47,7 +49,7 @@ class SpaceDisks : public DiskQuery {
 
     double min_distance_;
     Length length_;
-    std::array<double, 3> corner_{}; ///< Of the bounding box.
+    glm::dvec3 corner_; ///< Of the bounding box.
     BoxCells cells_;
     std::vector<std::uint32_t> starts_; ///< One more than cells.
     std::vector<std::uint32_t> ranks_;  ///< By cell.

@@ -72,7 +72,7 @@ struct Scene {
     PreparedMesh prepared_mesh;
     Darts darts;
     std::vector<ref::OrientedPoint> points;
-    std::vector<std::array<double, 3>> positions;
+    std::vector<Vec3> positions;
 
     Scene(const TestMesh& of, double count) : mesh(of), prepared_mesh(prepared(of)) {
         darts = thrown<double>(prepared_mesh, params_for(prepared_mesh, count));
@@ -162,7 +162,8 @@ TEST_CASE("phase groups: darts of different cells of a group cannot conflict") {
     const auto cell_of = [&](std::uint32_t rank) {
         std::array<int, 3> cell{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            cell[axis] = static_cast<int>(std::floor(scene.positions[rank][axis] / side));
+            const double x = scene.positions[rank][static_cast<int>(axis)];
+            cell[axis] = static_cast<int>(std::floor(x / side));
         }
         return cell;
     };
@@ -197,7 +198,7 @@ TEST_CASE("curve length: exact on planes and spheres, never below the straight l
     CHECK(ref::curve_length(flat[0], flat[1]) == doctest::Approx(5).epsilon(1e-12));
     CHECK(ref::curve_length(flat[0], flat[0]) == 0);
     for (const double angle : {1e-9, 1e-5, 0.1, 1.0, 3.0}) {
-        const std::array<double, 3> there{std::sin(angle), std::cos(angle), 0};
+        const Vec3 there{std::sin(angle), std::cos(angle), 0};
         const ref::OrientedPoint sphere[] = {{{0, 1, 0}, {0, 1, 0}}, {there, there}};
         CHECK(ref::curve_length(sphere[0], sphere[1]) == doctest::Approx(angle).epsilon(1e-6));
     }
@@ -205,9 +206,7 @@ TEST_CASE("curve length: exact on planes and spheres, never below the straight l
     for (std::size_t i = 0; i < 100; ++i) {
         const ref::OrientedPoint& a = scene.points[i];
         const ref::OrientedPoint& b = scene.points[i + 100];
-        const double straight =
-            std::hypot(a.position[0] - b.position[0], a.position[1] - b.position[1],
-                       a.position[2] - b.position[2]);
+        const double straight = length(a.position - b.position);
         CHECK(ref::curve_length(a, b) >= straight * (1 - 1e-12));
         CHECK(ref::curve_length(a, b) == doctest::Approx(ref::curve_length(b, a)));
     }
@@ -220,8 +219,7 @@ TEST_CASE("oriented points: positions and normals of a sphere") {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3 at = mesh.position(points[i]);
         const auto& [position, normal] = oriented[i];
-        CHECK(length(Vec3{position[0], position[1], position[2]} - at) < 1e-15);
-        const double cosine = (normal[0] * at.x + normal[1] * at.y + normal[2] * at.z) / length(at);
-        CHECK(cosine > 0.999);
+        CHECK(length(position - at) < 1e-15);
+        CHECK(dot(normal, at) / length(at) > 0.999);
     }
 }

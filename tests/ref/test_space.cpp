@@ -26,11 +26,11 @@ TEST_CASE("space: sets of straight distances are those of brute force") {
                 positions.push_back(mesh.position(p));
             }
             const double limit = params.min_distance * (1 + points.guard);
-            const auto brute = ref::throw_brute_force(
-                static_cast<std::uint32_t>(positions.size()),
-                [&](std::uint32_t a, std::uint32_t b) {
-                    return glm::length(positions[a] - positions[b]) < limit;
-                });
+            const auto brute =
+                ref::throw_brute_force(static_cast<std::uint32_t>(positions.size()),
+                                       [&](std::uint32_t a, std::uint32_t b) {
+                                           return glm::length(positions[a] - positions[b]) < limit;
+                                       });
             CHECK(ref::throw_darts(ref::space_pool<double>(points, false)) == brute);
             CHECK(ref::throw_darts(ref::space_pool<float>(points, false)) == brute);
             // Curves are no shorter, so they leave room for as many at least.

@@ -1,11 +1,9 @@
-// Points and vectors in space and in the plane: GLM's, zero when not given a value. The only place
-// of the tools that includes GLM, so that its configuration is the same everywhere.
+// Points and vectors: GLM's, zero when not given a value.
 #pragma once
 
 #include <cstddef>
 #include <span>
 
-#define GLM_FORCE_CTOR_INIT
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

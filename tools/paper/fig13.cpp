@@ -1,7 +1,6 @@
 // Fig. 13: what the closed form of Bowers et al. 2010 saves against exact distances, and priorities
 // beside phase groups with the same closed form (section 6.1).
 #include <algorithm>
-#include <array>
 #include <iostream>
 #include <memory>
 
@@ -47,7 +46,7 @@ Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
                    std::uint32_t trials) {
     const double distance = pool.params.min_distance;
     const auto points = ref::oriented_points(mesh.view(), pool.by_rank);
-    std::vector<std::array<double, 3>> positions;
+    std::vector<glm::dvec3> positions;
     for (const ref::OrientedPoint& point : points) {
         positions.push_back(point.position);
     }
