@@ -23,7 +23,6 @@
 #pragma GCC diagnostic pop
 
 namespace geodisk::tools {
-
 namespace {
 
 /// The index of the pixel, for an image that repeats.

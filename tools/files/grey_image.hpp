@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 class GreyImage {

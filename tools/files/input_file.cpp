@@ -8,7 +8,6 @@
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 struct FileCloser {

@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 /// The bytes of the regular file `path`. Throws UserError(bad_input) when it is missing, a folder

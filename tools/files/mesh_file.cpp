@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
@@ -12,7 +11,6 @@
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sidecar_files.hpp"
-#include "geometry/mesh.hpp"
 #include "geometry/polygon_triangulation.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -20,7 +18,6 @@
 #include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 using Path = std::filesystem::path;

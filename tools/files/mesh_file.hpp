@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "geometry/mesh.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

@@ -9,7 +9,6 @@
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 std::string header_of(const MeshFile& mesh, std::size_t vertices) {

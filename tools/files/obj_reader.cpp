@@ -17,7 +17,6 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 /// Steps through the logical lines of a text: continued lines joined, comments removed.

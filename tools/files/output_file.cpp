@@ -1,7 +1,6 @@
 #include "files/output_file.hpp"
 
 #include <cerrno>
-#include <string>
 #include <system_error>
 
 #include "program/failure.hpp"
@@ -13,7 +12,6 @@
 #endif
 
 namespace geodisk::tools {
-
 namespace {
 
 /// 0 or an errno value.

@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 /// Writes to a temporary file beside `target` that commit() moves into its place. Without commit()

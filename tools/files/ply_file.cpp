@@ -1,9 +1,6 @@
 #include "files/ply_file.hpp"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 
 #include "files/input_file.hpp"
 #include "program/exact_text.hpp"
@@ -11,50 +8,7 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-
 namespace {
-
-struct TypeName {
-    std::string_view name;
-    PlyType type;
-};
-
-constexpr std::array<TypeName, 16> kTypeNames{{
-    {"char", PlyType::int8},
-    {"int8", PlyType::int8},
-    {"uchar", PlyType::uint8},
-    {"uint8", PlyType::uint8},
-    {"short", PlyType::int16},
-    {"int16", PlyType::int16},
-    {"ushort", PlyType::uint16},
-    {"uint16", PlyType::uint16},
-    {"int", PlyType::int32},
-    {"int32", PlyType::int32},
-    {"uint", PlyType::uint32},
-    {"uint32", PlyType::uint32},
-    {"float", PlyType::float32},
-    {"float32", PlyType::float32},
-    {"double", PlyType::float64},
-    {"float64", PlyType::float64},
-}};
-
-constexpr std::size_t size_of(PlyType type) {
-    switch (type) {
-    case PlyType::int8:
-    case PlyType::uint8:
-        return 1;
-    case PlyType::int16:
-    case PlyType::uint16:
-        return 2;
-    case PlyType::int32:
-    case PlyType::uint32:
-    case PlyType::float32:
-        return 4;
-    case PlyType::float64:
-        return 8;
-    }
-    return 0;
-}
 
 template <typename Value>
 double value_of(const unsigned char* bytes) {
@@ -63,26 +17,26 @@ double value_of(const unsigned char* bytes) {
     return static_cast<double>(value);
 }
 
-double value_of(PlyType type, const unsigned char* bytes) {
-    switch (type) {
-    case PlyType::int8:
-        return value_of<std::int8_t>(bytes);
-    case PlyType::uint8:
-        return value_of<std::uint8_t>(bytes);
-    case PlyType::int16:
-        return value_of<std::int16_t>(bytes);
-    case PlyType::uint16:
-        return value_of<std::uint16_t>(bytes);
-    case PlyType::int32:
-        return value_of<std::int32_t>(bytes);
-    case PlyType::uint32:
-        return value_of<std::uint32_t>(bytes);
-    case PlyType::float32:
-        return value_of<float>(bytes);
-    case PlyType::float64:
-        return value_of<double>(bytes);
-    }
-    return 0;
+struct TypeInfo {
+    std::string_view name, other_name;
+    std::size_t size;
+    double (*value)(const unsigned char* bytes); ///< In the byte order of this machine.
+};
+
+/// By PlyType.
+constexpr std::array<TypeInfo, 8> kTypes{{
+    {"char", "int8", 1, value_of<std::int8_t>},
+    {"uchar", "uint8", 1, value_of<std::uint8_t>},
+    {"short", "int16", 2, value_of<std::int16_t>},
+    {"ushort", "uint16", 2, value_of<std::uint16_t>},
+    {"int", "int32", 4, value_of<std::int32_t>},
+    {"uint", "uint32", 4, value_of<std::uint32_t>},
+    {"float", "float32", 4, value_of<float>},
+    {"double", "float64", 8, value_of<double>},
+}};
+
+const TypeInfo& info_of(PlyType type) {
+    return kTypes[static_cast<std::size_t>(type)];
 }
 
 /// A list count must be a whole number that the rest of the file can hold.
@@ -214,9 +168,9 @@ void PlyFile::parse_element(const std::vector<std::string_view>& tokens) {
 
 void PlyFile::parse_property(const std::vector<std::string_view>& tokens) {
     const auto type_named = [this](std::string_view name) {
-        for (const TypeName& entry : kTypeNames) {
-            if (entry.name == name) {
-                return entry.type;
+        for (std::size_t i = 0; i < kTypes.size(); ++i) {
+            if (name == kTypes[i].name || name == kTypes[i].other_name) {
+                return PlyType{static_cast<std::uint8_t>(i)};
             }
         }
         fail_header("unknown property type " + in_quotes(name));
@@ -300,7 +254,7 @@ void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, 
 }
 
 std::optional<double> PlyFile::read_binary_value(PlyType type) {
-    const std::size_t size = size_of(type);
+    const std::size_t size = info_of(type).size;
     if (bytes_.size() - position_ < size) {
         return std::nullopt;
     }
@@ -311,7 +265,7 @@ std::optional<double> PlyFile::read_binary_value(PlyType type) {
     if (file_is_little != (std::endian::native == std::endian::little)) {
         std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     }
-    return value_of(type, bytes.data());
+    return info_of(type).value(bytes.data());
 }
 
 void PlyFile::read_binary_record(const PlyElement& element, std::uint64_t index,
@@ -330,7 +284,7 @@ void PlyFile::read_binary_record(const PlyElement& element, std::uint64_t index,
             continue;
         }
         const double count = read_value(*property.count_type);
-        const std::size_t room = (bytes_.size() - position_) / size_of(property.type);
+        const std::size_t room = (bytes_.size() - position_) / info_of(property.type).size;
         const std::optional<std::size_t> size = list_size(count, room);
         if (!size) {
             fail(element, index,
@@ -347,7 +301,7 @@ void PlyFile::read_binary_record(const PlyElement& element, std::uint64_t index,
 std::size_t PlyFile::possible_records(const PlyElement& element) const {
     std::size_t smallest = 1;
     for (const PlyProperty& property : element.properties) {
-        const std::size_t in_binary = size_of(property.count_type.value_or(property.type));
+        const std::size_t in_binary = info_of(property.count_type.value_or(property.type)).size;
         smallest += format_ == Format::ascii ? 1 : in_binary;
     }
     const std::size_t room = (bytes_.size() - position_) / std::max<std::size_t>(1, smallest - 1);

@@ -13,8 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };

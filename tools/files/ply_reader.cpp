@@ -12,7 +12,6 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 /// The properties x0, x1 and so on.

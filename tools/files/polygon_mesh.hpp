@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 struct PolygonMesh {

@@ -9,9 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh.hpp"
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 /// One sample. `position` holds as many coordinates as its file or mesh has. `bary` are the weights

@@ -13,7 +13,6 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 /// Where each column of a sample stands in the file.
@@ -106,31 +105,20 @@ bool set_index(std::uint32_t& index, double value) {
     return static_cast<double>(index) == value;
 }
 
-/// False if `value` makes no sense in that column.
+/// False if `value` makes no sense in that column, which is no coordinate.
 bool set_value(SampleRow& row, SampleColumn column, double value) {
-    const std::size_t i = static_cast<std::size_t>(column);
-    switch (column) {
-    case SampleColumn::x:
-    case SampleColumn::y:
-    case SampleColumn::z:
-        break; // Read as coordinates.
-    case SampleColumn::nx:
-    case SampleColumn::ny:
-    case SampleColumn::nz:
-        row.normal[i - static_cast<std::size_t>(SampleColumn::nx)] = static_cast<float>(value);
-        return std::isfinite(value);
-    case SampleColumn::bary_u:
-    case SampleColumn::bary_v:
-    case SampleColumn::bary_w:
-        row.bary[i - static_cast<std::size_t>(SampleColumn::bary_u)] = static_cast<float>(value);
-        return std::isfinite(value);
-    case SampleColumn::face_index:
+    if (column == SampleColumn::face_index) {
         return set_index(row.face, value);
-    case SampleColumn::radius:
+    }
+    if (column == SampleColumn::radius) {
         row.radius = value;
         return value > 0 && std::isfinite(value);
     }
-    return false;
+    const bool is_weight = column >= SampleColumn::bary_u;
+    const SampleColumn first = is_weight ? SampleColumn::bary_u : SampleColumn::nx;
+    const std::size_t i = static_cast<std::size_t>(column) - static_cast<std::size_t>(first);
+    (is_weight ? row.bary : row.normal)[i] = static_cast<float>(value);
+    return std::isfinite(value);
 }
 
 /// The row whose column i has the value `value_at(place)`; `fail(name)` must not return.

@@ -11,7 +11,6 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 enum class Format { ply, csv, xyz };
@@ -69,41 +68,49 @@ struct Layout {
     bool has_radius;
     bool is_on_surface = true;
 
-    bool has_numbered() const { return dimension > 3; }
+    std::size_t numbered() const { return dimension > 3 ? dimension : 0; }
     bool has_normals() const { return is_on_surface && dimension == 3; }
 };
 
-struct Column {
-    std::string_view name;
-    const char* ply_type;
-};
-
-/// In the order of for_each_value().
-std::vector<Column> columns_of(const Layout& layout) {
-    std::vector<Column> columns;
-    const auto add = [&](SampleColumn first, SampleColumn last, const char* type) {
-        for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
-            columns.push_back({kSampleColumnNames[i], type});
+/// Calls visit(name, value) for each column of a row, in order.
+template <typename Visit>
+void visit_columns(const SampleRow& row, const Layout& layout, const Visit& visit) {
+    const auto visit_position = [&](std::span<const std::string_view> names) {
+        for (std::size_t axis = 0; axis < names.size(); ++axis) {
+            if (layout.has_float_positions) {
+                visit(names[axis], static_cast<float>(row.position[axis]));
+            } else {
+                visit(names[axis], row.position[axis]);
+            }
         }
     };
-    const char* const coordinate = layout.has_float_positions ? "float" : "double";
-    for (std::size_t axis = 0; axis < layout.named; ++axis) {
-        columns.push_back({kSampleColumnNames[axis], coordinate});
-    }
-    for (std::size_t axis = 0; axis < layout.dimension && layout.has_numbered(); ++axis) {
-        columns.push_back({kNumberedColumnNames[axis], coordinate});
-    }
-    if (layout.has_normals()) {
-        add(SampleColumn::nx, SampleColumn::nz, "float");
+    const auto name_of = [](SampleColumn first, std::size_t offset = 0) {
+        return kSampleColumnNames[static_cast<std::size_t>(first) + offset];
+    };
+    visit_position(std::span(kSampleColumnNames).first(layout.named));
+    visit_position(std::span(kNumberedColumnNames).first(layout.numbered()));
+    for (std::size_t axis = 0; axis < 3 && layout.has_normals(); ++axis) {
+        visit(name_of(SampleColumn::nx, axis), row.normal[axis]);
     }
     if (layout.is_on_surface) {
-        add(SampleColumn::face_index, SampleColumn::face_index, "int");
-        add(SampleColumn::bary_u, SampleColumn::bary_w, "float");
+        visit(name_of(SampleColumn::face_index), row.face);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            visit(name_of(SampleColumn::bary_u, corner), row.bary[corner]);
+        }
     }
     if (layout.has_radius) {
-        add(SampleColumn::radius, SampleColumn::radius, "double");
+        visit(name_of(SampleColumn::radius), row.radius);
     }
-    return columns;
+}
+
+const char* ply_type(std::uint32_t) {
+    return "int";
+}
+const char* ply_type(float) {
+    return "float";
+}
+const char* ply_type(double) {
+    return "double";
 }
 
 void write_ply_header(AtomicFile& file, const SampleHeader& header, std::size_t count, bool ascii,
@@ -111,51 +118,15 @@ void write_ply_header(AtomicFile& file, const SampleHeader& header, std::size_t 
     file.write(ascii ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
     write_entries(file, header, "comment ");
     file.write("element vertex " + std::to_string(count) + "\n");
-    for (const Column& column : columns_of(layout)) {
-        file.write("property ");
-        file.write(column.ply_type);
-        file.write(" ");
-        file.write(column.name);
-        file.write("\n");
-    }
+    visit_columns({}, layout, [&](std::string_view name, auto value) {
+        file.write(std::string("property ") + ply_type(value) + ' ' + std::string(name) + '\n');
+    });
     file.write("end_header\n");
-}
-
-/// Calls append(value) with every value of the row in the order of columns_of().
-template <typename Append>
-void for_each_value(const SampleRow& row, const Layout& layout, const Append& append) {
-    const auto append_coordinates = [&](std::size_t count) {
-        for (const double coordinate : std::span(row.position).first(count)) {
-            if (layout.has_float_positions) {
-                append(static_cast<float>(coordinate));
-            } else {
-                append(coordinate);
-            }
-        }
-    };
-    append_coordinates(layout.named);
-    if (layout.has_numbered()) {
-        append_coordinates(layout.dimension);
-    }
-    if (layout.has_normals()) {
-        for (const float coordinate : row.normal) {
-            append(coordinate);
-        }
-    }
-    if (layout.is_on_surface) {
-        append(row.face);
-        for (const float weight : row.bary) {
-            append(weight);
-        }
-    }
-    if (layout.has_radius) {
-        append(row.radius);
-    }
 }
 
 void append_text_row(std::string& line, const SampleRow& row, const Layout& layout,
                      char separator) {
-    for_each_value(row, layout, [&](auto value) {
+    visit_columns(row, layout, [&](std::string_view, auto value) {
         append_number(line, value);
         line += separator;
     });
@@ -171,7 +142,9 @@ void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const Sam
         if (ascii) {
             append_text_row(record, row, layout, ' ');
         } else {
-            for_each_value(row, layout, [&](auto value) { append_little_endian(record, value); });
+            visit_columns(row, layout, [&](std::string_view, auto value) {
+                append_little_endian(record, value);
+            });
         }
         file.write(record);
     }
@@ -181,10 +154,10 @@ void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                const Layout& layout) {
     write_entries(file, header, "# ");
     std::string line;
-    for (const Column& column : columns_of(layout)) {
+    visit_columns({}, layout, [&](std::string_view name, auto) {
         line += line.empty() ? "" : ",";
-        line += column.name;
-    }
+        line += name;
+    });
     file.write(line + "\n");
     for (const SampleRow& row : rows) {
         line.clear();

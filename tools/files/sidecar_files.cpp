@@ -12,7 +12,6 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 [[noreturn]] void fail_line(const std::filesystem::path& path, std::size_t line,

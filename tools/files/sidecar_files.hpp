@@ -8,8 +8,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 struct Coordinates {

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <system_error>
 
 #include <nlohmann/json.hpp>

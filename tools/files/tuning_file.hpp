@@ -7,8 +7,6 @@
 
 #include <geodisk/sampler.hpp>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 /// Where the tuning of this device and driver is kept; empty if the user has no folder for cached

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "files/tuning_file.hpp"
-#include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/stopwatch.hpp"

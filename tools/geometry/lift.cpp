@@ -6,14 +6,12 @@
 #include <string_view>
 
 #include "files/sidecar_files.hpp"
-#include "geometry/mesh.hpp"
 #include "geometry/vec.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 /// One column to append: `count` numbers per vertex.

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/mesh_file.hpp"
 #include "geometry/mesh.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

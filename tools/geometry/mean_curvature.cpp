@@ -7,10 +7,7 @@
 #include <numeric>
 #include <span>
 
-#include "geometry/mesh.hpp"
-
 namespace geodisk::tools {
-
 namespace {
 
 /// The corner opposite to an edge of two vertices, the lower one first.

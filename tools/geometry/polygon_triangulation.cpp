@@ -8,7 +8,6 @@
 #include "geometry/vec.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 /// Twice the signed area of triangle a b c.

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <string>
 
-#include "program/failure.hpp"
-
 namespace geodisk::tools {
 
 /// A positive length, in mesh units or relative to the diagonal of the bounding box.

@@ -1,5 +1,6 @@
 #include "program/human_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -91,6 +92,11 @@ std::string driver_text(const DeviceReport& report) {
     }
     return report.driver_info.empty() ? report.driver_name
                                       : report.driver_name + ", " + report.driver_info;
+}
+
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text;
 }
 
 std::string in_quotes(std::string_view text) {

@@ -36,6 +36,9 @@ std::string uuid_text(const std::array<std::uint8_t, VK_UUID_SIZE>& uuid);
 /// The driver's name and version, as far as it tells.
 std::string driver_text(const DeviceReport& report);
 
+/// `text` and blanks, together at least `width` wide.
+std::string padded(std::string text, std::size_t width);
+
 /// `text` in quotes for a one-line message: long text is cut, unprintable bytes become '?'.
 std::string in_quotes(std::string_view text);
 

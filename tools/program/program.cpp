@@ -3,10 +3,8 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <string>
 
 #include "program/failure.hpp"
-#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {

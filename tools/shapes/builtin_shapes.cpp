@@ -1,59 +1,39 @@
 #include "shapes/builtin_shapes.hpp"
 
-#include <array>
 #include <string>
 
-#include "geometry/mesh.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "shapes/shape_makers.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
-struct Entry {
-    BuiltinShape shape;
-    MeshFile (*make)(int resolution);
-};
-
-constexpr Entry kEntries[] = {
-    {{"showpiece", "twisted ring with a ruffled fin and a deep fold; points around", 120, 60, 1200},
+constexpr BuiltinShape kShapes[] = {
+    {"showpiece", "twisted ring with a ruffled fin and a deep fold; points around", 120, 60, 1200,
      make_showpiece},
-    {{"cube", "unit cube; parts per edge", 1, 1, 1000}, make_cube},
-    {{"icosphere", "unit sphere; subdivision steps", 4, 0, 9}, make_icosphere},
-    {{"torus-knot", "trefoil tube; points around", 32, 3, 800}, make_torus_knot},
-    {{"lattice", "smooth frame of bars, genus 81; parts per bar width", 4, 1, 12}, make_lattice},
-    {{"plate", "closed box of 1 x 1 x 0.01; parts per long edge", 32, 1, 2000}, make_plate},
-    {{"folded-sheet", "open sheet in 5 layers 0.01 apart; parts per layer", 32, 1, 1000},
+    {"cube", "unit cube; parts per edge", 1, 1, 1000, make_cube},
+    {"icosphere", "unit sphere; subdivision steps", 4, 0, 9, make_icosphere},
+    {"torus-knot", "trefoil tube; points around", 32, 3, 800, make_torus_knot},
+    {"lattice", "smooth frame of bars, genus 81; parts per bar width", 4, 1, 12, make_lattice},
+    {"plate", "closed box of 1 x 1 x 0.01; parts per long edge", 32, 1, 2000, make_plate},
+    {"folded-sheet", "open sheet in 5 layers 0.01 apart; parts per layer", 32, 1, 1000,
      make_folded_sheet},
-    {{"unfolded-sheet", "folded-sheet laid flat; parts per layer", 32, 1, 1000},
-     make_unfolded_sheet},
-    {{"swiss-roll", "open sheet rolled up in 3 turns 0.05 apart; parts per turn", 48, 3, 1000},
+    {"unfolded-sheet", "folded-sheet laid flat; parts per layer", 32, 1, 1000, make_unfolded_sheet},
+    {"swiss-roll", "open sheet rolled up in 3 turns 0.05 apart; parts per turn", 48, 3, 1000,
      make_swiss_roll},
-    {{"unrolled-sheet", "swiss-roll laid flat; parts per turn", 48, 3, 1000}, make_unrolled_sheet},
-    {{"crossed-sheet", "open sheet in a loop that crosses itself; parts across", 32, 1, 1000},
+    {"unrolled-sheet", "swiss-roll laid flat; parts per turn", 48, 3, 1000, make_unrolled_sheet},
+    {"crossed-sheet", "open sheet in a loop that crosses itself; parts across", 32, 1, 1000,
      make_crossed_sheet},
-    {{"uncrossed-sheet", "crossed-sheet laid flat; parts across", 32, 1, 1000},
-     make_uncrossed_sheet},
-    {{"terrain", "square of hills; parts per edge", 160, 1, 3000}, make_terrain},
-    {{"moebius", "one-sided strip; parts across the strip", 12, 1, 800}, make_moebius},
-    {{"clifford-torus", "flat torus in R^4; points around each circle", 64, 3, 3000},
+    {"uncrossed-sheet", "crossed-sheet laid flat; parts across", 32, 1, 1000, make_uncrossed_sheet},
+    {"terrain", "square of hills; parts per edge", 160, 1, 3000, make_terrain},
+    {"moebius", "one-sided strip; parts across the strip", 12, 1, 800, make_moebius},
+    {"clifford-torus", "flat torus in R^4; points around each circle", 64, 3, 3000,
      make_clifford_torus},
-    {{"klein-bottle", "one-sided, closed, in R^4; points around the tube", 48, 3, 2000},
+    {"klein-bottle", "one-sided, closed, in R^4; points around the tube", 48, 3, 2000,
      make_klein_bottle},
-    {{"veronese", "projective plane in R^4; subdivision steps", 5, 0, 9}, make_veronese},
+    {"veronese", "projective plane in R^4; subdivision steps", 5, 0, 9, make_veronese},
 };
-
-constexpr std::size_t kShapeCount = std::size(kEntries);
-
-constexpr std::array<BuiltinShape, kShapeCount> kShapes = [] {
-    std::array<BuiltinShape, kShapeCount> shapes{};
-    for (std::size_t i = 0; i < kShapeCount; ++i) {
-        shapes[i] = kEntries[i].shape;
-    }
-    return shapes;
-}();
 
 [[noreturn]] void fail_unknown(std::string_view name) {
     std::string known;
@@ -71,8 +51,7 @@ std::span<const BuiltinShape> builtin_shapes() {
 }
 
 MeshFile make_builtin(std::string_view name, std::optional<int> resolution) {
-    for (const Entry& entry : kEntries) {
-        const BuiltinShape& shape = entry.shape;
+    for (const BuiltinShape& shape : kShapes) {
         if (shape.name != name) {
             continue;
         }
@@ -82,7 +61,7 @@ MeshFile make_builtin(std::string_view name, std::optional<int> resolution) {
                        std::to_string(shape.min_resolution) + " to " +
                        std::to_string(shape.max_resolution) + ", not " + std::to_string(value));
         }
-        return entry.make(value);
+        return shape.make(value);
     }
     fail_unknown(name);
 }

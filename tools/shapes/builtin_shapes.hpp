@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "geometry/mesh.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 
@@ -16,6 +15,7 @@ struct BuiltinShape {
     int default_resolution;
     int min_resolution;
     int max_resolution; ///< Keeps every shape below about 20 million triangles.
+    MeshFile (*make)(int resolution);
 };
 
 /// All shapes, in the order to list them.

@@ -7,7 +7,6 @@
 #include "shapes/shape_makers.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 MeshFile empty_mesh() {

@@ -7,7 +7,6 @@
 #include "shapes/shape_makers.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 /// One flat strip of a sheet: how long it is and where it leads in the x-z plane.

@@ -7,7 +7,6 @@
 #include "shapes/shape_makers.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();

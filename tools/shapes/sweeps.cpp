@@ -7,7 +7,6 @@
 #include "shapes/shape_makers.hpp"
 
 namespace geodisk::tools {
-
 namespace {
 
 /// A grid closed in both directions. `position(i, j)` is the vertex of step i along the surface

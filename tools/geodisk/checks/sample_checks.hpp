@@ -7,7 +7,6 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

@@ -16,7 +16,6 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/json.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

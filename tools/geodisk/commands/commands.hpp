@@ -2,11 +2,15 @@
 // its work, which throws UserError on failure.
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
 
 namespace geodisk::tools {
+
+struct OutputOptions;
 
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
 void add_sample_command(CLI::App& app);
@@ -14,6 +18,11 @@ void add_sample_command(CLI::App& app);
 /// Checks a sample file against its mesh or box, without a device. UserError(violation) if samples
 /// are too close or off the mesh.
 void add_verify_command(CLI::App& app);
+
+/// What `verify` does with samples in a box, which their header describes; `min_distance` is that
+/// of the command line, or "".
+void verify_box(const std::string& samples, const std::string& min_distance,
+                const OutputOptions& out);
 
 /// Carries samples over to another mesh of the same connectivity.
 void add_transfer_command(CLI::App& app);

@@ -54,13 +54,13 @@ void print_device(std::ostream& out, std::size_t index, const DeviceReport& repo
         << "   float rounding   "
         << (report.rounds_natively ? "exact as on the host" : "within the bounds of Vulkan") << '\n'
         << "   runs geodisk     " << (report.usable() ? "yes" : "no:") << '\n';
-    for (const std::string& reason : report.reasons_against)
+    for (const std::string& reason : report.reasons_against) {
         out << "                    " << reason << '\n';
+    }
 }
 
 Json to_json(std::size_t index, const DeviceReport& report) {
     const DeviceLimits& limits = report.limits;
-    const auto family = report.compute_queue_family;
     return Json{
         {"index", index},
         {"name", report.name},
@@ -91,7 +91,7 @@ Json to_json(std::size_t index, const DeviceReport& report) {
           {"subgroup_size", limits.subgroup_size},
           {"timestamp_period", limits.timestamp_period}}},
         {"largest_device_local_heap", report.largest_device_local_heap},
-        {"compute_queue_family", family ? Json(*family) : Json(nullptr)},
+        {"compute_queue_family", json_of(report.compute_queue_family)},
         {"timestamp_valid_bits", report.timestamp_valid_bits},
         {"rounds_natively", report.rounds_natively},
         {"usable", report.usable()},
@@ -102,8 +102,9 @@ Json to_json(std::size_t index, const DeviceReport& report) {
 void print_text(std::ostream& out, const std::vector<DeviceReport>& reports,
                 std::optional<std::size_t> best) {
     for (std::size_t i = 0; i < reports.size(); ++i) {
-        if (i > 0)
+        if (i > 0) {
             out << '\n';
+        }
         print_device(out, i, reports[i], best == i);
     }
 }
@@ -114,7 +115,7 @@ void print_json(std::ostream& out, const std::vector<DeviceReport>& reports,
     for (std::size_t i = 0; i < reports.size(); ++i)
         devices.push_back(to_json(i, reports[i]));
     const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
-                        {"default_device", best ? Json(*best) : Json(nullptr)},
+                        {"default_device", json_of(best)},
                         {"devices", std::move(devices)}};
     out << text_of(document);
 }

@@ -24,10 +24,9 @@ constexpr double kDartsPerSample = 1000;
 
 /// Finds out before the work that it would be in vain.
 void check_files(const SampleJob& job) {
-    std::vector<NamedFile> read = job.mesh.files("the mesh");
-    for (const NamedFile& file : job.density.files("the density")) {
-        read.push_back(file);
-    }
+    std::vector<NamedFile> read;
+    job.mesh.add_files(read, "the mesh");
+    job.density.add_files(read, "the density");
     check_outputs(job.out, "the samples", read);
 }
 

@@ -7,16 +7,12 @@
 #include "files/mesh_file.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 #include "program/program.hpp"
 #include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-std::string padded(std::string text, std::size_t width) {
-    text.resize(std::max(text.size(), width), ' ');
-    return text;
-}
 
 struct ShapesOptions {
     std::string shape, output;

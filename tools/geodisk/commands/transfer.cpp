@@ -35,11 +35,8 @@ struct TransferOptions {
 
 void check_files(const TransferOptions& options) {
     std::vector<NamedFile> read{{"the samples read", options.samples}};
-    for (const MeshOptions* mesh : {&options.from, &options.to}) {
-        for (const NamedFile& file : mesh->files("a mesh")) {
-            read.push_back(file);
-        }
-    }
+    options.from.add_files(read, "a mesh");
+    options.to.add_files(read, "a mesh");
     check_outputs(options.out, "the output", read);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <geodisk/params.hpp>
@@ -15,7 +16,6 @@
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
-#include "geodisk/commands/verify_box.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -98,46 +98,52 @@ Spacing spacing_of(const VerifyOptions& options, const SampleFile& samples, cons
     return spacing;
 }
 
-std::string smallest_text(const SpacingResult& result, const Spacing& spacing) {
-    if (spacing.radii_vary) {
+/// What a check was given and what it found.
+struct Check {
+    const VerifyOptions& options;
+    const SampleFile& samples;
+    const MeshInput& mesh;
+    Spacing spacing;
+    std::vector<StrayRow> strays;
+    SpacingResult result;
+
+    /// Of samples that a distance is known of.
+    double rho() const {
+        SampleParams params;
+        params.radii = mesh.radii ? &*mesh.radii : nullptr;
+        return packing_density(effective_area(mesh.prepared, params), spacing.min_distance,
+                               static_cast<double>(samples.rows.size()));
+    }
+};
+
+std::string smallest_text(const Check& check) {
+    const SpacingResult& result = check.result;
+    if (check.spacing.radii_vary) {
         return (result.closest ? rounded(result.closest->ratio, 9)
                                : "> " + rounded(result.cut, 6)) +
                " of the sum of two radii";
     }
-    return smallest_text(result, spacing.min_distance);
+    return smallest_text(result, check.spacing.min_distance);
 }
 
-/// Of samples that a distance is known of.
-double rho_of(const SampleFile& samples, const MeshInput& mesh, const Spacing& spacing) {
-    SampleParams params;
-    params.radii = mesh.radii ? &*mesh.radii : nullptr;
-    return packing_density(effective_area(mesh.prepared, params), spacing.min_distance,
-                           static_cast<double>(samples.rows.size()));
-}
-
-void print_spacing(std::ostream& out, const SampleFile& samples, const MeshInput& mesh,
-                   const Spacing& spacing) {
+std::string result_text(const Check& check) {
+    const Spacing& spacing = check.spacing;
+    const std::vector<StrayRow>& strays = check.strays;
+    std::ostringstream out;
+    out << "mesh          " << one_line(check.options.mesh.mesh) << '\n'
+        << "samples       " << grouped(check.samples.rows.size()) << " in "
+        << one_line(check.options.samples) << '\n';
     if (spacing.min_distance > 0) {
         out << "min distance  " << rounded(spacing.min_distance, 9) << " in mesh units\n"
-            << "rho           " << rounded(rho_of(samples, mesh, spacing), 3) << '\n';
+            << "rho           " << rounded(check.rho(), 3) << '\n';
     }
     if (spacing.radii_vary && !spacing.radii.empty()) {
         const auto [least, most] = std::minmax_element(spacing.radii.begin(), spacing.radii.end());
         out << "radii         " << rounded(*least, 9) << " to " << rounded(*most, 9)
-            << (mesh.radii ? "" : ", as the file has them") << '\n';
+            << (check.mesh.radii ? "" : ", as the file has them") << '\n';
     }
-}
-
-std::string result_text(const VerifyOptions& options, const SampleFile& samples,
-                        const MeshInput& mesh, const Spacing& spacing, const SpacingResult& result,
-                        const std::vector<StrayRow>& strays) {
-    std::ostringstream out;
-    out << "mesh          " << one_line(options.mesh.mesh) << '\n'
-        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
-        << '\n';
-    print_spacing(out, samples, mesh, spacing);
-    out << "smallest      " << smallest_text(result, spacing) << '\n';
-    print_violations(out, samples, result, spacing.radii_vary);
+    out << "smallest      " << smallest_text(check) << '\n';
+    print_violations(out, check.samples, check.result, spacing.radii_vary);
     if (spacing.wrong > 0) {
         out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
@@ -151,9 +157,8 @@ std::string result_text(const VerifyOptions& options, const SampleFile& samples,
     return out.str();
 }
 
-std::string report_text(const VerifyOptions& options, const SampleFile& samples,
-                        const MeshInput& mesh, const Spacing& spacing, const SpacingResult& result,
-                        const std::vector<StrayRow>& strays) {
+std::string report_text(const Check& check) {
+    const auto& [options, samples, mesh, spacing, strays, result] = check;
     const bool has_distance = spacing.min_distance > 0;
     return text_of(
         Json{{"version", GEODISK_VERSION_STRING},
@@ -161,7 +166,7 @@ std::string report_text(const VerifyOptions& options, const SampleFile& samples,
              {"samples_file", options.samples},
              {"samples", samples.rows.size()},
              {"min_distance", has_distance ? Json(spacing.min_distance) : Json(nullptr)},
-             {"rho", has_distance ? Json(rho_of(samples, mesh, spacing)) : Json(nullptr)},
+             {"rho", has_distance ? Json(check.rho()) : Json(nullptr)},
              {"radii_vary", spacing.radii_vary},
              {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
              {"smallest", pair_json(result.closest)},
@@ -174,29 +179,26 @@ std::string report_text(const VerifyOptions& options, const SampleFile& samples,
 /// Before the work: whether the report can be written.
 void check_files(const VerifyOptions& options) {
     std::vector<NamedFile> read{{"the samples", options.samples}};
-    for (const NamedFile& file : options.mesh.files("the mesh")) {
-        read.push_back(file);
-    }
-    for (const NamedFile& file : options.density.files("the density")) {
-        read.push_back(file);
-    }
+    options.mesh.add_files(read, "the mesh");
+    options.density.add_files(read, "the density");
     check_outputs(options.out, "", read);
 }
 
-void fail_on_violations(const VerifyOptions& options, const Spacing& spacing,
-                        const SpacingResult& result, const std::vector<StrayRow>& strays) {
-    std::string message = violation_text(
-        result, spacing.radii_vary ? "the sum of their radii" : rounded(spacing.min_distance, 9));
+void fail_on_violations(const Check& check) {
+    const Spacing& spacing = check.spacing;
+    std::string message =
+        violation_text(check.result, spacing.radii_vary ? "the sum of their radii"
+                                                        : rounded(spacing.min_distance, 9));
     const auto add = [&message](std::size_t count, const std::string& one, const std::string& many,
                                 const char* what) {
         if (count > 0) {
             message += (message.empty() ? "" : ", and ") + counted(count, one, many) + what;
         }
     };
-    add(strays.size(), "position does", "positions do", " not agree with face and weights");
+    add(check.strays.size(), "position does", "positions do", " not agree with face and weights");
     add(spacing.wrong, "radius is", "radii are", " not what the density options give");
     if (!message.empty()) {
-        throw UserError(ExitCode::violation, options.samples + ": " + message);
+        throw UserError(ExitCode::violation, check.options.samples + ": " + message);
     }
 }
 
@@ -219,7 +221,7 @@ void run_verify(const VerifyOptions& options) {
     }
     if (options.samples.empty()) {
         check_box(options);
-        verify_box({options.mesh.mesh, options.min_distance, options.out});
+        verify_box(options.mesh.mesh, options.min_distance, options.out);
         return;
     }
     check_files(options);
@@ -230,13 +232,13 @@ void run_verify(const VerifyOptions& options) {
     progress.clear();
     check_rows(options.samples, samples, options.mesh.mesh, mesh);
     warn_of_other_surface(options, samples);
-    const Spacing spacing = spacing_of(options, samples, mesh);
-
-    const std::vector<StrayRow> strays = find_strays(samples, mesh);
-    const SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);
-    publish(options.out, report_text(options, samples, mesh, spacing, result, strays),
-            result_text(options, samples, mesh, spacing, result, strays));
-    fail_on_violations(options, spacing, result, strays);
+    Spacing spacing = spacing_of(options, samples, mesh);
+    std::vector<StrayRow> strays = find_strays(samples, mesh);
+    SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);
+    const Check check{options,           samples,          mesh, std::move(spacing),
+                      std::move(strays), std::move(result)};
+    publish(options.out, report_text(check), result_text(check));
+    fail_on_violations(check);
 }
 
 } // namespace

@@ -1,5 +1,3 @@
-#include "geodisk/commands/verify_box.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/spacing.hpp"
+#include "geodisk/commands/commands.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/box_report.hpp"
@@ -39,33 +38,34 @@ std::vector<double> parse_sides(std::string_view text) {
     return sides;
 }
 
-BoxParams box_of(const VerifyBoxOptions& options, const SampleFile& samples) {
+BoxParams box_of(const std::string& path, const std::string& min_distance,
+                 const SampleFile& samples) {
     const std::string* const sides = samples.header.find("box");
     if (sides == nullptr) {
-        fail_input(options.samples, "its header tells of no box; samples on a mesh are verified "
-                                    "with it: geodisk verify MESH SAMPLES");
+        fail_input(path, "its header tells of no box; samples on a mesh are verified "
+                         "with it: geodisk verify MESH SAMPLES");
     }
     BoxParams box;
     box.extents = parse_sides(*sides);
     if (box.extents.empty() || box.extents.size() > kMostBoxDimensions) {
-        fail_input(options.samples, "its header has the box " + in_quotes(*sides) +
-                                        ", which is not 1 to 6 positive sides");
+        fail_input(path, "its header has the box " + in_quotes(*sides) +
+                             ", which is not 1 to 6 positive sides");
     }
     if (box.extents.size() > samples.dimension) {
-        fail_input(options.samples, "has " + std::to_string(samples.dimension) +
-                                        " coordinates, but its box has " +
-                                        std::to_string(box.extents.size()) + " sides");
+        fail_input(path, "has " + std::to_string(samples.dimension) +
+                             " coordinates, but its box has " + std::to_string(box.extents.size()) +
+                             " sides");
     }
     const std::string* const kind = samples.header.find("sides");
     if (kind == nullptr || (*kind != "open" && *kind != "periodic")) {
-        fail_input(options.samples,
+        fail_input(path,
                    "its header does not tell whether the sides of the box are open or periodic");
     }
     box.is_periodic = *kind == "periodic";
     box.min_distance =
-        options.min_distance.empty()
-            ? header_distance(options.samples, samples.header)
-            : parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));
+        min_distance.empty()
+            ? header_distance(path, samples.header)
+            : parse_length("--min-distance", min_distance).in_mesh_units(diagonal_of(box));
     return box;
 }
 
@@ -80,13 +80,11 @@ std::size_t count_outside(const BoxParams& box, const SampleFile& samples) {
         }));
 }
 
-std::string result_text(const VerifyBoxOptions& options, const BoxParams& box,
-                        const SampleFile& samples, const SpacingResult& result,
-                        std::size_t outside) {
+std::string result_text(const std::string& path, const BoxParams& box, const SampleFile& samples,
+                        const SpacingResult& result, std::size_t outside) {
     std::ostringstream out;
     out << "box           " << box_text(box) << '\n'
-        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(options.samples)
-        << '\n'
+        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(path) << '\n'
         << "min distance  " << rounded(box.min_distance, 9) << '\n'
         << "smallest      " << smallest_text(result, box.min_distance) << '\n';
     print_violations(out, samples, result, false);
@@ -96,12 +94,11 @@ std::string result_text(const VerifyBoxOptions& options, const BoxParams& box,
     return out.str();
 }
 
-std::string report_text(const VerifyBoxOptions& options, const BoxParams& box,
-                        const SampleFile& samples, const SpacingResult& result,
-                        std::size_t outside) {
+std::string report_text(const std::string& path, const BoxParams& box, const SampleFile& samples,
+                        const SpacingResult& result, std::size_t outside) {
     return text_of(Json{{"version", GEODISK_VERSION_STRING},
                         {"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}},
-                        {"samples_file", options.samples},
+                        {"samples_file", path},
                         {"samples", samples.rows.size()},
                         {"min_distance", box.min_distance},
                         {"cut", result.cut * box.min_distance},
@@ -113,24 +110,25 @@ std::string report_text(const VerifyBoxOptions& options, const BoxParams& box,
 
 } // namespace
 
-void verify_box(const VerifyBoxOptions& options) {
-    check_outputs(options.out, "", {{"the samples", options.samples}});
-    ProgressLine progress(options.out.quiet);
+void verify_box(const std::string& path, const std::string& min_distance,
+                const OutputOptions& out) {
+    check_outputs(out, "", {{"the samples", path}});
+    ProgressLine progress(out.quiet);
     progress.begin_stage("reading the samples");
-    const SampleFile samples = read_box_samples(options.samples);
+    const SampleFile samples = read_box_samples(path);
     progress.clear();
-    const BoxParams box = box_of(options, samples);
+    const BoxParams box = box_of(path, min_distance, samples);
     const std::size_t outside = count_outside(box, samples);
     const SpacingResult result = check_box_spacing(box, samples.rows, progress);
-    publish(options.out, report_text(options, box, samples, result, outside),
-            result_text(options, box, samples, result, outside));
+    publish(out, report_text(path, box, samples, result, outside),
+            result_text(path, box, samples, result, outside));
     std::string message = violation_text(result, rounded(box.min_distance, 9));
     if (outside > 0) {
         message += (message.empty() ? "" : ", and ") + counted(outside, "sample", "samples") +
                    (outside == 1 ? " lies" : " lie") + " outside the box";
     }
     if (!message.empty()) {
-        throw UserError(ExitCode::violation, options.samples + ": " + message);
+        throw UserError(ExitCode::violation, path + ": " + message);
     }
 }
 

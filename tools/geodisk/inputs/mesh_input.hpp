@@ -10,7 +10,6 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/radius_field.hpp>
 
-#include "files/mesh_file.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
@@ -18,7 +17,6 @@
 #include "geometry/mesh.hpp"
 #include "geometry/vec.hpp"
 #include "program/arguments.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

@@ -9,7 +9,6 @@
 #include "files/grey_image.hpp"
 #include "files/sidecar_files.hpp"
 #include "geometry/mean_curvature.hpp"
-#include "geometry/mesh.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "geodisk/options/density_options.hpp"
 #include "geometry/mesh.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

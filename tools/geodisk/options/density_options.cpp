@@ -45,14 +45,12 @@ std::optional<double> DensityOptions::least_factor() const {
     return curvature ? std::optional(kCurvatureFloor) : std::nullopt;
 }
 
-std::vector<NamedFile> DensityOptions::files(const std::string& what) const {
-    std::vector<NamedFile> files;
+void DensityOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
     for (const std::string& path : {file, map}) {
         if (!path.empty()) {
-            files.push_back({what, path});
+            read.push_back({what, path});
         }
     }
-    return files;
 }
 
 HeaderEntries DensityOptions::additions() const {

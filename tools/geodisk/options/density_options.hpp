@@ -7,7 +7,6 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 
@@ -20,8 +19,8 @@ struct DensityOptions {
     bool is_given() const;
     /// The least factor, or nothing where values stay as they are.
     std::optional<double> least_factor() const;
-    /// The files that are read, called `what`.
-    std::vector<NamedFile> files(const std::string& what) const;
+    /// Adds the files that are read, called `what`.
+    void add_files(std::vector<NamedFile>& read, const std::string& what) const;
     /// Name and value of what is given, as the header of a sample file names it.
     HeaderEntries additions() const;
 };

@@ -9,14 +9,12 @@ constexpr const char* kSurfaceGroup = "Surface";
 
 } // namespace
 
-std::vector<NamedFile> MeshOptions::files(const std::string& what) const {
-    std::vector<NamedFile> files{{what, mesh}};
-    for (const std::string& sidecar : {coordinates, edge_lengths}) {
-        if (!sidecar.empty()) {
-            files.push_back({what, sidecar});
+void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
+    for (const std::string& path : {mesh, coordinates, edge_lengths}) {
+        if (!path.empty()) {
+            read.push_back({what, path});
         }
     }
-    return files;
 }
 
 HeaderEntries MeshOptions::additions() const {

@@ -14,8 +14,8 @@ struct MeshOptions {
     std::string mesh, coordinates, edge_lengths;
     std::vector<std::string> lifts;
 
-    /// The files that are read, called `what`.
-    std::vector<NamedFile> files(const std::string& what) const;
+    /// Adds the files that are read, called `what`.
+    void add_files(std::vector<NamedFile>& read, const std::string& what) const;
     /// Name and value of what shapes the surface besides the mesh file, as the header of a sample
     /// file names it.
     HeaderEntries additions() const;

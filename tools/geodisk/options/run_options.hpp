@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "program/failure.hpp"
-
 namespace CLI {
 class App;
 }

@@ -10,7 +10,6 @@
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "program/arguments.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::tools {
 

@@ -7,7 +7,6 @@
 #include "files/output_file.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/outputs/progress.hpp"
-#include "program/failure.hpp"
 #include "program/stopwatch.hpp"
 
 namespace geodisk::tools {

@@ -5,7 +5,6 @@
 
 #include <geodisk/version.hpp>
 
-#include "geodisk/reports/run_report.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
