@@ -176,7 +176,7 @@ TEST_CASE("the benchmark sweeps samples and triangles") {
                                           "triangles reference_seconds"});
     for (const char* const plot : {"plot-time-n.svg", "plot-time-faces.svg", "plot-memory-n.svg"}) {
         const std::string text = bytes_of(folder / plot);
-        CHECK(text.starts_with("<svg "));
+        CHECK(contains(text, "<svg "));
         CHECK(contains(text, "builtin:cube"));
     }
 }

@@ -1,6 +1,7 @@
-// Line plots with logarithmic axes, or a linear one upwards, as SVG.
+// Line plots with logarithmic axes, or a linear one upwards, drawn by gnuplot as SVG.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,20 +21,15 @@ struct LogPlot {
 
     std::string title;
     std::string x_label, y_label;
-    std::string x_unit, y_unit; ///< Follow each tick's number, like "s"; may be empty.
-    bool is_linear_y = false;   ///< For values that differ by less than a factor of two or so.
-    std::vector<Line> lines;
+    std::string y_unit = {};  ///< Follows each tick's number, like "s"; may be empty.
+    bool is_linear_y = false; ///< For values that differ by less than a factor of two or so.
+    std::vector<Line> lines = {};
 };
 
-/// A document of its own. Colours follow the reader's preference for light or dark.
+/// Throws UserError(bad_output) if gnuplot is not installed.
+void check_gnuplot();
+
+/// An SVG document. Throws UserError(bad_output) as check_gnuplot(), or if gnuplot fails.
 std::string svg_text(const LogPlot& plot);
-
-/// A number with at most three digits and a prefix from n to T: "300", "1k", or with the unit "s"
-/// "3 ms"; without a unit "0.05" rather than "50m".
-std::string tick_text(double value, const std::string& unit);
-
-/// A number in full, with as many decimals as a tick of this distance to the next one needs:
-/// "0.72", "80 %".
-std::string linear_tick_text(double value, double step, const std::string& unit);
 
 } // namespace geodisk::bench

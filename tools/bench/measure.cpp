@@ -1,29 +1,24 @@
 #include "bench/measure.hpp"
 
-#include <chrono>
 #include <utility>
 #include <vector>
 
+#include "bench/statistics.hpp"
 #include "engine/tolerances.hpp"
-#include "geometry/mesh.hpp"
 #include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/stopwatch.hpp"
 #include "run.hpp"
 
 namespace geodisk::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using tools::ExitCode;
 using tools::UserError;
 
 constexpr std::uint64_t kSeed = 1;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A job with the tolerances that the device used.
 struct ReferenceJob {
@@ -42,13 +37,13 @@ struct ReferenceRun {
 template <class Real>
 ReferenceRun<Real> run_reference(const ref::Surface<Real>& surface, const ReferenceJob& job) {
     tools::check_interrupted();
-    const auto start = Clock::now();
+    const tools::Stopwatch watch;
     const ref::Pool<Real> pool = ref::draw_pool(surface, job.mesh, job.params);
     ReferenceRun<Real> run{};
     for (const std::uint32_t rank : ref::throw_darts(surface, pool, job.tolerances).ranks) {
         run.samples.push_back(pool.candidate(rank));
     }
-    run.seconds = seconds_since(start);
+    run.seconds = watch.seconds();
     return run;
 }
 
@@ -98,10 +93,10 @@ BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int
     for (int i = 0; i < repeats; ++i) {
         tools::check_interrupted();
         result.prepared = PreparedMesh(); // The memory of two at once is not part of the question.
-        const auto start = Clock::now();
+        const tools::Stopwatch watch;
         result.prepared = tools::take(
             PreparedMesh::prepare({mesh.positions, mesh.triangles, mesh.dimension}), name);
-        seconds.push_back(seconds_since(start));
+        seconds.push_back(watch.seconds());
     }
     result.prepare_seconds = median(seconds);
     return result;

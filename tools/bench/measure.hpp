@@ -1,15 +1,34 @@
 // Timing the sampler beside the sequential reference.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <geodisk/runner.hpp>
 
-#include "bench/measurement.hpp"
 #include "geometry/mesh.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::bench {
+
+/// One mesh at one count. Seconds are medians; the sets of both sides were found equal before.
+struct Measurement {
+    std::string mesh;
+    std::uint64_t triangles = 0;
+    double wanted = 0; ///< Samples aimed at.
+    double min_distance = 0;
+    std::uint64_t samples = 0;
+    struct {
+        double prepare = 0; ///< PreparedMesh::prepare.
+        double upload = 0;  ///< As RunReport, like sample and readback.
+        double device = 0;  ///< From the candidates to the set, on the device.
+        double readback = 0;
+        double reference = 0; ///< The same as `device`, sequentially in double precision.
+    } seconds;
+    RunReport run; ///< Of the last run; only its seconds vary.
+
+    double per_sample(double value) const { return value / static_cast<double>(samples); }
+    double per_disk(double value) const { return value / static_cast<double>(run.disks); }
+};
 
 /// A mesh ready to be sampled, and how long that took.
 struct BenchMesh {

@@ -7,12 +7,12 @@
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/program.hpp"
 
 namespace geodisk::bench {
 namespace {
 
-using tools::ExitCode;
-using tools::UserError;
+using tools::add_option;
 
 /// As given: counts like 1e5 are read later.
 struct RawOptions {
@@ -64,26 +64,22 @@ void add_scaling(CLI::App& app, RawOptions& raw) {
                  "Vary samples, then triangles, on each mesh, and fit\n"
                  "the exponents of time by least squares")
         ->group(group);
-    app.add_option("--scaling-counts", raw.scaling_counts, "Sample counts of the first sweep")
-        ->type_name("N,...")
+    add_option(app, "--scaling-counts", raw.scaling_counts, "N,...",
+               "Sample counts of the first sweep", group)
         ->delimiter(',')
-        ->capture_default_str()
-        ->group(group);
-    app.add_option("--scaling-samples", raw.scaling_samples,
-                   "Sample count of the second sweep, which cuts each\n"
-                   "triangle into 1, 4, 9, ... of the same surface")
-        ->type_name("N")
-        ->capture_default_str()
-        ->group(group);
-    app.add_option("--scaling-faces", raw.scaling_faces, "Most triangles of the second sweep")
-        ->type_name("F")
-        ->capture_default_str()
-        ->group(group);
-    app.add_option("--plot", raw.options.plot,
-                   "Draw the sweeps: PREFIX-time-n.svg,\n"
-                   "PREFIX-time-faces.svg and PREFIX-memory-n.svg")
-        ->type_name("PREFIX")
-        ->group(group);
+        ->capture_default_str();
+    add_option(app, "--scaling-samples", raw.scaling_samples, "N",
+               "Sample count of the second sweep, which cuts each\n"
+               "triangle into 1, 4, 9, ... of the same surface",
+               group)
+        ->capture_default_str();
+    add_option(app, "--scaling-faces", raw.scaling_faces, "F", "Most triangles of the second sweep",
+               group)
+        ->capture_default_str();
+    add_option(app, "--plot", raw.options.plot, "PREFIX",
+               "Draw the sweeps: PREFIX-time-n.svg,\n"
+               "PREFIX-time-faces.svg and PREFIX-memory-n.svg",
+               group);
 }
 
 Reads reads_from(const std::string& name) {
@@ -96,7 +92,7 @@ Reads reads_from(const std::string& name) {
 void add_tuning(CLI::App& app, RunnerOptions& runner, bool& tune) {
     constexpr const char* kGroup = "Tuning, does not change the samples";
     const auto add = [&app, kGroup](const char* name, std::uint32_t& value, const char* what) {
-        app.add_option(name, value, what)->type_name("K")->group(kGroup);
+        add_option(app, name, value, "K", what, kGroup);
     };
     app.add_flag("--tune", tune,
                  "Find out what suits the device and keep it for\n"
@@ -123,29 +119,24 @@ void add_tuning(CLI::App& app, RunnerOptions& runner, bool& tune) {
 void add_options(CLI::App& app, void (*run)(const Options&)) {
     const auto raw = std::make_shared<RawOptions>();
     Options& options = raw->options;
-    app.add_option("MESH", options.meshes, "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
-        ->type_name("")
+    add_option(app, "MESH", options.meshes, "", "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
         ->required();
-    app.add_option("-n,--count", raw->counts, "Sample counts to aim at")
-        ->type_name("N,...")
+    add_option(app, "-n,--count", raw->counts, "N,...", "Sample counts to aim at")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_option("--repeats", options.repeats, "Runs to take the median of, 1 to 1000")
-        ->type_name("K")
+    add_option(app, "--repeats", options.repeats, "K", "Runs to take the median of, 1 to 1000")
         ->check(CLI::Range(1, 1000).description(""))
         ->capture_default_str();
-    app.add_option("--warm-ups", options.warm_ups, "Runs before those, 0 to 1000")
-        ->type_name("K")
+    add_option(app, "--warm-ups", options.warm_ups, "K", "Runs before those, 0 to 1000")
         ->check(CLI::Range(0, 1000).description(""))
         ->capture_default_str();
-    app.add_option("--device", options.device, "Device by name, index or UUID (geodisk info)")
-        ->type_name("NAME|INDEX");
+    add_option(app, "--device", options.device, "NAME|INDEX",
+               "Device by name, index or UUID (geodisk info)");
     app.add_flag("--stages", options.runner.time_stages,
                  "Time each stage on the device and count how long lanes wait\n"
                  "for others; takes a little time itself");
-    app.add_option("--json", options.json, "Write rows, fits and circumstances as JSON")
-        ->type_name("FILE");
-    app.add_option("--csv", options.csv, "Write rows and circumstances as CSV")->type_name("FILE");
+    add_option(app, "--json", options.json, "FILE", "Write rows, fits and circumstances as JSON");
+    add_option(app, "--csv", options.csv, "FILE", "Write rows and circumstances as CSV");
     add_scaling(app, *raw);
     add_tuning(app, options.runner, options.tune);
     app.callback([&app, raw, run] {

@@ -9,8 +9,6 @@
 
 #include <geodisk/runner.hpp>
 
-#include "program/failure.hpp"
-
 namespace geodisk::bench {
 
 /// The command line, checked as far as that is possible without meshes and device.

@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "bench/circumstances.hpp"
-#include "bench/measurement.hpp"
 #include "bench/options.hpp"
-#include "program/failure.hpp"
+#include "bench/sweep.hpp"
 
 namespace geodisk::bench {
 

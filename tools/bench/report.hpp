@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/circumstances.hpp"
-#include "bench/measurement.hpp"
+#include "bench/sweep.hpp"
 
 namespace geodisk::bench {
 

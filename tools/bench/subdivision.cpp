@@ -5,8 +5,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "geometry/mesh.hpp"
-
 namespace geodisk::bench {
 namespace {
 

@@ -1,15 +1,33 @@
 #include "bench/sweep.hpp"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "bench/measure.hpp"
 #include "bench/subdivision.hpp"
 #include "files/mesh_file.hpp"
 
 namespace geodisk::bench {
 namespace {
+
+/// The exponents that make sense for `sweep`, which is one; those of samples from the count of
+/// least time on.
+std::vector<Growth> fit_growth(Sweep sweep, const std::vector<Measurement>& rows) {
+    std::vector<Point> device;
+    std::vector<Point> reference;
+    std::vector<Point> prepare;
+    for (const Measurement& row : rows) {
+        const double x = swept_value(sweep, row);
+        device.push_back({x, row.seconds.device});
+        reference.push_back({x, row.seconds.reference});
+        prepare.push_back({x, row.seconds.prepare});
+    }
+    if (sweep == Sweep::samples) {
+        return {{"device", fit_rise(device)}, {"reference", fit_rise(reference)}};
+    }
+    return {{"device", fit_power_law(device)},
+            {"reference", fit_power_law(reference)},
+            {"prepare", fit_power_law(prepare)}};
+}
 
 class Sweeper {
   public:
@@ -72,6 +90,21 @@ class Sweeper {
 };
 
 } // namespace
+
+const char* to_string(Sweep sweep) {
+    switch (sweep) {
+    case Sweep::samples:
+        return "samples";
+    case Sweep::triangles:
+        return "triangles";
+    default:
+        return "listed";
+    }
+}
+
+double swept_value(Sweep sweep, const Measurement& row) {
+    return static_cast<double>(sweep == Sweep::triangles ? row.triangles : row.samples);
+}
 
 std::vector<NamedMesh> read_meshes(const std::vector<std::string>& paths) {
     std::vector<NamedMesh> meshes;

@@ -1,20 +1,42 @@
-// Which meshes and counts a benchmark run goes through.
+// Which meshes and counts a benchmark run goes through, and how times grow with them.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <geodisk/runner.hpp>
 
-#include "bench/measurement.hpp"
+#include "bench/measure.hpp"
 #include "bench/options.hpp"
-#include "files/mesh_file.hpp"
+#include "bench/statistics.hpp"
 #include "geometry/mesh.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::bench {
+
+/// What a series varies. `listed` are the counts asked for, and no sweep.
+enum class Sweep { listed, samples, triangles };
+
+const char* to_string(Sweep sweep);
+
+/// How one quantity grows along a sweep.
+struct Growth {
+    const char* quantity;        ///< "device", "reference" or "prepare": which seconds.
+    std::optional<PowerLaw> law; ///< Nothing if the sweep has fewer than two steps.
+};
+
+/// The rows of one mesh.
+struct Series {
+    Sweep sweep = Sweep::listed;
+    std::string mesh;
+    std::vector<Measurement> rows;
+    std::vector<Growth> growth; ///< Empty unless a sweep.
+};
+
+/// What `sweep` varies, of one row.
+double swept_value(Sweep sweep, const Measurement& row);
 
 /// Called with each row as it is measured, and with each series once it is complete.
 struct Observer {

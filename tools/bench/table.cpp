@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <string>
 
 #include "program/human_text.hpp"
 
@@ -72,11 +71,6 @@ void append_right(std::string& line, const std::string& text, std::size_t width)
     line += text;
 }
 
-void append_left(std::string& line, const std::string& text, std::size_t width) {
-    line += text;
-    line.append(width - std::min(width, text.size()), ' ');
-}
-
 std::string tuning_text(const Tuning& tuning) {
     return "batches " + std::to_string(tuning.batches) + ", local size " +
            std::to_string(tuning.local_size) + ", per slot " +
@@ -96,8 +90,7 @@ void print_circumstances(const Circumstances& run) {
 void print_heading(const Circumstances& run) {
     print_circumstances(run);
     std::string upper(kNameWidth, ' ');
-    std::string lower;
-    append_left(lower, "mesh", kNameWidth);
+    std::string lower = tools::padded("mesh", kNameWidth);
     for (const Column& column : kColumns) {
         append_right(upper, column.above, column.width);
         append_right(lower, column.name, column.width);
@@ -111,8 +104,7 @@ void print_heading(const Circumstances& run) {
 }
 
 void print_row(const Measurement& row) {
-    std::string line;
-    append_left(line, tools::one_line(row.mesh), kNameWidth);
+    std::string line = tools::padded(tools::one_line(row.mesh), kNameWidth);
     for (const Column& column : kColumns) {
         append_right(line, column.text(row), column.width);
     }
@@ -155,8 +147,7 @@ void print_tune_heading(const Circumstances& run) {
 }
 
 void print_trial(const Trial& trial) {
-    std::string line;
-    append_left(line, trial.setting, kNameWidth);
+    std::string line = tools::padded(trial.setting, kNameWidth);
     append_right(line, tools::fixed(trial.ratio, 3), 8);
     std::cout << line << (trial.is_kept ? "  kept\n" : "\n") << std::flush;
 }

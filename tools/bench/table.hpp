@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/circumstances.hpp"
-#include "bench/measurement.hpp"
+#include "bench/sweep.hpp"
 #include "bench/tune.hpp"
 
 namespace geodisk::bench {

@@ -10,7 +10,6 @@
 
 #include "bench/options.hpp"
 #include "bench/sweep.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::bench {
 

@@ -1,7 +1,4 @@
 // Sections 5.9 and 6: speed in boxes of one to six dimensions, beside sequential methods.
-#include <chrono>
-#include <iostream>
-#include <memory>
 
 #include <geodisk/box.hpp>
 
@@ -16,6 +13,7 @@
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/stopwatch.hpp"
 
 namespace geodisk::paper {
 namespace {
@@ -44,10 +42,9 @@ struct Speed {
 template <class Work>
 void add_run(Speed& speed, Work&& work) {
     tools::check_interrupted();
-    const auto start = std::chrono::steady_clock::now();
+    const tools::Stopwatch watch;
     speed.samples = static_cast<double>(work());
-    speed.seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    speed.seconds.push_back(watch.seconds());
 }
 
 SampleSet run_device(Runner& runner, const BoxParams& box) {
@@ -105,7 +102,7 @@ void add_dimension(const Options& options, const Context& context, std::uint32_t
 }
 
 void run(const Options& options) {
-    Outputs outputs(options.common.out, "boxes");
+    Outputs outputs(options.common.out, "boxes", /* has_plots */ false);
     const std::vector<double> dimensions = options.dimensions.ratios(1, kMostBoxDimensions);
     tools::parse_count("--count", options.count); // Fails before a device is needed.
     const Context context = open_context(options.device);
@@ -115,42 +112,36 @@ void run(const Options& options) {
         add_dimension(options, context, static_cast<std::uint32_t>(dimension), table);
     }
     const std::string kind = options.is_open ? "open" : "periodic";
-    std::cout << "Unit boxes of n dimensions, " << kind << ", millions of samples per second on "
-              << tools::one_line(context.report().name) << ", medians of " << options.common.repeats
-              << " runs\n\n"
-              << table.text()
-              << "\nSequential returns the device's samples, on one core in double precision."
-                 "\nAround throws "
-              << options.trials
-              << " darts around samples (Bridson 2007), on one core as well."
-                 "\nThe paper's device is a GTX 580 of 2010.\n";
-    outputs.add_table(table, {"device " + context.report().name, "count " + options.count,
-                              kind + " unit boxes, " + options.trials + " trials",
-                              "repeats " + std::to_string(options.common.repeats) + " from seed " +
-                                  std::to_string(options.common.seed)});
+    outputs.add_table(table,
+                      {"device " + context.report().name, "count " + options.count,
+                       kind + " unit boxes, " + options.trials + " trials", options.common.text()},
+                      "Unit boxes of n dimensions, " + kind +
+                          ", millions of samples per second on " +
+                          tools::one_line(context.report().name) + ", medians of " +
+                          std::to_string(options.common.repeats) + " runs",
+                      "Sequential returns the device's samples, on one core in double precision."
+                      "\nAround throws " +
+                          options.trials +
+                          " darts around samples (Bridson 2007), on one core as well."
+                          "\nThe paper's device is a GTX 580 of 2010.");
     outputs.write();
 }
 
 } // namespace
 
 void add_boxes(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 5;
-    CLI::App* const command = app.add_subcommand(
-        "boxes", "Sections 5.9 and 6: speed in boxes of R^n, on a device and sequentially");
-    command->add_option("-n,--count", options->count, "Samples to aim at")
-        ->type_name("N")
-        ->capture_default_str();
-    add_list(*command, options->dimensions, "--dims", "Dimensions, 1 to 6");
-    command->add_flag("--open", options->is_open, "Boxes that are not periodic");
-    command
-        ->add_option("--trials", options->trials,
-                     "Darts around a sample before it retires, 1 to 1000")
-        ->type_name("K")
-        ->capture_default_str();
-    add_device(*command, options->device);
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(
+        app, "boxes", "Sections 5.9 and 6: speed in boxes of R^n, on a device and sequentially", 5,
+        run, [](CLI::App& command, Options& options) {
+            tools::add_option(command, "-n,--count", options.count, "N", "Samples to aim at")
+                ->capture_default_str();
+            add_list(command, options.dimensions, "--dims", "Dimensions, 1 to 6");
+            command.add_flag("--open", options.is_open, "Boxes that are not periodic");
+            tools::add_option(command, "--trials", options.trials, "K",
+                              "Darts around a sample before it retires, 1 to 1000")
+                ->capture_default_str();
+            add_device(command, options.device);
+        });
 }
 
 } // namespace geodisk::paper

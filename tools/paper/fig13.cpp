@@ -1,8 +1,6 @@
 // Fig. 13: what the closed form of Bowers et al. 2010 saves against exact distances, and priorities
 // beside phase groups with the same closed form (section 6.1).
 #include <algorithm>
-#include <iostream>
-#include <memory>
 
 #include "baselines/batches.hpp"
 #include "baselines/geodesic_disks.hpp"
@@ -17,6 +15,7 @@
 #include "program/arguments.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/stopwatch.hpp"
 
 namespace geodisk::paper {
 namespace {
@@ -58,10 +57,10 @@ Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
     ref::BatchRun batches;
     std::vector<std::uint32_t> phases;
     tools::check_interrupted();
-    result.exact_seconds = seconds_of([&] { batches = ref::run_batches(exact, slots); });
+    result.exact_seconds = tools::seconds_of([&] { batches = ref::run_batches(exact, slots); });
     tools::check_interrupted();
-    result.curve_seconds = seconds_of([&] { batches = ref::run_batches(curve, slots); });
-    result.phase_seconds = seconds_of([&] { phases = groups.throw_darts(curve, trials); });
+    result.curve_seconds = tools::seconds_of([&] { batches = ref::run_batches(curve, slots); });
+    result.phase_seconds = tools::seconds_of([&] { phases = groups.throw_darts(curve, trials); });
     result.samples = static_cast<double>(batches.ranks.size());
     result.disks = static_cast<double>(batches.disks);
     result.phase_samples = static_cast<double>(phases.size());
@@ -139,27 +138,23 @@ void run(const Options& options) {
             std::vector<Comparison> runs;
             for (int i = 0; i < options.common.repeats; ++i) {
                 const Pool pool = draw_pool(
-                    mesh, params_for(mesh, count, kDefaultPoolRatio,
-                                     options.common.seed + static_cast<std::uint64_t>(i)));
+                    mesh, params_for(mesh, count, kDefaultPoolRatio, options.common.seed_of(i)));
                 const auto slots = static_cast<std::uint32_t>(std::max(count / ratio, 1.0));
                 runs.push_back(compare(mesh, pool, slots, trials));
             }
             figure.add(mesh.name, runs);
         }
     }
-    std::cout
-        << "Exact distances, the closed form of Bowers et al., and phase groups with it;\n"
-           "sequential, one core, medians of "
-        << options.common.repeats << " runs, N/T = " << options.ratio << "\n\n"
-        << figure.table.text()
-        << "\nThe paper, on a GPU: (a) a significant speed-up where N is small, none to speak of"
-           "\nwhere it is large; (b) 85 to 95 % of the speed of phase groups. On one core only"
-           "\nthe work differs, so samples per disk is what compares with (b).\n";
-    outputs.add_table(figure.table,
-                      {"N/T " + options.ratio,
-                       "trials " + (options.trials.empty() ? "all" : options.trials),
-                       "repeats " + std::to_string(options.common.repeats) + " from seed " +
-                           std::to_string(options.common.seed) + ", values are medians"});
+    outputs.add_table(
+        figure.table,
+        {"N/T " + options.ratio, "trials " + (options.trials.empty() ? "all" : options.trials),
+         options.common.text() + ", values are medians"},
+        "Exact distances, the closed form of Bowers et al., and phase groups with it;\n"
+        "sequential, one core, medians of " +
+            std::to_string(options.common.repeats) + " runs, N/T = " + options.ratio,
+        "The paper, on a GPU: (a) a significant speed-up where N is small, none to speak of"
+        "\nwhere it is large; (b) 85 to 95 % of the speed of phase groups. On one core only"
+        "\nthe work differs, so samples per disk is what compares with (b).");
     outputs.add_plot("a", figure.speed_up);
     outputs.add_plot("b", figure.relative);
     outputs.write();
@@ -168,21 +163,18 @@ void run(const Options& options) {
 } // namespace
 
 void add_fig13(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 3;
-    CLI::App* const command =
-        app.add_subcommand("fig13", "Fig. 13: exact distances, the closed form, and phase groups");
-    add_meshes(*command, options->meshes);
-    add_list(*command, options->counts, "--counts", "Sample counts to aim at");
-    command->add_option("--ratio", options->ratio, "Samples per active candidate (N/T)")
-        ->type_name("X")
-        ->capture_default_str();
-    command
-        ->add_option("--trials", options->trials,
-                     "Darts per cell of the phase groups; all candidates\nof the cell if not given")
-        ->type_name("K");
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(
+        app, "fig13", "Fig. 13: exact distances, the closed form, and phase groups", 3, run,
+        [](CLI::App& command, Options& options) {
+            add_meshes(command, options.meshes);
+            add_list(command, options.counts, "--counts", "Sample counts to aim at");
+            tools::add_option(command, "--ratio", options.ratio, "X",
+                              "Samples per active candidate (N/T)")
+                ->capture_default_str();
+            tools::add_option(
+                command, "--trials", options.trials, "K",
+                "Darts per cell of the phase groups; all candidates\nof the cell if not given");
+        });
 }
 
 } // namespace geodisk::paper

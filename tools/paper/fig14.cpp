@@ -2,8 +2,6 @@
 // (section 6.4).
 #include <algorithm>
 #include <cmath>
-#include <iostream>
-#include <memory>
 
 #include <geodisk/params.hpp>
 
@@ -48,8 +46,7 @@ Densities measured(const Options& options, const ref::Box& box, double min_dista
     Densities densities;
     for (int i = 0; i < options.common.repeats; ++i) {
         tools::check_interrupted();
-        const std::vector<double> points =
-            sample(box, options.common.seed + static_cast<std::uint64_t>(i));
+        const std::vector<double> points = sample(box, options.common.seed_of(i));
         const auto count = static_cast<double>(points.size() / 2);
         densities.add(count, packing_density(1, min_distance, count), options.common.repeats);
     }
@@ -115,16 +112,13 @@ void run(const Options& options) {
             add_level(plot, "maximal, paper", kPrintedRho, along);
         }
     }
-    std::cout
-        << "Packing density in the unit square, r = " << options.radius << ", "
-        << options.common.repeats << " runs each\n\n"
-        << table.text()
-        << "\nIn an open square rho profits from samples near the border, whose disks reach out,"
-           "\nthe less the smaller they are. The paper does not name its square's kind; its"
-           "\nmaximal value is that of an open one whose samples are r apart, not 2 r.\n";
-    outputs.add_table(table, {"radius " + options.radius,
-                              "repeats " + std::to_string(options.common.repeats) + " from seed " +
-                                  std::to_string(options.common.seed)});
+    outputs.add_table(
+        table, {"radius " + options.radius, options.common.text()},
+        "Packing density in the unit square, r = " + options.radius + ", " +
+            std::to_string(options.common.repeats) + " runs each",
+        "In an open square rho profits from samples near the border, whose disks reach out,"
+        "\nthe less the smaller they are. The paper does not name its square's kind; its"
+        "\nmaximal value is that of an open one whose samples are r apart, not 2 r.");
     outputs.add_plot("", plot);
     outputs.write();
 }
@@ -132,16 +126,14 @@ void run(const Options& options) {
 } // namespace
 
 void add_fig14(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 10;
-    CLI::App* const command =
-        app.add_subcommand("fig14", "Fig. 14: rho against |P|/|S| in the unit square");
-    command->add_option("--radius", options->radius, "Half of the minimum distance, 0.0001 to 0.2")
-        ->type_name("R")
-        ->capture_default_str();
-    add_list(*command, options->ratios, "--ratios", "Candidates per expected sample, 1 to 10000");
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(app, "fig14", "Fig. 14: rho against |P|/|S| in the unit square", 10, run,
+                        [](CLI::App& command, Options& options) {
+                            tools::add_option(command, "--radius", options.radius, "R",
+                                              "Half of the minimum distance, 0.0001 to 0.2")
+                                ->capture_default_str();
+                            add_list(command, options.ratios, "--ratios",
+                                     "Candidates per expected sample, 1 to 10000");
+                        });
 }
 
 } // namespace geodisk::paper

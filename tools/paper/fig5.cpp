@@ -1,6 +1,4 @@
 // Fig. 5: speed against N, speed and packing density against |P|/|S| (sections 5.1 and 5.2).
-#include <iostream>
-#include <memory>
 
 #include "paper/commands.hpp"
 #include "paper/device.hpp"
@@ -83,16 +81,12 @@ void run(const Options& options) {
             figure.add(mesh.name, true, device.sample(mesh, params, options.common.repeats));
         }
     }
-    std::cout
-        << "Speed and packing density on " << tools::one_line(device.name()) << "\n\n"
-        << figure.table.text()
-        << "\nThe paper: rho between 0.70 and 0.76 in all cases, growing very slowly beyond"
-           "\n|P|/|S| = 80; speed grows with N until N nears the number of vertices, and falls"
-           "\nin inverse proportion to |P|/|S|. It gives no other numbers for Fig. 5.\n";
-    outputs.add_table(figure.table,
-                      {"device " + device.name(),
-                       "repeats " + std::to_string(options.common.repeats) + " from seed " +
-                           std::to_string(options.common.seed) + ", seconds are medians"});
+    outputs.add_table(
+        figure.table, {"device " + device.name(), options.common.text() + ", seconds are medians"},
+        "Speed and packing density on " + tools::one_line(device.name()),
+        "The paper: rho between 0.70 and 0.76 in all cases, growing very slowly beyond"
+        "\n|P|/|S| = 80; speed grows with N until N nears the number of vertices, and falls"
+        "\nin inverse proportion to |P|/|S|. It gives no other numbers for Fig. 5.");
     outputs.add_plot("a", figure.speed_by_count);
     outputs.add_plot("b", figure.speed_by_ratio);
     outputs.add_plot("c", figure.rho_by_ratio);
@@ -102,20 +96,18 @@ void run(const Options& options) {
 } // namespace
 
 void add_fig5(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 3;
-    CLI::App* const command =
-        app.add_subcommand("fig5", "Fig. 5: speed by N, speed and rho by |P|/|S|, on a device");
-    add_meshes(*command, options->meshes);
-    add_list(*command, options->counts, "--counts", "Sample counts of the first sweep");
-    add_list(*command, options->ratios, "--ratios",
-             "Candidates per sample of the second sweep, 1 to 10000");
-    command->add_option("--ratio-count", options->ratio_count, "Sample count of the second sweep")
-        ->type_name("N")
-        ->capture_default_str();
-    add_device(*command, options->device);
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(app, "fig5", "Fig. 5: speed by N, speed and rho by |P|/|S|, on a device", 3,
+                        run, [](CLI::App& command, Options& options) {
+                            add_meshes(command, options.meshes);
+                            add_list(command, options.counts, "--counts",
+                                     "Sample counts of the first sweep");
+                            add_list(command, options.ratios, "--ratios",
+                                     "Candidates per sample of the second sweep, 1 to 10000");
+                            tools::add_option(command, "--ratio-count", options.ratio_count, "N",
+                                              "Sample count of the second sweep")
+                                ->capture_default_str();
+                            add_device(command, options.device);
+                        });
 }
 
 } // namespace geodisk::paper

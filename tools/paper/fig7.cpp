@@ -1,8 +1,6 @@
 // Fig. 7: samples that distances through space lose where parts of a surface lie close together or
 // cross, and exact distances do not (section 6.1).
 #include <array>
-#include <iostream>
-#include <memory>
 #include <optional>
 
 #include "paper/commands.hpp"
@@ -45,8 +43,7 @@ Comparison compare(const PaperMesh& mesh, const std::optional<PaperMesh>& flat, 
                    const CommonOptions& common) {
     Comparison result;
     for (int i = 0; i < common.repeats; ++i) {
-        const SampleParams params{distance, common.seed + static_cast<std::uint64_t>(i),
-                                  kDefaultPoolRatio};
+        const SampleParams params{distance, common.seed_of(i), kDefaultPoolRatio};
         const Pool pool = draw_pool(mesh, params);
         for (const Metric metric : kMetrics) {
             const std::vector<std::uint32_t> samples = throw_darts(mesh, pool, metric);
@@ -65,15 +62,11 @@ Comparison compare(const PaperMesh& mesh, const std::optional<PaperMesh>& flat, 
 struct Figure {
     Table table{{"surface", "D", "metric", "samples", "lost %", "pairs too close", "too close %",
                  "as laid flat"}};
-    bench::LogPlot plot;
-
-    Figure() {
-        plot.title = "Samples lost to false conflicts";
-        plot.x_label = "minimum distance";
-        plot.y_label = "samples lost";
-        plot.y_unit = "%";
-        plot.is_linear_y = true;
-    }
+    bench::LogPlot plot{.title = "Samples lost to false conflicts",
+                        .x_label = "minimum distance",
+                        .y_label = "samples lost",
+                        .y_unit = "%",
+                        .is_linear_y = true};
 
     void begin_surface(const std::string& name) {
         const std::size_t group = plot.lines.size() / 2;
@@ -115,20 +108,17 @@ void run(const Options& options) {
                        flat.has_value(), options.common.repeats);
         }
     }
-    std::cout
-        << "Samples that are D apart by exact distances, straight lines and the closed form of"
-           "\nBowers et al., means of "
-        << options.common.repeats << " runs\n\n"
-        << figure.table.text()
-        << "\nLost are samples against those of exact distances; too close are samples whose exact"
-           "\ndistance to another one is below D. The sides of the plate and the layers of the"
-           "\nfolded sheet are 0.01 apart, the turns of the roll 0.05; the crossed sheet passes"
-           "\nthrough itself. A surface laid flat has the same exact distances, so the same set.\n"
-           "The paper gives no figures: methods that look for conflicts in space place fewer"
-           "\nsamples near a self-intersection.\n";
-    outputs.add_table(figure.table,
-                      {"repeats " + std::to_string(options.common.repeats) + " from seed " +
-                       std::to_string(options.common.seed) + ", values are means"});
+    outputs.add_table(
+        figure.table, {options.common.text() + ", values are means"},
+        "Samples that are D apart by exact distances, straight lines and the closed form of"
+        "\nBowers et al., means of " +
+            std::to_string(options.common.repeats) + " runs",
+        "Lost are samples against those of exact distances; too close are samples whose exact"
+        "\ndistance to another one is below D. The sides of the plate and the layers of the"
+        "\nfolded sheet are 0.01 apart, the turns of the roll 0.05; the crossed sheet passes"
+        "\nthrough itself. A surface laid flat has the same exact distances, so the same set.\n"
+        "The paper gives no figures: methods that look for conflicts in space place fewer"
+        "\nsamples near a self-intersection.");
     outputs.add_plot("", figure.plot);
     outputs.write();
 }
@@ -136,14 +126,12 @@ void run(const Options& options) {
 } // namespace
 
 void add_fig7(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 3;
-    CLI::App* const command = app.add_subcommand(
-        "fig7", "Fig. 7: samples lost to false conflicts on a plate, sheets and a roll");
-    add_list(*command, options->distances, "--distances",
-             "Minimum distances, 0.005 to 10; the surfaces are about 1 wide");
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(
+        app, "fig7", "Fig. 7: samples lost to false conflicts on a plate, sheets and a roll", 3,
+        run, [](CLI::App& command, Options& options) {
+            add_list(command, options.distances, "--distances",
+                     "Minimum distances, 0.005 to 10; the surfaces are about 1 wide");
+        });
 }
 
 } // namespace geodisk::paper

@@ -1,6 +1,4 @@
 // Fig. 8: as many samples on a surface at several resolutions (section 5.7).
-#include <iostream>
-#include <memory>
 
 #include "paper/commands.hpp"
 #include "paper/device.hpp"
@@ -47,16 +45,15 @@ void run(const Options& options) {
         plot.lines[1].points.push_back({triangles, result.least_rho});
         plot.lines[2].points.push_back({triangles, result.most_rho});
     }
-    std::cout << "About " << options.count << " samples at several resolutions, on "
-              << tools::one_line(device.name()) << ", " << options.common.repeats
-              << " runs each\n\n"
-              << table.text()
-              << "\nThe paper: 700 samples on Bunny with 1.4k, 14k and 144k triangles look alike;"
-                 "\nrho is between 0.70 and 0.76 in all cases.\n";
-    outputs.add_table(table, {"device " + device.name(), "count " + options.count,
-                              "repeats " + std::to_string(options.common.repeats) + " from seed " +
-                                  std::to_string(options.common.seed) +
-                                  ", seconds are medians, samples and rho means"});
+    outputs.add_table(
+        table,
+        {"device " + device.name(), "count " + options.count,
+         options.common.text() + ", seconds are medians, samples and rho means"},
+        "About " + options.count + " samples at several resolutions, on " +
+            tools::one_line(device.name()) + ", " + std::to_string(options.common.repeats) +
+            " runs each",
+        "The paper: 700 samples on Bunny with 1.4k, 14k and 144k triangles look alike;"
+        "\nrho is between 0.70 and 0.76 in all cases.");
     outputs.add_plot("", plot);
     outputs.write();
 }
@@ -64,17 +61,14 @@ void run(const Options& options) {
 } // namespace
 
 void add_fig8(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 10;
-    CLI::App* const command = app.add_subcommand(
-        "fig8", "Fig. 8: as many samples on a surface at several resolutions, on a device");
-    add_meshes(*command, options->meshes);
-    command->add_option("-n,--count", options->count, "Samples to aim at")
-        ->type_name("N")
-        ->capture_default_str();
-    add_device(*command, options->device);
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(
+        app, "fig8", "Fig. 8: as many samples on a surface at several resolutions, on a device", 10,
+        run, [](CLI::App& command, Options& options) {
+            add_meshes(command, options.meshes);
+            tools::add_option(command, "-n,--count", options.count, "N", "Samples to aim at")
+                ->capture_default_str();
+            add_device(command, options.device);
+        });
 }
 
 } // namespace geodisk::paper

@@ -1,7 +1,5 @@
 // Fig. 9: samples that the closed form of Bowers et al. 2010 places too close together, by exact
 // distances (section 5.2).
-#include <iostream>
-#include <memory>
 
 #include "paper/commands.hpp"
 #include "paper/metrics.hpp"
@@ -22,8 +20,8 @@ struct Options {
 Tally measure(const PaperMesh& mesh, double count, Metric metric, const CommonOptions& common) {
     Tally tally;
     for (int i = 0; i < common.repeats; ++i) {
-        const Pool pool = draw_pool(mesh, params_for(mesh, count, kDefaultPoolRatio,
-                                                     common.seed + static_cast<std::uint64_t>(i)));
+        const Pool pool =
+            draw_pool(mesh, params_for(mesh, count, kDefaultPoolRatio, common.seed_of(i)));
         const std::vector<std::uint32_t> samples = throw_darts(mesh, pool, metric);
         tally.add(samples.size(), find_violations(mesh, pool, samples));
     }
@@ -58,18 +56,16 @@ void run(const Options& options) {
             }
         }
     }
-    std::cout
-        << "Samples whose exact distance to another one is below the minimum, by the metric"
-           "\nthat placed them, means of "
-        << options.common.repeats << " runs\n\n"
-        << table.text()
-        << "\nStraight lines are never too long, so that they place none too close; what they"
-           "\nlose instead, fig7 shows. The paper gives no figures: with the closed form some"
-           "\nsamples are too close where a surface has rich details, as Gargoyle and Lion do,"
-           "\nwhile it works well on smooth ones, such as Bunny; with exact distances none"
-           "\nare.\n";
-    outputs.add_table(table, {"repeats " + std::to_string(options.common.repeats) + " from seed " +
-                              std::to_string(options.common.seed) + ", values are means"});
+    outputs.add_table(
+        table, {options.common.text() + ", values are means"},
+        "Samples whose exact distance to another one is below the minimum, by the metric"
+        "\nthat placed them, means of " +
+            std::to_string(options.common.repeats) + " runs",
+        "Straight lines are never too long, so that they place none too close; what they"
+        "\nlose instead, fig7 shows. The paper gives no figures: with the closed form some"
+        "\nsamples are too close where a surface has rich details, as Gargoyle and Lion do,"
+        "\nwhile it works well on smooth ones, such as Bunny; with exact distances none"
+        "\nare.");
     outputs.add_plot("", plot);
     outputs.write();
 }
@@ -77,14 +73,12 @@ void run(const Options& options) {
 } // namespace
 
 void add_fig9(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 3;
-    CLI::App* const command = app.add_subcommand(
-        "fig9", "Fig. 9: samples that the closed form places too close together");
-    add_meshes(*command, options->meshes);
-    add_list(*command, options->counts, "--counts", "Sample counts to aim at");
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(
+        app, "fig9", "Fig. 9: samples that the closed form places too close together", 3, run,
+        [](CLI::App& command, Options& options) {
+            add_meshes(command, options.meshes);
+            add_list(command, options.counts, "--counts", "Sample counts to aim at");
+        });
 }
 
 } // namespace geodisk::paper

@@ -21,9 +21,13 @@ std::vector<double> NumberList::ratios(double low, double high) const {
     return values;
 }
 
+std::string CommonOptions::text() const {
+    return "repeats " + std::to_string(repeats) + " from seed " + std::to_string(seed);
+}
+
 void add_common_options(CLI::App& command, CommonOptions& options) {
-    command.add_option("-o,--out", options.out, "Folder for the files, which must exist")
-        ->type_name("DIR")
+    tools::add_option(command, "-o,--out", options.out, "DIR",
+                      "Folder for the files, which must exist")
         ->capture_default_str();
     command
         .add_option_function<std::string>(
@@ -34,30 +38,29 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
             "Of the first repetition; the next ones count up")
         ->type_name("S")
         ->default_str("1");
-    command.add_option("--repeats", options.repeats, "Repetitions of each row, 1 to 1000")
-        ->type_name("K")
+    tools::add_option(command, "--repeats", options.repeats, "K",
+                      "Repetitions of each row, 1 to 1000")
         ->check(CLI::Range(1, 1000).description(""))
         ->capture_default_str();
 }
 
 void add_meshes(CLI::App& command, std::vector<std::string>& meshes) {
-    command.add_option("MESH", meshes, "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
-        ->type_name("")
+    tools::add_option(command, "MESH", meshes, "",
+                      "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
         ->required();
 }
 
 void add_list(CLI::App& command, NumberList& list, const std::string& option,
               const std::string& what) {
     list.option = option;
-    command.add_option(option, list.texts, what)
-        ->type_name("X,...")
+    tools::add_option(command, option, list.texts, "X,...", what)
         ->delimiter(',')
         ->capture_default_str();
 }
 
 void add_device(CLI::App& command, std::string& device) {
-    command.add_option("--device", device, "Device by name, index or UUID (geodisk info)")
-        ->type_name("NAME|INDEX");
+    tools::add_option(command, "--device", device, "NAME|INDEX",
+                      "Device by name, index or UUID (geodisk info)");
 }
 
 } // namespace geodisk::paper

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "program/program.hpp"
 
 namespace geodisk::paper {
 
@@ -24,6 +25,11 @@ struct CommonOptions {
     std::string out = ".";  ///< Folder of the files.
     std::uint64_t seed = 1; ///< Of the first repetition; the others follow it.
     int repeats = 1;
+
+    /// Repetitions and seed: "repeats 3 from seed 1".
+    std::string text() const;
+    /// Of repetition `i`, from 0.
+    std::uint64_t seed_of(int i) const { return seed + static_cast<std::uint64_t>(i); }
 };
 
 /// Where to write, how often to repeat, with which seed.
@@ -36,5 +42,18 @@ void add_list(CLI::App& command, NumberList& list, const std::string& option,
               const std::string& what);
 
 void add_device(CLI::App& command, std::string& device);
+
+/// Adds a subcommand that draws a figure: its own options, with `add(command, options)`, and the
+/// common ones, with so many repetitions; when chosen, it calls `run(options)`.
+template <class Options, class Run, class Add>
+void add_figure(CLI::App& app, const std::string& name, const std::string& summary, int repeats,
+                const Run& run, const Add& add) {
+    const auto options = std::make_shared<Options>();
+    options->common.repeats = repeats;
+    CLI::App* const command = app.add_subcommand(name, summary);
+    add(*command, *options);
+    add_common_options(*command, options->common);
+    command->callback([options, run] { run(*options); });
+}
 
 } // namespace geodisk::paper

@@ -8,16 +8,22 @@
 
 #include "files/output_file.hpp"
 #include "paper/commit.hpp"
+#include "program/failure.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::paper {
 
-Outputs::Outputs(const std::string& folder, const std::string& name)
+Outputs::Outputs(const std::string& folder, const std::string& name, bool has_plots)
     : prefix_((std::filesystem::path(folder) / name).string()) {
     tools::check_writable(prefix_ + ".csv");
+    if (has_plots) {
+        bench::check_gnuplot();
+    }
 }
 
-void Outputs::add_table(const Table& table, const std::vector<std::string>& circumstances) {
+void Outputs::add_table(const Table& table, const std::vector<std::string>& circumstances,
+                        const std::string& heading, const std::string& remarks) {
+    std::cout << heading << "\n\n" << table.text() << '\n' << remarks << '\n';
     std::string text = "# geodisk " GEODISK_VERSION_STRING ", commit ";
     text += kCommit;
     text += kCommitIsDirty ? " with changes\n" : "\n";

@@ -6,18 +6,20 @@
 
 #include "bench/log_plot.hpp"
 #include "paper/table.hpp"
-#include "program/failure.hpp"
 
 namespace geodisk::paper {
 
 /// Files that appear together, NAME.csv and plots.
 class Outputs {
   public:
-    /// Throws UserError(bad_output) if `folder` cannot take a file `name`.csv.
-    Outputs(const std::string& folder, const std::string& name);
+    /// Throws UserError(bad_output) if `folder` cannot take a file `name`.csv, or plots are to come
+    /// and gnuplot is missing.
+    Outputs(const std::string& folder, const std::string& name, bool has_plots = true);
 
-    /// `name`.csv, below comment lines that tell program and circumstances.
-    void add_table(const Table& table, const std::vector<std::string>& circumstances);
+    /// `name`.csv, below comment lines that tell program and circumstances. Prints the table as
+    /// well, between `heading` and `remarks`.
+    void add_table(const Table& table, const std::vector<std::string>& circumstances,
+                   const std::string& heading, const std::string& remarks);
 
     /// `name` + `ending`.svg.
     void add_plot(const std::string& ending, const bench::LogPlot& plot);

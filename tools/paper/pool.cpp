@@ -5,7 +5,6 @@
 
 #include "engine/tolerances.hpp"
 #include "files/mesh_file.hpp"
-#include "geometry/mesh.hpp"
 #include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"

@@ -1,7 +1,6 @@
-// Meshes and pools of candidates on them, and the time of work on these.
+// Meshes and pools of candidates on them.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -38,13 +37,5 @@ struct Pool {
 SampleParams params_for(const PaperMesh& mesh, double count, double ratio, std::uint64_t seed);
 
 Pool draw_pool(const PaperMesh& mesh, const SampleParams& params);
-
-/// Wall time of `work()`.
-template <class Work>
-double seconds_of(Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 } // namespace geodisk::paper

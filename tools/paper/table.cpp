@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "program/exact_text.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::paper {
 namespace {
@@ -36,14 +37,8 @@ std::string Table::text() const {
     const auto add_line = [&](const std::vector<std::string>& cells) {
         for (std::size_t column = 0; column < cells.size(); ++column) {
             const std::string& cell = shown(cells[column]);
-            const std::size_t blanks = widths[column] - cell.size();
-            if (column == 0) {
-                text += cell;
-                text.append(blanks, ' ');
-            } else {
-                text.append(2 + blanks, ' ');
-                text += cell;
-            }
+            text += column == 0 ? tools::padded(cell, widths[column])
+                                : std::string(2 + widths[column] - cell.size(), ' ') + cell;
         }
         text += '\n';
     };

@@ -1,8 +1,6 @@
 // Table 1: how often CheckStatus calls itself (section 5.4), in the reference and on a device.
 #include <algorithm>
 #include <array>
-#include <iostream>
-#include <memory>
 
 #include "baselines/batches.hpp"
 #include "baselines/geodesic_disks.hpp"
@@ -108,8 +106,8 @@ Sides measure(const PaperMesh& mesh, const CommonOptions& common, const Setup& s
               Device& device) {
     Sides sum;
     for (int i = 0; i < common.repeats; ++i) {
-        const Pool pool = draw_pool(mesh, params_for(mesh, setup.count, setup.pool_ratio,
-                                                     common.seed + static_cast<std::uint64_t>(i)));
+        const Pool pool =
+            draw_pool(mesh, params_for(mesh, setup.count, setup.pool_ratio, common.seed_of(i)));
         ref::GeodesicDisks query(mesh.prepared, pool.params.min_distance, pool.by_rank,
                                  pool.tolerances);
         CallHistogram calls;
@@ -167,17 +165,15 @@ void run(const Options& options) {
         }
         add_printed(table, plot, ratio, group);
     }
-    std::cout
-        << "Calls of CheckStatus, percent of active candidates; the device is "
-        << tools::one_line(device.name()) << "\n\n"
-        << table.text()
-        << "\nThe paper does not name |P|/N. The fewer candidates, the fewer of them crowd in the"
-           "\nlast gaps, where most conflicts are. The device ends batches early where too few"
-           "\ncandidates are left in reach, so that its figures are not quite the reference's.\n";
-    outputs.add_table(table,
-                      {"mesh " + mesh.name, "device " + device.name(), "count " + options.count,
-                       "repeats " + std::to_string(options.common.repeats) + " from seed " +
-                           std::to_string(options.common.seed)});
+    outputs.add_table(
+        table,
+        {"mesh " + mesh.name, "device " + device.name(), "count " + options.count,
+         options.common.text()},
+        "Calls of CheckStatus, percent of active candidates; the device is " +
+            tools::one_line(device.name()),
+        "The paper does not name |P|/N. The fewer candidates, the fewer of them crowd in the"
+        "\nlast gaps, where most conflicts are. The device ends batches early where too few"
+        "\ncandidates are left in reach, so that its figures are not quite the reference's.");
     outputs.add_plot("", plot);
     outputs.write();
 }
@@ -185,22 +181,20 @@ void run(const Options& options) {
 } // namespace
 
 void add_table1(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    options->common.repeats = 5;
-    CLI::App* const command =
-        app.add_subcommand("table1", "Table 1: recursive calls of CheckStatus by N/T");
-    command->add_option("MESH", options->mesh, "Mesh: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
-        ->type_name("")
-        ->required();
-    command->add_option("-n,--count", options->count, "Samples to aim at (the paper's N)")
-        ->type_name("N")
-        ->capture_default_str();
-    add_list(*command, options->pool_ratios, "--pool-ratios",
-             "Candidates per expected sample, 1 to 10000");
-    add_list(*command, options->ratios, "--ratios", "Samples per active candidate (N/T)");
-    add_device(*command, options->device);
-    add_common_options(*command, options->common);
-    command->callback([options] { run(*options); });
+    add_figure<Options>(app, "table1", "Table 1: recursive calls of CheckStatus by N/T", 5, run,
+                        [](CLI::App& command, Options& options) {
+                            tools::add_option(command, "MESH", options.mesh, "",
+                                              "Mesh: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
+                                ->required();
+                            tools::add_option(command, "-n,--count", options.count, "N",
+                                              "Samples to aim at (the paper's N)")
+                                ->capture_default_str();
+                            add_list(command, options.pool_ratios, "--pool-ratios",
+                                     "Candidates per expected sample, 1 to 10000");
+                            add_list(command, options.ratios, "--ratios",
+                                     "Samples per active candidate (N/T)");
+                            add_device(command, options.device);
+                        });
 }
 
 } // namespace geodisk::paper
