@@ -190,6 +190,37 @@ TEST_CASE("box: the count is about what was asked for, the seed repeats it") {
     CHECK(boxed(folder, "b.csv", {"--dim", "3", "--count", "1000", "--seed", "4"}) != first);
 }
 
+TEST_CASE("box: darts until there are so many samples, or so many darts were thrown") {
+    const TemporaryFolder folder;
+    const auto darts = [&](const Arguments& options) {
+        Arguments all{"--dim", "2", "-d", "0.02", "--method", "pdts", "--json", "a.json"};
+        all.insert(all.end(), options.begin(), options.end());
+        const Outcome outcome = run(folder, box("a.csv", all));
+        CHECK(outcome.status == 0);
+        CHECK(contains(outcome.out, "\ndarts         "));
+        return std::pair{rows_of(bytes_of(folder / "a.csv")),
+                         nlohmann::json::parse(bytes_of(folder / "a.json"))};
+    };
+    const auto [all, of_all] = darts({"--throws", "20000", "--count-calls"});
+    CHECK(of_all["method"] == "pdts");
+    CHECK(of_all["throws"] == 20000);
+    CHECK(of_all["stopped_by"] == "throws");
+    CHECK(of_all["pool_ratio"].is_null());
+    CHECK(of_all["check_calls"]["mean"] >= 1);
+    CHECK(contains(bytes_of(folder / "a.csv"), "# throws: 20000\n"));
+    const auto [some, of_some] = darts({"--count", "500"});
+    CHECK(of_some["stopped_by"] == "count");
+    REQUIRE(some.size() == 500);
+    CHECK(some == std::vector(all.begin(), all.begin() + 500));
+    CHECK(run(folder, {"verify", "a.csv"}).status == 0);
+    check_fails(folder, 2, "only",
+                box("b.csv", {"--dim", "1", "-d", "0.5", "--method", "pdts", "--count", "9"}));
+    check_fails(folder, 2, "nothing to stop at",
+                box("b.csv", {"--dim", "2", "-d", "0.1", "--method", "pdts"}));
+    check_fails(folder, 2, "--throws is for --method pdts",
+                box("b.csv", {"--dim", "2", "-d", "0.1", "--throws", "9"}));
+}
+
 TEST_CASE("box: reports for people and programs") {
     const TemporaryFolder folder;
     const Outcome outcome = run(folder, box("a.csv", {"--dim", "2", "-n", "500", "--periodic",

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "files/tuning_file.hpp"
+#include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/stopwatch.hpp"
@@ -67,8 +68,8 @@ std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
 
     progress.begin_stage("compiling the shaders");
     watch = Stopwatch();
-    Runner runner = take(
-        Runner::create(context.device(), context.queue(), tuned(runner_options, done.device)));
+    Runner runner =
+        take(Runner::create(context.device(), context.queue(), tuned(runner_options, done.device)));
     take(runner.sampler().prepare(domain));
     done.compile_seconds = watch.seconds();
     done.tuning = runner.sampler().tuning();

@@ -24,8 +24,8 @@ namespace {
 struct BoxOptions {
     std::string dimension, min_distance, count;
     std::vector<std::string> extents;
-    std::string pool_ratio = "20";
     bool is_periodic = false;
+    MethodOptions method;
     OutputOptions out;
     RunOptions run;
 };
@@ -62,11 +62,8 @@ std::vector<double> parse_sides(const BoxOptions& options) {
 }
 
 BoxJob parse_job(const BoxOptions& options) {
-    if (options.min_distance.empty() == options.count.empty()) {
-        fail_usage(options.count.empty()
-                       ? "no distance given; give one of --min-distance and --count"
-                       : "--min-distance and --count contradict each other; give just one");
-    }
+    check_one_distance(options.method,
+                       {{"--min-distance", options.min_distance}, {"--count", options.count}});
     BoxJob job;
     job.out = options.out;
     job.run = options.run;
@@ -74,15 +71,19 @@ BoxJob parse_job(const BoxOptions& options) {
     box.extents = parse_sides(options);
     box.is_periodic = options.is_periodic;
     box.seed = options.run.parsed_seed();
-    box.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
-    if (options.count.empty()) {
+    job.method = parse_method(options.method, options.count);
+    box.pool_ratio = job.method.pool_ratio;
+    box.stop_count = job.method.stop_count;
+    if (!options.min_distance.empty()) {
         box.min_distance =
             parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));
     } else {
         job.wanted_count = parse_count("--count", options.count);
         box.min_distance = distance_for_count(box, job.wanted_count);
     }
+    box.throws = job.method.throws_for(expected_count(box));
     job.runner.pool_bytes = options.run.pool_bytes();
+    job.runner.sampler.count_calls = job.method.counts_calls;
     return job;
 }
 
@@ -101,9 +102,12 @@ void run_box(const BoxOptions& options) {
     check_outputs(job.out, "the samples", {});
     check_box_dimension(job.out.output, domain.dimension());
     ProgressLine progress(job.out.quiet);
-    const auto [set, done] =
-        run_on_device(job.run, job.runner, domain, expected_count(job.box), progress);
+    const double room = expected_count(job.box);
+    const double expected =
+        job.box.stop_count != 0 ? std::min<double>(room, job.box.stop_count) : room;
+    const auto [set, done] = run_on_device(job.run, job.runner, domain, expected, progress);
     const std::vector<SampleRow> rows = to_rows(set.points, domain.dimension());
+    job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
     const BoxReport report(job, rows.size(), done);
     write_outputs(job.out, progress, report, [&](AtomicFile& file) {
         write_box_samples(file, job.out.output, report.header(), rows, job.out.ascii,
@@ -135,10 +139,10 @@ void add_box_command(CLI::App& app) {
                "of the diagonal",
                distance);
     add_option(*command, "-n,--count", options->count, "N",
-               "Choose the distance that should give about N samples", distance);
-    add_option(*command, "--pool-ratio", options->pool_ratio, "Q",
-               "Candidates per expected sample, 1 to 10000; more leave fewer gaps")
-        ->capture_default_str();
+               "Choose the distance that should give about N samples;\n"
+               "with --method pdts, stop at exactly N",
+               distance);
+    add_method_options(*command, options->method, "the box");
     add_run_options(*command, options->run);
     add_output_options(*command, options->out);
     command->callback([options] { run_box(*options); });

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -19,9 +18,6 @@
 namespace geodisk::tools {
 namespace {
 
-/// Darts for each sample a surface has room for, after which a count counts as out of reach.
-constexpr double kDartsPerSample = 1000;
-
 /// Finds out before the work that it would be in vain.
 void check_files(const SampleJob& job) {
     std::vector<NamedFile> read;
@@ -38,8 +34,6 @@ void check_dimensions(const SampleJob& job, const MeshInput& mesh) {
     }
 }
 
-/// The parameters on a mesh. Where a count alone is to stop the darts, they end at a number that
-/// leaves hardly any gap.
 SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     SampleParams params = job.params;
     params.radii = mesh.radii ? &*mesh.radii : nullptr;
@@ -47,11 +41,7 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     params.min_distance = job.min_distance
                               ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics())
                               : distance_for_count(area, job.wanted_count);
-    if (params.stop_count != 0 && params.throws == 0) {
-        const double room = std::max(1.0, expected_count(area, params.min_distance));
-        params.throws = static_cast<std::uint32_t>(
-            std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * room)));
-    }
+    params.throws = job.method.throws_for(expected_count(area, params.min_distance));
     return params;
 }
 
@@ -67,21 +57,9 @@ Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams
         return take(Domain::surface(mesh.prepared, params));
     }
     const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
-    return take(Domain::surface_in_space(
-        view, mesh.prepared, params,
-        job.metric == "euclidean" ? Metric::euclidean : Metric::approximate));
-}
-
-/// A count asked for, with no number of darts that would do, must be reached.
-void check_count(const SampleJob& job, const SampleParams& params, std::size_t samples,
-                 const DeviceRun& done) {
-    if (job.params.throws == 0 && samples < job.params.stop_count) {
-        fail_usage("--count: only " + grouped(samples) + " of " + grouped(job.params.stop_count) +
-                   " samples " + rounded(params.min_distance, 6) + " apart found room with " +
-                   grouped(done.run.candidates) +
-                   " darts; ask for fewer samples, a smaller distance or, with --throws, for what "
-                   "there is");
-    }
+    return take(Domain::surface_in_space(view, mesh.prepared, params,
+                                         job.metric == "euclidean" ? Metric::euclidean
+                                                                   : Metric::approximate));
 }
 
 std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
@@ -110,7 +88,7 @@ void run_sample(const SampleOptions& options) {
     const Domain domain = domain_of(job, mesh, params); // Fails before a device is needed.
     auto [set, done] = run_on_device(job.run, job.runner, domain,
                                      expected_samples(mesh.prepared, params), progress);
-    check_count(job, params, set.samples.size(), done);
+    job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
     const SampleResult result{params, std::move(done),
                               to_rows(mesh, params.min_distance, set.samples)};
 
@@ -128,10 +106,7 @@ void add_sample_command(CLI::App& app) {
         app.add_subcommand("sample", "Put samples on a mesh and write them to a file");
     const auto options = std::make_shared<SampleOptions>();
     add_sample_options(*command, *options);
-    command->callback([options, command] {
-        options->has_pool_ratio = command->count("--pool-ratio") > 0;
-        run_sample(*options);
-    });
+    command->callback([options] { run_sample(*options); });
 }
 
 } // namespace geodisk::tools

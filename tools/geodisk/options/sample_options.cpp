@@ -9,72 +9,6 @@
 namespace geodisk::tools {
 namespace {
 
-bool throws_darts(const SampleOptions& options) {
-    return options.method == "pdts";
-}
-
-void check_method(const SampleOptions& options) {
-    if (options.method != "psdp" && options.method != "pdts") {
-        fail_usage("--method: " + in_quotes(options.method) + " is neither psdp nor pdts");
-    }
-    if (throws_darts(options) && options.has_pool_ratio) {
-        fail_usage("--pool-ratio is for --method psdp; with pdts, --throws "
-                   "tells how many darts to throw");
-    }
-    if (!throws_darts(options) && !options.throws.empty()) {
-        fail_usage("--throws is for --method pdts; with psdp, --pool-ratio "
-                   "tells how many candidates to draw");
-    }
-}
-
-void check_one_distance(const SampleOptions& options) {
-    std::string given;
-    int count = 0;
-    for (const auto& [name, value] :
-         {std::pair{"--min-distance", &options.min_distance},
-          std::pair{"--radius", &options.radius}, std::pair{"--count", &options.count}}) {
-        // Darts stop at a count; it tells no distance.
-        if (!value->empty() && !(throws_darts(options) && value == &options.count)) {
-            given += given.empty() ? name : std::string(" and ") + name;
-            ++count;
-        }
-    }
-    if (count == 0) {
-        fail_usage(throws_darts(options)
-                       ? "no distance given; with --method pdts give one of --min-distance "
-                         "and --radius"
-                       : "no distance given; give one of --min-distance, --radius and "
-                         "--count");
-    }
-    if (count > 1) {
-        fail_usage(given + " contradict each other; give just one of them");
-    }
-}
-
-/// A count that candidates, whose index has 32 bits, can reach.
-std::uint32_t parse_candidates(const std::string& option, const std::string& text) {
-    const double value = parse_count(option, text);
-    if (value > kMostCandidates) {
-        fail_usage(option + ": " + in_quotes(text) + " is more than the " +
-                   grouped(kMostCandidates) + " that are possible");
-    }
-    return static_cast<std::uint32_t>(value);
-}
-
-/// When darts stop.
-void parse_stop(const SampleOptions& options, SampleParams& params) {
-    if (options.count.empty() && options.throws.empty()) {
-        fail_usage("nothing to stop at; with --method pdts give --count, "
-                   "--throws or both");
-    }
-    if (!options.count.empty()) {
-        params.stop_count = parse_candidates("--count", options.count);
-    }
-    if (!options.throws.empty()) {
-        params.throws = parse_candidates("--throws", options.throws);
-    }
-}
-
 /// Straight lines need the space that lengths and lifts do without.
 void check_metric(const SampleOptions& options) {
     if (options.metric != "geodesic" && options.metric != "euclidean" &&
@@ -106,19 +40,16 @@ HeaderEntries SampleJob::additions() const {
 }
 
 SampleJob parse_job(const SampleOptions& options) {
-    check_method(options);
-    check_one_distance(options);
+    check_one_distance(options.method, {{"--min-distance", options.min_distance},
+                                        {"--radius", options.radius},
+                                        {"--count", options.count}});
     SampleJob job;
     job.mesh = options.mesh;
     job.density = options.density;
     job.out = options.out;
     job.run = options.run;
     job.metric = options.metric;
-    job.throws_darts = throws_darts(options);
-    job.counts_calls = options.count_calls;
-    if (job.throws_darts) {
-        parse_stop(options, job.params);
-    }
+    job.method = parse_method(options.method, options.count);
     if (!options.min_distance.empty()) {
         job.min_distance = parse_length("--min-distance", options.min_distance);
     } else if (!options.radius.empty()) {
@@ -128,9 +59,10 @@ SampleJob parse_job(const SampleOptions& options) {
         job.wanted_count = parse_count("--count", options.count);
     }
     job.params.seed = options.run.parsed_seed();
-    job.params.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
+    job.params.pool_ratio = job.method.pool_ratio;
+    job.params.stop_count = job.method.stop_count;
     job.runner.pool_bytes = options.run.pool_bytes();
-    job.runner.sampler.count_calls = options.count_calls;
+    job.runner.sampler.count_calls = job.method.counts_calls;
     check_metric(options);
     return job;
 }
@@ -159,28 +91,10 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
                "euclidean: straight through space; approximate: a closed\n"
                "form by normals (Bowers et al. 2010)")
         ->capture_default_str();
-    const char* const method = "Method";
-    add_option(command, "--method", options.method, "NAME",
-               "psdp: from a pool of candidates; pdts: throw darts until\n"
-               "there are --count samples or --throws darts were thrown",
-               method)
-        ->capture_default_str();
-    add_option(command, "--throws", options.throws, "K",
-               "Most darts of pdts, up to 4294967295; fewer samples than\n"
-               "--count are then no error. If not given, 1000 for each\n"
-               "sample that the surface has room for",
-               method);
-    add_option(command, "--pool-ratio", options.pool_ratio, "Q",
-               "Candidates of psdp per expected sample, 1 to 10000; more\n"
-               "leave fewer gaps",
-               method)
-        ->capture_default_str();
+    add_method_options(command, options.method, "the surface");
 
     add_run_options(command, options.run);
     add_output_options(command, options.out);
-    command.add_flag("--count-calls", options.count_calls,
-                     "Count how often the paper's CheckStatus would call itself;\n"
-                     "takes a little time, does not change the samples");
 }
 
 } // namespace geodisk::tools

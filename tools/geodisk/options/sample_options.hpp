@@ -8,6 +8,7 @@
 
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "program/arguments.hpp"
 
@@ -19,9 +20,9 @@ struct SampleOptions {
     DensityOptions density;
     OutputOptions out;
     RunOptions run;
-    std::string min_distance, radius, count, throws;
-    std::string method = "psdp", metric = "geodesic", pool_ratio = "20";
-    bool has_pool_ratio = false, count_calls = false;
+    MethodOptions method;
+    std::string min_distance, radius, count;
+    std::string metric = "geodesic";
 };
 
 /// Adds all options of the command; `options` must outlive the parsing.
@@ -33,12 +34,11 @@ struct SampleJob {
     DensityOptions density;
     OutputOptions out;
     RunOptions run;
-    std::string metric;                 ///< "geodesic", or one that is not along the surface.
-    bool throws_darts = false;          ///< --method pdts.
-    bool counts_calls = false;          ///< --count-calls.
+    std::string metric; ///< "geodesic", or one that is not along the surface.
+    Method method;
     std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
     double wanted_count = 0;            ///< Of --count, where it chooses the distance; else 0.
-    SampleParams params;                ///< All but the distance and the radii.
+    SampleParams params;                ///< All but the distance, the radii and the throws.
     RunnerOptions runner;
 
     bool is_geodesic() const { return metric == "geodesic"; }

@@ -54,13 +54,17 @@ BoxReport::BoxReport(const BoxJob& job, std::size_t samples, const DeviceRun& do
     }
 }
 
+Drawn BoxReport::drawn() const {
+    return {job_.method, done_.run, job_.wanted_count, samples_};
+}
+
 SampleHeader BoxReport::header() const {
     return {{{"version", "geodisk " GEODISK_VERSION_STRING},
              {"box", sides_text(job_.box, exact_text<double>)},
              {"sides", kind_text(job_.box)},
              {"min_distance", exact_text(job_.box.min_distance)},
              {"seed", exact_text(job_.box.seed)},
-             {"pool_size", exact_text(done_.run.candidates)},
+             candidates_entry(drawn()),
              {"device", done_.device.name},
              {"driver", driver_text(done_.device)}}};
 }
@@ -74,19 +78,17 @@ std::string BoxReport::json(double write_seconds) const {
                     {"periodic", job_.box.is_periodic}}},
                   {"output", job_.out.output},
                   {"min_distance", job_.box.min_distance},
-                  {"seed", job_.box.seed},
-                  {"pool_ratio", job_.box.pool_ratio},
-                  {"candidates", run.candidates},
-                  {"chunks", run.chunks},
-                  {"samples", samples_},
-                  {"density", density_},
-                  {"iterations", run.iterations},
-                  {"dispatches", run.dispatches},
-                  {"disks", run.disks},
-                  {"rows", run.windows},
-                  {"tested", run.tested},
-                  {"most_conflicts", run.most_conflicts},
-                  {"regrown", run.regrown}};
+                  {"seed", job_.box.seed}};
+    document.update(drawn_json(drawn()));
+    document.update({{"density", density_},
+                     {"iterations", run.iterations},
+                     {"dispatches", run.dispatches},
+                     {"disks", run.disks},
+                     {"rows", run.windows},
+                     {"tested", run.tested},
+                     {"most_conflicts", run.most_conflicts},
+                     {"regrown", run.regrown},
+                     {"check_calls", calls_json(drawn())}});
     document.update(run_json(done_, stage_seconds({}, done_, write_seconds)));
     return text_of(document);
 }
@@ -95,13 +97,9 @@ std::string BoxReport::summary(double write_seconds) const {
     std::ostringstream out;
     out << "box           " << box_text(job_.box) << '\n'
         << "min distance  " << rounded(job_.box.min_distance, 6) << '\n'
-        << "samples       " << grouped(samples_);
-    if (job_.wanted_count > 0) {
-        out << " of about " << grouped(static_cast<std::uint64_t>(job_.wanted_count))
-            << " asked for";
-    }
-    out << ", disks fill " << rounded(100 * density_, 3) << " %\n"
-        << "candidates    " << grouped(done_.run.candidates) << ", seed " << job_.box.seed << '\n'
+        << "samples       " << samples_text(drawn()) << ", disks fill "
+        << rounded(100 * density_, 3) << " %\n"
+        << candidates_text(drawn(), job_.box.seed)
         << run_text(done_, stage_seconds({}, done_, write_seconds), job_.out.output);
     return out.str();
 }

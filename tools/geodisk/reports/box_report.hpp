@@ -8,7 +8,9 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/device_run.hpp"
+#include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
+#include "geodisk/reports/run_report.hpp"
 
 namespace geodisk::tools {
 
@@ -22,7 +24,8 @@ struct BoxJob {
     OutputOptions out;
     RunOptions run;
     BoxParams box;
-    double wanted_count = 0; ///< Of --count; 0 without.
+    Method method;
+    double wanted_count = 0; ///< Of --count, where it chooses the distance; else 0.
     RunnerOptions runner;
 };
 
@@ -40,6 +43,8 @@ class BoxReport {
     std::string summary(double write_seconds) const;
 
   private:
+    Drawn drawn() const;
+
     const BoxJob& job_;
     const DeviceRun& done_;
     std::uint64_t samples_;

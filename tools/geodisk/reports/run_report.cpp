@@ -1,5 +1,6 @@
 #include "geodisk/reports/run_report.hpp"
 
+#include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
@@ -18,7 +19,71 @@ Json device_json(const DeviceReport& device) {
         {"name", device.name}, {"driver", driver_text(device)}, {"type", type_name(device.type)}};
 }
 
+/// "1.12 of CheckStatus per disk; 1: 89.6 %, 2: 8.9 %, 3: 1.5 %", without the empty bins.
+std::string calls_text(const CallHistogram& calls) {
+    std::string text = rounded(calls.mean(), 3) + " of CheckStatus per disk";
+    const char* separator = "; ";
+    for (std::size_t bin = 0; bin < calls.candidates.size(); ++bin) {
+        if (calls.candidates[bin] > 0) {
+            const bool is_last = bin + 1 == calls.candidates.size();
+            text += separator + std::to_string(bin + 1) + (is_last ? " or more: " : ": ") +
+                    rounded(100 * calls.share(bin), 3) + " %";
+            separator = ", ";
+        }
+    }
+    return text;
+}
+
+/// What ended the run.
+const char* stopped_by(const Drawn& drawn) {
+    const bool has_all = drawn.samples == drawn.method.stop_count;
+    return has_all ? "count" : drawn.method.throws_darts ? "throws" : "pool";
+}
+
 } // namespace
+
+Json drawn_json(const Drawn& drawn) {
+    const bool throws_darts = drawn.method.throws_darts;
+    return {{"method", throws_darts ? "pdts" : "psdp"},
+            // Each method has this or that.
+            {"pool_ratio", throws_darts ? Json(nullptr) : Json(drawn.method.pool_ratio)},
+            {"throws", throws_darts ? Json(drawn.run.candidates) : Json(nullptr)},
+            {"candidates", drawn.run.candidates},
+            {"chunks", drawn.run.chunks},
+            {"stopped_by", stopped_by(drawn)},
+            {"samples", drawn.samples}};
+}
+
+Json calls_json(const Drawn& drawn) {
+    const CallHistogram& calls = drawn.run.calls;
+    return drawn.method.counts_calls
+               ? Json{{"candidates", calls.candidates}, {"mean", calls.mean()}}
+               : Json(nullptr);
+}
+
+std::string samples_text(const Drawn& drawn) {
+    std::string text = grouped(drawn.samples);
+    if (drawn.wanted_count > 0) {
+        text +=
+            " of about " + grouped(static_cast<std::uint64_t>(drawn.wanted_count)) + " asked for";
+    } else if (drawn.samples < drawn.method.stop_count) {
+        text += " of " + grouped(drawn.method.stop_count) + " asked for, when the darts ran out";
+    }
+    return text;
+}
+
+std::string candidates_text(const Drawn& drawn, std::uint64_t seed) {
+    std::string text = drawn.method.throws_darts ? "darts         " : "candidates    ";
+    text += grouped(drawn.run.candidates) + ", seed " + std::to_string(seed) + '\n';
+    if (drawn.method.counts_calls) {
+        text += "calls         " + calls_text(drawn.run.calls) + '\n';
+    }
+    return text;
+}
+
+std::pair<std::string, std::string> candidates_entry(const Drawn& drawn) {
+    return {drawn.method.throws_darts ? "throws" : "pool_size", exact_text(drawn.run.candidates)};
+}
 
 SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done, double write_seconds) {
     before.insert(before.end(), {{"device", done.open_seconds},

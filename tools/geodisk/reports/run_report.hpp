@@ -1,14 +1,35 @@
 // What the reports of all commands that sample on a device tell alike.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geodisk/device_run.hpp"
+#include "geodisk/options/method_options.hpp"
 #include "geodisk/reports/json.hpp"
 
 namespace geodisk::tools {
+
+/// What was asked for and what came of it.
+struct Drawn {
+    const Method& method;
+    const RunReport& run;
+    double wanted_count; ///< Of --count, where it chooses the distance; else 0.
+    std::uint64_t samples;
+};
+
+/// The method with what it was given, what stopped it, and how many candidates and samples.
+Json drawn_json(const Drawn& drawn);
+/// Of 1, 2, ..., 9 calls of the paper's CheckStatus, and of 10 or more. Null where not counted.
+Json calls_json(const Drawn& drawn);
+/// "9,000", or with what was asked for where it is not that.
+std::string samples_text(const Drawn& drawn);
+/// Lines of candidates or darts, the seed, and calls where they are counted.
+std::string candidates_text(const Drawn& drawn, std::uint64_t seed);
+/// Name and value of the candidates in the header of a sample file.
+std::pair<std::string, std::string> candidates_entry(const Drawn& drawn);
 
 /// Seconds by stage, in the order of the stages.
 using SecondsByStage = std::vector<std::pair<const char*, double>>;

@@ -46,27 +46,6 @@ std::string metric_text(const SampleJob& job) {
     return job.is_geodesic() ? job.metric : job.metric + ", not exact along the surface";
 }
 
-/// Of 1, 2, ..., 9 calls of the paper's CheckStatus, and of 10 or more. Null where not counted.
-Json calls_json(const SampleJob& job, const CallHistogram& calls) {
-    return job.counts_calls ? Json{{"candidates", calls.candidates}, {"mean", calls.mean()}}
-                            : Json(nullptr);
-}
-
-/// "1.12 of CheckStatus per disk; 1: 89.6 %, 2: 8.9 %, 3: 1.5 %", without the empty bins.
-std::string calls_text(const CallHistogram& calls) {
-    std::string text = rounded(calls.mean(), 3) + " of CheckStatus per disk";
-    const char* separator = "; ";
-    for (std::size_t bin = 0; bin < calls.candidates.size(); ++bin) {
-        if (calls.candidates[bin] > 0) {
-            const bool is_last = bin + 1 == calls.candidates.size();
-            text += separator + std::to_string(bin + 1) + (is_last ? " or more: " : ": ") +
-                    rounded(100 * calls.share(bin), 3) + " %";
-            separator = ", ";
-        }
-    }
-    return text;
-}
-
 } // namespace
 
 SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const SampleResult& result)
@@ -84,15 +63,14 @@ SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const Sa
 SampleHeader SampleReport::header() const {
     const DeviceRun& done = result_.done;
     const HeaderEntries additions = job_.additions();
-    SampleHeader header{
-        {{"version", "geodisk " GEODISK_VERSION_STRING},
-         {"mesh", job_.mesh.mesh},
-         {"min_distance", exact_text(result_.params.min_distance)},
-         {"radius", exact_text(result_.params.min_distance / 2)},
-         {"seed", exact_text(result_.params.seed)},
-         {job_.throws_darts ? "throws" : "pool_size", exact_text(done.run.candidates)},
-         {"device", done.device.name},
-         {"driver", driver_text(done.device)}}};
+    SampleHeader header{{{"version", "geodisk " GEODISK_VERSION_STRING},
+                         {"mesh", job_.mesh.mesh},
+                         {"min_distance", exact_text(result_.params.min_distance)},
+                         {"radius", exact_text(result_.params.min_distance / 2)},
+                         {"seed", exact_text(result_.params.seed)},
+                         candidates_entry(drawn()),
+                         {"device", done.device.name},
+                         {"driver", driver_text(done.device)}}};
     header.entries.insert(header.entries.begin() + 2, additions.begin(), additions.end());
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));
@@ -110,32 +88,21 @@ std::string SampleReport::json(double write_seconds) const {
                   {"radius", params.min_distance / 2},
                   {"metric", metric_text(job_)},
                   {"sample_radii", nullptr}, // Where they do not vary.
-                  {"seed", params.seed},
-                  {"method", job_.throws_darts ? "pdts" : "psdp"},
-                  {"pool_ratio", nullptr}, // Each method has this
-                  {"throws", nullptr},     // or that.
-                  {"candidates", run.candidates},
-                  {"chunks", run.chunks},
-                  {"stopped_by", stopped_by()},
-                  {"samples", samples_},
-                  {"rho", rho_},
-                  {"iterations", run.iterations},
-                  {"dispatches", run.dispatches},
-                  {"disks", run.disks},
-                  {"windows", run.windows},
-                  {"tested", run.tested},
-                  {"most_waiting", run.most_waiting},
-                  {"longest_chain", run.longest_chain},
-                  {"regrown", run.regrown},
-                  {"check_calls", calls_json(job_, run.calls)}};
+                  {"seed", params.seed}};
     if (most_radius_ > 0) {
         document["sample_radii"] = {{"least", least_radius_}, {"most", most_radius_}};
     }
-    if (job_.throws_darts) {
-        document["throws"] = run.candidates;
-    } else {
-        document["pool_ratio"] = params.pool_ratio;
-    }
+    document.update(drawn_json(drawn()));
+    document.update({{"rho", rho_},
+                     {"iterations", run.iterations},
+                     {"dispatches", run.dispatches},
+                     {"disks", run.disks},
+                     {"windows", run.windows},
+                     {"tested", run.tested},
+                     {"most_waiting", run.most_waiting},
+                     {"longest_chain", run.longest_chain},
+                     {"regrown", run.regrown},
+                     {"check_calls", calls_json(drawn())}});
     document.update(run_json(result_.done, seconds(write_seconds)));
     return text_of(document);
 }
@@ -154,12 +121,8 @@ std::string SampleReport::summary(double write_seconds) const {
         out << "radii         " << rounded(least_radius_, 6) << " to " << rounded(most_radius_, 6)
             << " at the samples\n";
     }
-    out << "samples       " << samples_text() << ", rho " << rounded(rho_, 3) << '\n'
-        << (job_.throws_darts ? "darts         " : "candidates    ")
-        << grouped(result_.done.run.candidates) << ", seed " << result_.params.seed << '\n';
-    if (job_.counts_calls) {
-        out << "calls         " << calls_text(result_.done.run.calls) << '\n';
-    }
+    out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
+        << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(write_seconds), job_.out.output);
     return out.str();
 }
@@ -169,22 +132,8 @@ SecondsByStage SampleReport::seconds(double write_seconds) const {
                          result_.done, write_seconds);
 }
 
-/// What ended the run.
-const char* SampleReport::stopped_by() const {
-    const bool has_all = samples_ == result_.params.stop_count;
-    return has_all ? "count" : job_.throws_darts ? "throws" : "pool";
-}
-
-/// "9,000", or with what was asked for where it is not that.
-std::string SampleReport::samples_text() const {
-    std::string text = grouped(samples_);
-    if (job_.wanted_count > 0) {
-        text +=
-            " of about " + grouped(static_cast<std::uint64_t>(job_.wanted_count)) + " asked for";
-    } else if (samples_ < result_.params.stop_count) {
-        text += " of " + grouped(result_.params.stop_count) + " asked for, when the darts ran out";
-    }
-    return text;
+Drawn SampleReport::drawn() const {
+    return {job_.method, result_.done.run, job_.wanted_count, samples_};
 }
 
 } // namespace geodisk::tools

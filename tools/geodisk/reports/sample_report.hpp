@@ -34,8 +34,7 @@ class SampleReport {
 
   private:
     SecondsByStage seconds(double write_seconds) const;
-    const char* stopped_by() const;
-    std::string samples_text() const;
+    Drawn drawn() const;
 
     const SampleJob& job_;
     const MeshInput& mesh_;

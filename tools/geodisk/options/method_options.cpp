@@ -1,0 +1,135 @@
+#include "geodisk/options/method_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// Darts for each sample there is room for, after which a count counts as out of reach.
+constexpr double kDartsPerSample = 1000;
+
+void check_method(const MethodOptions& options) {
+    if (options.method != "psdp" && options.method != "pdts") {
+        fail_usage("--method: " + in_quotes(options.method) + " is neither psdp nor pdts");
+    }
+    if (options.throws_darts() && options.command->count("--pool-ratio") > 0) {
+        fail_usage("--pool-ratio is for --method psdp; with pdts, --throws "
+                   "tells how many darts to throw");
+    }
+    if (!options.throws_darts() && !options.throws.empty()) {
+        fail_usage("--throws is for --method pdts; with psdp, --pool-ratio "
+                   "tells how many candidates to draw");
+    }
+}
+
+/// A count that candidates, whose index has 32 bits, can reach.
+std::uint32_t parse_candidates(const std::string& option, const std::string& text) {
+    const double value = parse_count(option, text);
+    if (value > kMostCandidates) {
+        fail_usage(option + ": " + in_quotes(text) + " is more than the " +
+                   grouped(kMostCandidates) + " that are possible");
+    }
+    return static_cast<std::uint32_t>(value);
+}
+
+/// "--a, --b and --c".
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    }
+    return text;
+}
+
+} // namespace
+
+std::uint32_t Method::throws_for(double samples) const {
+    if (stop_count == 0 || throws != 0) {
+        return throws;
+    }
+    return static_cast<std::uint32_t>(std::min<double>(
+        kMostCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
+}
+
+void Method::check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const {
+    if (throws == 0 && samples < stop_count) {
+        fail_usage("--count: only " + grouped(samples) + " of " + grouped(stop_count) +
+                   " samples " + rounded(min_distance, 6) + " apart found room with " +
+                   grouped(darts) +
+                   " darts; ask for fewer samples, a smaller distance or, with --throws, for what "
+                   "there is");
+    }
+}
+
+Method parse_method(const MethodOptions& options, const std::string& count) {
+    check_method(options);
+    Method method;
+    method.throws_darts = options.throws_darts();
+    method.counts_calls = options.count_calls;
+    method.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
+    if (method.throws_darts) {
+        if (count.empty() && options.throws.empty()) {
+            fail_usage("nothing to stop at; with --method pdts give --count, "
+                       "--throws or both");
+        }
+        method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
+        method.throws = options.throws.empty() ? 0 : parse_candidates("--throws", options.throws);
+    }
+    return method;
+}
+
+void check_one_distance(const MethodOptions& options,
+                        const std::vector<std::pair<std::string, std::string>>& given) {
+    std::vector<std::string> possible, found;
+    for (const auto& [name, value] : given) {
+        if (options.throws_darts() && name == "--count") {
+            continue;
+        }
+        possible.push_back(name);
+        if (!value.empty()) {
+            found.push_back(name);
+        }
+    }
+    if (found.empty()) {
+        fail_usage(std::string("no distance given; ") +
+                   (options.throws_darts() ? "with --method pdts " : "") + "give " +
+                   (possible.size() > 1 ? "one of " : "") + listed(possible));
+    }
+    if (found.size() > 1) {
+        fail_usage(listed(found) + " contradict each other; give just one of them");
+    }
+}
+
+void add_method_options(CLI::App& command, MethodOptions& options, const std::string& domain) {
+    options.command = &command;
+    const char* const method = "Method";
+    add_option(command, "--method", options.method, "NAME",
+               "psdp: from a pool of candidates; pdts: throw darts until\n"
+               "there are --count samples or --throws darts were thrown",
+               method)
+        ->capture_default_str();
+    add_option(command, "--throws", options.throws, "K",
+               "Most darts of pdts, up to 4294967295; fewer samples than\n"
+               "--count are then no error. If not given, 1000 for each\n"
+               "sample that " +
+                   domain + " has room for",
+               method);
+    add_option(command, "--pool-ratio", options.pool_ratio, "Q",
+               "Candidates of psdp per expected sample, 1 to 10000; more\n"
+               "leave fewer gaps",
+               method)
+        ->capture_default_str();
+    command
+        .add_flag("--count-calls", options.count_calls,
+                  "Count how often the paper's CheckStatus would call itself;\n"
+                  "takes a little time, does not change the samples")
+        ->group(method);
+}
+
+} // namespace geodisk::tools

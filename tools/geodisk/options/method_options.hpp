@@ -1,0 +1,54 @@
+// How many candidates a run has and when it stops: options of the commands that sample.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/params.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace geodisk::tools {
+
+/// As given on the command line.
+struct MethodOptions {
+    std::string method = "psdp", pool_ratio = "20", throws;
+    bool count_calls = false;
+    const CLI::App* command = nullptr; ///< Knows whether a default was given.
+
+    bool throws_darts() const { return method == "pdts"; }
+};
+
+/// Adds --method, --throws, --pool-ratio and --count-calls; `options` must outlive the parsing.
+/// Samples have room in `domain`: "the surface".
+void add_method_options(CLI::App& command, MethodOptions& options, const std::string& domain);
+
+/// The options, checked.
+struct Method {
+    bool throws_darts = false; ///< --method pdts.
+    bool counts_calls = false; ///< --count-calls.
+    double pool_ratio = kDefaultPoolRatio;
+    std::uint32_t throws = 0;     ///< 0 if not given.
+    std::uint32_t stop_count = 0; ///< Of --count, where darts stop at it; else 0.
+
+    /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
+    /// they end at a number that leaves hardly any gap.
+    std::uint32_t throws_for(double samples) const;
+    /// A count asked for, with no number of darts that would do, must be reached: throws
+    /// UserError(usage) if there are fewer samples.
+    void check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const;
+};
+
+/// Throws UserError(usage) for values out of range and options that contradict each other.
+Method parse_method(const MethodOptions& options, const std::string& count);
+
+/// Throws UserError(usage) unless just one of the options in `given`, names and values, tells the
+/// distance. --count does so only where darts do not stop at it.
+void check_one_distance(const MethodOptions& options,
+                        const std::vector<std::pair<std::string, std::string>>& given);
+
+} // namespace geodisk::tools
