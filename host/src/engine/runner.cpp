@@ -121,8 +121,13 @@ Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
 
 Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                           const ProgressCallback& progress) noexcept {
-    const auto domain = Domain::surface(mesh, params);
-    return domain ? sample_and_wait(*domain, progress) : domain.error();
+    return guarded([&]() -> Result<SampleSet> {
+        const auto domain = Domain::surface(mesh, params);
+        if (!domain) {
+            return domain.error();
+        }
+        return run_and_wait(*impl_, *domain, progress);
+    });
 }
 
 } // namespace geodisk

@@ -30,7 +30,7 @@ double Stages::per_sample(std::uint32_t stage) const noexcept {
     return std::max(darts, kLeastPool / samples);
 }
 
-Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
     // A distance beyond all those of the mesh is as good as one just beyond.
     const double samples =
         expected_count(effective_area(mesh, params), working_distance(mesh, params));
@@ -41,8 +41,7 @@ double samples_per_area() noexcept {
     return expected_count(1, 1);
 }
 
-float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
-                      std::uint32_t stage) noexcept {
+float stage_intensity(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t stage) {
     return static_cast<float>(stages_of(mesh, params).per_sample(stage) * samples_per_area());
 }
 

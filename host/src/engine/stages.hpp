@@ -12,7 +12,7 @@ inline constexpr double kLeastPool = 64;
 inline constexpr std::uint32_t kLastOtherStage = 32;
 
 /// The stages of a job that pool_size() finds no fault with.
-GEODISK_API Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+GEODISK_API Stages stages_of(const PreparedMesh& mesh, const SampleParams& params);
 
 /// Samples expected per area of one distance squared.
 GEODISK_API double samples_per_area() noexcept;
@@ -21,6 +21,6 @@ GEODISK_API double samples_per_area() noexcept;
 /// of 1 / g^2; lengths in units of working_distance(). It follows from the distance alone, so that
 /// no edit elsewhere changes it.
 GEODISK_API float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::uint32_t stage) noexcept;
+                                  std::uint32_t stage);
 
 } // namespace geodisk

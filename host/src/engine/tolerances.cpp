@@ -34,7 +34,7 @@ std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance) {
 
 } // namespace
 
-double working_distance(const PreparedMesh& mesh, double min_distance) noexcept {
+double working_distance(const PreparedMesh& mesh, double min_distance) {
     if (!(min_distance > mesh.statistics().diagonal)) {
         return min_distance;
     }
@@ -42,15 +42,15 @@ double working_distance(const PreparedMesh& mesh, double min_distance) noexcept 
     return std::min(min_distance, 1.01 * distance_bound(mesh));
 }
 
-double working_distance(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+double working_distance(const PreparedMesh& mesh, const SampleParams& params) {
     return params.radii != nullptr ? params.min_distance
                                    : working_distance(mesh, params.min_distance);
 }
 
-ErrorModel::ErrorModel(const PreparedMesh& mesh, double min_distance) noexcept
+ErrorModel::ErrorModel(const PreparedMesh& mesh, double min_distance)
     : longest_(mesh.statistics().longest_edge / working_distance(mesh, min_distance)) {}
 
-ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params) noexcept
+ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params)
     : longest_(mesh.statistics().longest_edge / working_distance(mesh, params)),
       further_(params.radii != nullptr ? kRadiiRounding : 0) {}
 
@@ -69,11 +69,11 @@ Tolerances ErrorModel::tolerances(double error_bound) const noexcept {
             error_bound};
 }
 
-double first_error(const PreparedMesh& mesh, double min_distance) noexcept {
+double first_error(const PreparedMesh& mesh, double min_distance) {
     return ErrorModel(mesh, min_distance).error_of(guessed_chain(mesh, min_distance));
 }
 
-double first_error(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+double first_error(const PreparedMesh& mesh, const SampleParams& params) {
     return ErrorModel(mesh, params).error_of(guessed_chain(mesh, params.min_distance));
 }
 

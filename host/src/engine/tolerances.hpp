@@ -14,11 +14,11 @@ namespace geodisk {
 /// distance of the mesh, a bound of those. The samples are the same, and coordinates keep their
 /// precision. Takes a search over the edges (milliseconds per 100,000 faces) when `min_distance`
 /// exceeds the mesh's diagonal, else no time.
-GEODISK_API double working_distance(const PreparedMesh& mesh, double min_distance) noexcept;
+GEODISK_API double working_distance(const PreparedMesh& mesh, double min_distance);
 
 /// The same for a run: with radii that vary it is always min_distance, since the smaller ones may
 /// matter however large that is.
-GEODISK_API double working_distance(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+GEODISK_API double working_distance(const PreparedMesh& mesh, const SampleParams& params);
 
 /// In units of the working distance.
 struct Tolerances {
@@ -33,9 +33,9 @@ struct Tolerances {
 /// crossing of its window chain. The largest met is one disk plus the longest edge.
 class GEODISK_API ErrorModel {
   public:
-    ErrorModel(const PreparedMesh& mesh, double min_distance) noexcept;
+    ErrorModel(const PreparedMesh& mesh, double min_distance);
     /// Where radii vary, with a little more for their rounding.
-    ErrorModel(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+    ErrorModel(const PreparedMesh& mesh, const SampleParams& params);
 
     /// Of chains of so many crossings.
     double error_of(std::uint32_t chain) const noexcept;
@@ -50,12 +50,12 @@ class GEODISK_API ErrorModel {
 };
 
 /// The bound to begin with, for a guess of the longest chain by the faces that a disk covers.
-GEODISK_API double first_error(const PreparedMesh& mesh, double min_distance) noexcept;
-GEODISK_API double first_error(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+GEODISK_API double first_error(const PreparedMesh& mesh, double min_distance);
+GEODISK_API double first_error(const PreparedMesh& mesh, const SampleParams& params);
 
 /// Those of the bound to begin with.
 template <class Params>
-Tolerances first_tolerances(const PreparedMesh& mesh, const Params& params) noexcept {
+Tolerances first_tolerances(const PreparedMesh& mesh, const Params& params) {
     return ErrorModel(mesh, params).tolerances(first_error(mesh, params));
 }
 

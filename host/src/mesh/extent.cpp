@@ -1,19 +1,10 @@
 #include "mesh/extent.hpp"
 
 #include <algorithm>
-#include <new>
 #include <vector>
 
 namespace geodisk {
 namespace {
-
-double all_edges(const PreparedMesh& mesh) {
-    double sum = 0;
-    for (const HalfEdge& edge : mesh.half_edges()) {
-        sum += edge.length;
-    }
-    return sum;
-}
 
 /// Lengths of paths along edges from one vertex of each component to all others, breadth first.
 double longest_tree_path(const PreparedMesh& mesh) {
@@ -51,13 +42,9 @@ double longest_tree_path(const PreparedMesh& mesh) {
 
 } // namespace
 
-double distance_bound(const PreparedMesh& mesh) noexcept {
-    try {
-        // From a point to a vertex of its face, over the root, and the same way down.
-        return 2 * (longest_tree_path(mesh) + mesh.statistics().longest_edge);
-    } catch (const std::bad_alloc&) {
-        return all_edges(mesh);
-    }
+double distance_bound(const PreparedMesh& mesh) {
+    // From a point to a vertex of its face, over the root, and the same way down.
+    return 2 * (longest_tree_path(mesh) + mesh.statistics().longest_edge);
 }
 
 } // namespace geodisk

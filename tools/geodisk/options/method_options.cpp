@@ -53,8 +53,8 @@ std::uint32_t Method::throws_for(double samples) const {
     if (stop_count == 0 || throws != 0) {
         return throws;
     }
-    return static_cast<std::uint32_t>(std::min<double>(
-        kMostCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
+    return static_cast<std::uint32_t>(
+        std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
 }
 
 void Method::check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const {

@@ -1,0 +1,53 @@
+#include "failing_new.hpp"
+
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+namespace {
+
+constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+
+// Allocations left before the one that fails.
+thread_local std::uint32_t left = kNever;
+thread_local bool failed = false;
+
+} // namespace
+
+// Of the whole program; the other forms of the operators call these.
+void* operator new(std::size_t size) {
+    if (left != kNever && left-- == 0) {
+        left = kNever;
+        failed = true;
+        throw std::bad_alloc();
+    }
+    if (void* const memory = std::malloc(size == 0 ? 1 : size)) {
+        return memory;
+    }
+    throw std::bad_alloc();
+}
+
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace geodisk::test {
+
+FailingNew::FailingNew(std::uint32_t after) {
+    failed = false;
+    left = after;
+}
+
+FailingNew::~FailingNew() {
+    left = kNever;
+}
+
+bool FailingNew::has_failed() const {
+    return failed;
+}
+
+} // namespace geodisk::test
