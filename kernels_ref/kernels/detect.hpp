@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <vector>
 
@@ -20,7 +19,7 @@ namespace geodisk::ref {
 /// What one disk took; the shaders count the same.
 struct DiskCount {
     std::uint32_t windows = 0;      ///< Windows and vertex events pushed.
-    std::uint32_t most_waiting = 0; ///< Most windows on the stack, or events in the queue.
+    std::uint32_t most_waiting = 0; ///< Most windows on the stack, or events waiting.
     std::uint32_t chain = 0;        ///< Longest chain of crossings.
     std::uint32_t vertices = 0;     ///< Vertices reached.
     std::uint32_t tested = 0;       ///< Points whose distance was computed.
@@ -55,6 +54,9 @@ class Detector {
     /// Another limit for the disks from now on.
     void set_limit(Real limit) { limit_ = limit; }
 
+    /// Takes vertex events in the order they came, as the shaders do with Events::oldest.
+    void take_oldest_first() { oldest_first_ = true; }
+
     /// Calls `hit(place, distance)` for every place of `bins` with `wanted(place)` that is near
     /// `source`, once for each path found.
     template <class Wanted, class Hit>
@@ -62,17 +64,15 @@ class Detector {
         begin();
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
         spread_from_source(source, wanted, hit);
-        // Windows first, the last one first, then the oldest event: a vertex then mostly has its
-        // final distance before its fan is lit.
-        while (!windows_.empty() || !events_.empty()) {
+        // Windows first, the last one first, then events: a vertex then mostly has its final
+        // distance before its fan is lit.
+        while (!windows_.empty() || events_taken_ < events_.size()) {
             if (!windows_.empty()) {
                 const Window window = windows_.back();
                 windows_.pop_back();
                 cross_edge(window, wanted, hit);
             } else {
-                const Event event = events_.front();
-                events_.pop_front();
-                spread_from_vertex(event, wanted, hit);
+                spread_from_vertex(take_event(), wanted, hit);
             }
         }
         return count_;
@@ -93,6 +93,9 @@ class Detector {
         Real sigma;
         std::uint32_t chain;
     };
+    static bool is_farther(const Event& a, const Event& b) {
+        return a.sigma > b.sigma || (a.sigma == b.sigma && a.vertex > b.vertex);
+    }
     struct VertexNote {
         Real distance;
         Real crossing;         ///< Where the best ray crossed `through`.
@@ -108,6 +111,7 @@ class Detector {
         ++generation_;
         windows_.clear();
         events_.clear();
+        events_taken_ = 0;
         count_ = {};
     }
 
@@ -139,7 +143,20 @@ class Detector {
 
     void push(const Event& event) {
         events_.push_back(event);
-        count_push(events_.size(), event.chain);
+        if (!oldest_first_) {
+            std::push_heap(events_.begin(), events_.end(), is_farther);
+        }
+        count_push(events_.size() - events_taken_, event.chain);
+    }
+
+    Event take_event() {
+        if (oldest_first_) {
+            return events_[events_taken_++];
+        }
+        std::pop_heap(events_.begin(), events_.end(), is_farther);
+        const Event event = events_.back();
+        events_.pop_back();
+        return event;
     }
 
     void count_push(std::size_t waiting, std::uint32_t chain) {
@@ -514,7 +531,9 @@ class Detector {
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
     std::vector<Window> windows_; ///< A stack.
-    std::deque<Event> events_;
+    bool oldest_first_ = false;
+    std::vector<Event> events_;    ///< A heap, the nearest on top; or all of the disk as they came.
+    std::size_t events_taken_ = 0; ///< Of those.
     DiskCount count_;
 };
 

@@ -6,7 +6,7 @@
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
 // reads: faces, fans, radii, cells, states, weights, orders   writes: pool, slots, control
-// spec: local size, rounding, pool block, counted lanes, adaptive
+// spec: local size, rounding, pool block, counted lanes, adaptive, event heap
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
@@ -227,8 +227,7 @@ void take_window() {
 
 // A vertex reached sooner by now is dropped.
 void take_event() {
-    uvec4 row = own_row_at(pool, event_row(event_head));
-    ++event_head;
+    uvec4 row = pop_event();
     uint vertex = row.x;
     if (find_vertex(vertex).distance < uintBitsToFloat(row.y)) {
         return;

@@ -132,6 +132,10 @@ GEODISK_CONST uint kClearPerStep = 64u;    // rows of the vertex table
 GEODISK_CONST uint kBlocksPerStep = 16u;   // active conflicts of a complete disk
 GEODISK_CONST uint kIterationsPerStep =
     1u + kClearPerStep + kBlocksPerStep + kTripsPerStep * kIterationsPerTrip;
+// Besides, where events wait in a heap: one taken and two pushed in a trip, each through all levels
+// that a heap of the largest capacity has, 2^kMostLevels.
+GEODISK_CONST uint kMostLevels = 26u;
+GEODISK_CONST uint kHeapIterationsPerStep = kTripsPerStep * 3u * (kMostLevels + 1u);
 // Candidates that an invocation of resolve has at hand to decide, and list entries that it goes
 // through in one dispatch.
 GEODISK_CONST uint kMostAtHand = 8u;
@@ -171,6 +175,7 @@ GEODISK_CONST uint kSpecCountCalls = 4u;
 GEODISK_CONST uint kSpecDimension = 5u;
 GEODISK_CONST uint kSpecCurved = 6u;
 GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
+GEODISK_CONST uint kSpecEventHeap = 8u; // vertex events wait in a heap, else in a ring
 
 // Candidates that a work group of the kernels per candidate draws or looks at: so many lanes, so
 // many each, side by side.

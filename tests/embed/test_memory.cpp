@@ -1,5 +1,5 @@
-// What the host computes without a device, while memory runs out: an error or the same answer, and no
-// exception ever leaves a function.
+// What the host computes without a device, while memory runs out: an error or the same answer, and
+// no exception ever leaves a function.
 #include <doctest/doctest.h>
 
 #include <cstdint>

@@ -296,12 +296,14 @@ SamplerOptions counting_calls(SamplerOptions options) {
 // this device can. Without calls of CheckStatus being counted, and with.
 SamplerOptions on_cpu() {
     const DeviceReport& report = shared_context().report();
-    return counting_calls({{0, 0, 1, 0, reads_of(report).back()}, roundings_of(report).back()});
-}
-const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
-SamplerOptions on_native_gpu() {
     return counting_calls(
-        {{0, 64, 32, 0, Reads::storage}, roundings_of(shared_context().report()).back()});
+        {{0, 0, 1, 0, reads_of(report).back()}, roundings_of(report).back(), Events::oldest});
+}
+const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated, Events::nearest};
+SamplerOptions on_native_gpu() {
+    return counting_calls({{0, 64, 32, 0, Reads::storage},
+                           roundings_of(shared_context().report()).back(),
+                           Events::nearest});
 }
 
 /// Capacities so large that no disk overflows.
@@ -333,6 +335,9 @@ void step_through(const PreparedMesh& mesh, const SampleParams& params,
     for (const Part& part : parts) {
         run.set_stages(part.first, part.count);
         Twin twin(mesh, params, run.plan().error_bound, part.first, part.count);
+        if (options.events == Events::oldest) {
+            twin.detector.take_oldest_first();
+        }
         run.begin();
         const auto by_place = compare_candidates(run, twin);
         step_through_samples(run, twin, samples, by_place, totals);

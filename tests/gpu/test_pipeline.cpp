@@ -246,6 +246,13 @@ TEST_SUITE("invariance") {
             options.sampler.tuning.reads = reads;
             CHECK(same(options));
         }
+        for (const Events events : {Events::nearest, Events::oldest}) {
+            RunnerOptions options;
+            options.sampler.events = events;
+            CHECK(same(options));
+            options.plan.window_capacity = 2;
+            CHECK(same(options));
+        }
         RunnerOptions emulated;
         emulated.sampler.rounding = Rounding::emulated;
         CHECK(same(emulated));
@@ -299,6 +306,7 @@ TEST_SUITE("invariance") {
         wide.sampler.tuning.pool_block = 4;
         wide.sampler.tuning.reads = Reads::storage;
         wide.sampler.rounding = Rounding::emulated;
+        wide.sampler.events = Events::nearest;
         for (const RunnerOptions& options : {tight, wide}) {
             CHECK(points_of(sample(mesh, params, options)) == points_of(base));
         }

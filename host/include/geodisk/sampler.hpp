@@ -44,6 +44,15 @@ enum class Rounding : std::uint32_t {
     emulated,
 };
 
+/// In which order a disk takes the vertices that shortest paths may bend at. Both find the same
+/// disks; their windows, and so ControlRec::longest_chain, may differ.
+enum class Events : std::uint32_t {
+    automatic, ///< The nearest first where disks are expected to cover 2^14 faces or more, else the
+               ///< oldest.
+    nearest,   ///< From a heap, which makes fewer windows on large disks.
+    oldest,    ///< From a ring.
+};
+
 /// How shaders read what they do not write. Both ways return the same bits.
 enum class Reads : std::uint32_t {
     automatic, ///< Texel buffers where they are known to be faster (llvmpipe), else storage
@@ -84,6 +93,7 @@ GEODISK_API Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceRepor
 struct SamplerOptions {
     Tuning tuning;
     Rounding rounding = Rounding::automatic;
+    Events events = Events::automatic;
     /// Counts in gpu::ControlRec how long lanes of detect wait for others of their subgroup; takes
     /// a little time.
     bool count_trips = false;

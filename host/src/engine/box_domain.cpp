@@ -64,15 +64,13 @@ double GridDomain::in_disk(const RunPlan& plan, std::uint32_t candidates) const 
     return std::min<double>(crowd_ * drawn / stages.samples, candidates);
 }
 
-void GridDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
-                            const DeviceReport& report) const {
+void GridDomain::plan_disks(RunPlan& plan, std::uint32_t candidates, const DeviceReport&) const {
     // Slots need no lanes here; the least that plans may have.
     plan.lanes = 1;
     plan.window_capacity = 2;
     plan.table_capacity = 1;
     const double conflicts = in_disk(plan, candidates);
     plan.list_capacity = std::max(4u, pow2_at_least(conflicts + 6 * std::sqrt(conflicts) + 8));
-    plan.step_budget = most_steps(report);
     plan.error_bound = guard_;
 }
 
@@ -85,7 +83,7 @@ double GridDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) 
     return std::ceil(trips / plan.step_budget);
 }
 
-std::uint32_t GridDomain::most_steps(const DeviceReport& report) const {
+std::uint32_t GridDomain::most_steps(const DeviceReport& report, const KernelVariant&) const {
     return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips : kDefaultTrips;
 }
 

@@ -42,13 +42,14 @@ struct Domain::Impl {
     virtual std::uint64_t most_candidates(const DeviceLimits& limits,
                                           std::uint32_t slots) const = 0;
     /// Sets what disks ask of a plan with slots, for so many candidates at once: lanes,
-    /// window_capacity, table_capacity, list_capacity, step_budget and error_bound.
+    /// window_capacity, table_capacity, list_capacity and error_bound.
     virtual void plan_disks(RunPlan& plan, std::uint32_t candidates,
                             const DeviceReport& report) const = 0;
     /// Dispatches of detect in which a batch should be done, most of all batches.
     virtual double detect_passes(const RunPlan& plan, std::uint32_t candidates) const = 0;
     /// Most steps that one dispatch of detect may safely take.
-    virtual std::uint32_t most_steps(const DeviceReport& report) const = 0;
+    virtual std::uint32_t most_steps(const DeviceReport& report,
+                                     const KernelVariant& variant) const = 0;
     /// Words of the table of cells but two; 0 where it is that of the units' starts.
     virtual std::uint64_t cells(std::uint32_t candidates, double error_bound) const = 0;
     /// Bytes of the buffers that the domain alone has, for so many candidates.

@@ -79,7 +79,7 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 
 /// What the shaders rely on without looking.
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
-    constexpr std::uint32_t kMost = 1u << 26;
+    constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
     const bool fine = plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
                       std::has_single_bit(plan.window_capacity) &&
                       std::has_single_bit(plan.table_capacity) && plan.list_capacity >= 4 &&
@@ -313,17 +313,18 @@ Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
             return checked.error();
         }
         const Domain::Impl& of = Domain::Impl::of(domain);
-        const auto pipelines = impl_->pipelines.of(of.kernels);
+        const KernelVariant variant = impl_->variant_for(domain);
+        const auto pipelines = impl_->pipelines.of(variant);
         if (!pipelines) {
             return pipelines.error();
         }
         auto job = std::make_unique<Job::Impl>();
         job->sampler = impl_.get();
         job->own_pipelines = *pipelines;
-        job->domain = of.kernels.domain;
+        job->domain = variant.domain;
         job->workspace = workspace;
         job->most_slots = plan.slots;
-        job->most_steps = of.most_steps(impl_->report);
+        job->most_steps = of.most_steps(impl_->report, variant);
         job->has_lane_per_slot = of.has_lane_per_slot;
         job->stages = of.stages;
         job->samples_per_measure = of.samples_per_measure;

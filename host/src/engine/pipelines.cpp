@@ -123,7 +123,7 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
     }
     constexpr std::uint32_t kWord = sizeof(std::uint32_t);
     const Tuning& tuning = choices_.tuning;
-    const std::array<std::uint32_t, 8> constants{info.per_slot ? tuning.slot_local_size
+    const std::array<std::uint32_t, 9> constants{info.per_slot ? tuning.slot_local_size
                                                                : tuning.local_size,
                                                  choices_.native_rounding ? VK_TRUE : VK_FALSE,
                                                  tuning.pool_block,
@@ -131,8 +131,9 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
                                                  choices_.count_calls ? VK_TRUE : VK_FALSE,
                                                  variant.dimension,
                                                  variant.curved ? VK_TRUE : VK_FALSE,
-                                                 variant.adaptive ? VK_TRUE : VK_FALSE};
-    const std::array<VkSpecializationMapEntry, 8> entries{{
+                                                 variant.adaptive ? VK_TRUE : VK_FALSE,
+                                                 variant.event_heap ? VK_TRUE : VK_FALSE};
+    const std::array<VkSpecializationMapEntry, 9> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
         {gpu::kSpecPoolBlock, 2 * kWord, kWord},
@@ -141,6 +142,7 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
         {gpu::kSpecDimension, 5 * kWord, kWord},
         {gpu::kSpecCurved, 6 * kWord, kWord},
         {gpu::kSpecAdaptive, 7 * kWord, kWord},
+        {gpu::kSpecEventHeap, 8 * kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};

@@ -23,7 +23,7 @@ constexpr double kMostSlots = (1u << 16) - 512;
 // Of a CPU, whose caches the lists of more would leave.
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
-constexpr std::uint32_t kLargestCapacity = 1u << 26;
+constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMostLevels;
 // Of candidates: deviations from what a stage expects that there is room for.
 constexpr double kDeviations = 8;
 // Slots besides those that a batch aims at, in square roots of their number, see lib/schedule.glsl.
@@ -237,6 +237,7 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
             wanted_sample_capacity(of.samples, of.stop_count, plan.slots, report);
         plan.idle_capacity = wanted_idle_capacity(plan.slots, candidates);
         of.plan_disks(plan, candidates, report);
+        plan.step_budget = of.most_steps(report, impl_->variant_for(domain));
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
         fit(plan, pool_bytes);
         if (plan.lanes == 0) {

@@ -61,7 +61,8 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
         choices.counted_lanes =
             options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
         choices.count_calls = options.count_calls;
-        auto impl = std::make_unique<Impl>(device, std::move(*report), *table, choices);
+        auto impl =
+            std::make_unique<Impl>(device, std::move(*report), *table, choices, options.events);
         if (auto created = impl->pipelines.create(); !created) {
             return created.error();
         }
@@ -69,9 +70,17 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
     });
 }
 
+KernelVariant Sampler::Impl::variant_for(const Domain& domain) const {
+    KernelVariant variant = Domain::Impl::of(domain).kernels;
+    if (variant.domain == DomainKind::surface && events != Events::automatic) {
+        variant.event_heap = events == Events::nearest;
+    }
+    return variant;
+}
+
 Result<Done> Sampler::prepare(const Domain& domain) const noexcept {
     return guarded([&]() -> Result<Done> {
-        const auto pipelines = impl_->pipelines.of(Domain::Impl::of(domain).kernels);
+        const auto pipelines = impl_->pipelines.of(impl_->variant_for(domain));
         return pipelines ? Result<Done>(Done{}) : pipelines.error();
     });
 }

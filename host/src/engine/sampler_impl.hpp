@@ -18,13 +18,14 @@ struct Sampler::Impl {
     DeviceReport report;
     DeviceTable vk;
     KernelChoices choices;
+    Events events;
     mutable Pipelines pipelines; ///< Compiled on first use.
     /// The device may be using the pipelines and what jobs hold for ever: destroy none.
     bool abandoned = false;
 
     Impl(const DeviceRefs& refs, DeviceReport of_device, const DeviceTable& table,
-         const KernelChoices& chosen)
-        : device(refs), report(std::move(of_device)), vk(table), choices(chosen),
+         const KernelChoices& chosen, Events order)
+        : device(refs), report(std::move(of_device)), vk(table), choices(chosen), events(order),
           pipelines(device, vk, choices) {}
 
     static const Impl& of(const Sampler& sampler) { return *sampler.impl_; }
@@ -32,6 +33,8 @@ struct Sampler::Impl {
         abandoned = true;
         pipelines.abandon();
     }
+    /// Of the kernels for a domain.
+    KernelVariant variant_for(const Domain& domain) const;
     /// Of the two variants of the kernels, which.
     bool reads_texels() const { return choices.tuning.reads == Reads::texels; }
     /// Dispatches of count_calls per round: as for resolve, the next round goes on.

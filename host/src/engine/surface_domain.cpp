@@ -14,13 +14,16 @@
 namespace geodisk {
 namespace {
 
-// llvmpipe ends all loops of a shader after 65,535 iterations per SIMD group, silently.
-constexpr std::uint32_t kLlvmpipeSteps = 65535 / gpu::kIterationsPerStep;
+// llvmpipe ends all loops of a shader after so many iterations per SIMD group, silently.
+constexpr std::uint32_t kLlvmpipeIterations = 65535;
 // Elsewhere the budget keeps a dispatch well under the watchdogs.
 constexpr std::uint32_t kDefaultSteps = 128;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
+// Disks from so many faces on take vertex events by distance. The rule must not look at the device:
+// with the order of work the longest window chain may change, and with it the guard.
+constexpr double kHeapFaces = 1u << 14;
 
 } // namespace
 
@@ -44,6 +47,7 @@ SurfaceDomain::SurfaceDomain(const PreparedMesh& mesh, const SampleParams& param
       full_(std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance))) {
     kernels.domain = DomainKind::surface;
     kernels.adaptive = params.radii != nullptr;
+    kernels.event_heap = faces_per_disk() >= kHeapFaces;
     stages = stages_of(mesh, params);
     samples_per_measure = samples_per_area();
     samples = samples_to_expect(full_, params.throws, params.stop_count);
@@ -59,28 +63,32 @@ std::uint64_t SurfaceDomain::most_candidates(const DeviceLimits& limits, std::ui
 
 void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
-    const double faces_per_disk = 2.0 * mesh_.face_count() / full_;
+    const double faces = faces_per_disk();
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     // A CPU runs as many lanes as it has; a GPU is to have one for every slot.
     plan.lanes = cpu ? std::min(plan.slots, cpu_lanes(report)) : plan.slots;
     // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
-    plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces_per_disk);
-    plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces_per_disk);
+    plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces);
+    plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces);
     plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * candidates / full_));
-    plan.step_budget = most_steps(report);
     plan.error_bound = first_error(mesh_, params_);
 }
 
 double SurfaceDomain::detect_passes(const RunPlan& plan, std::uint32_t) const {
     // What a disk takes, by measurement.
-    const double faces = 2.0 * mesh_.face_count() / full_;
+    const double faces = faces_per_disk();
     const double trips = 12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces);
     const double per_lane = std::ceil(static_cast<double>(plan.slots) / plan.lanes) * trips;
     return per_lane / (plan.step_budget * gpu::kTripsPerStep) + 2;
 }
 
-std::uint32_t SurfaceDomain::most_steps(const DeviceReport& report) const {
-    return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeSteps : kDefaultSteps;
+std::uint32_t SurfaceDomain::most_steps(const DeviceReport& report,
+                                        const KernelVariant& variant) const {
+    if (report.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE) {
+        return kDefaultSteps;
+    }
+    return kLlvmpipeIterations /
+           (gpu::kIterationsPerStep + (variant.event_heap ? gpu::kHeapIterationsPerStep : 0));
 }
 
 std::uint64_t SurfaceDomain::cells(std::uint32_t, double) const {

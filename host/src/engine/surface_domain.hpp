@@ -15,7 +15,8 @@ class SurfaceDomain : public Domain::Impl {
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
                     const DeviceReport& report) const override;
     double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
-    std::uint32_t most_steps(const DeviceReport& report) const override;
+    std::uint32_t most_steps(const DeviceReport& report,
+                             const KernelVariant& variant) const override;
     std::uint64_t cells(std::uint32_t candidates, double error_bound) const override;
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
@@ -28,6 +29,8 @@ class SurfaceDomain : public Domain::Impl {
     double guard_for(double error_bound) const override { return error_.guard_for(error_bound); }
 
   private:
+    double faces_per_disk() const { return 2.0 * mesh_.face_count() / full_; }
+
     const PreparedMesh& mesh_;
     SampleParams params_;
     ErrorModel error_;
