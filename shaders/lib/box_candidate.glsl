@@ -48,12 +48,10 @@ float mean_count(uint cell) {
     return mean;
 }
 
-// How many it has that expects so many.
-uint count_of(uint cell, uint stage, float mean) {
-    uvec4 random =
-        philox(load_draw_cell(cell).seed, uvec4(kCountNumber, push.first_stage + stage, 0u, 0u));
-    return poisson(mean, random.x, random.y);
-}
+uvec3 count_key(uint cell) { return uvec3(load_draw_cell(cell).seed, kCountNumber); }
+
+// Of its count in a stage of the job.
+uvec4 count_words(uvec3 key, uint stage) { return philox(key.xy, uvec4(key.z, stage, 0u, 0u)); }
 
 // `stage` is that of the job.
 uint[kMostAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priority) {

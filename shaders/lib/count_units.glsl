@@ -1,6 +1,7 @@
 // How many candidates each face or box cell has in each stage, by the Poisson law (paper
 // GenerateDensePoints, sections 3.3 and 4.2). One invocation per face or cell. Needs mean_count(cell),
-// what one stage expects, and count_of(cell, stage, mean); tells counted(cell, number in all).
+// what one stage expects, count_key(cell) and with that count_words(key, stage), random ones; tells
+// counted(cell, number in all).
 #ifndef GEODISK_COUNT_UNITS_GLSL
 #define GEODISK_COUNT_UNITS_GLSL
 
@@ -15,9 +16,14 @@ void main() {
         return;
     }
     float mean = mean_count(cell);
+    bool has_any = mean >= kSmallestMean;
+    // What the stages share is not left to the compiler: lavapipe's would do it for each.
+    PoissonLaw law = poisson_law(mean);
+    uvec3 key = count_key(cell);
     uint sum = 0u;
     for (uint stage = 0u; stage < push.stages; ++stage) {
-        uint count = count_of(cell, stage, mean);
+        uvec4 random = count_words(key, push.first_stage + stage);
+        uint count = has_any ? poisson(law, random.x, random.y) : 0u;
         starts[cell * push.stages + stage] = count;
         sum += count;
     }

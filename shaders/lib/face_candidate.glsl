@@ -43,10 +43,11 @@ Candidate draw_evenly(uint face, uint stage, uint number) {
     return c;
 }
 
-// How many a face has that expects so many.
-uint count_of(uint face, uint stage, float mean) {
-    uvec4 random = random_of(face, 0u, stage, kCountProposal);
-    return poisson(mean, random.x, random.y);
+uvec3 count_key(uint face) { return uvec3(push.seed_low, push.seed_high, key_of(face)); }
+
+// Of its count in a stage of the job.
+uvec4 count_words(uvec3 key, uint stage) {
+    return philox(key.xy, uvec4(key.z, 0u, stage, kCountProposal));
 }
 
 #endif

@@ -20,10 +20,19 @@ float unit_fraction(uint word) {
     return fraction;
 }
 
-// How many n have P(N >= n) above the fraction, for a mean below 8.
-uint poisson_tail(float mean, uint word) {
-    float fraction = unit_fraction(word);
-    precise float r = mean * 0.0625;
+// The law of a mean, in what all its numbers share.
+struct PoissonLaw {
+    uint whole;        // part of the mean, which goes from the mode outwards
+    float rest;        // below 8
+    float none, any;   // P(N = 0) and P(N >= 1) of the rest
+};
+
+PoissonLaw poisson_law(float mean) {
+    PoissonLaw law;
+    law.whole = mean < kLargestTailMean ? 0u : uint(mean);
+    precise float rest = mean - float(law.whole);
+    law.rest = rest;
+    precise float r = rest * 0.0625;
     // 1 - exp(-r), in powers of r.
     precise float t8 = 1.0 - r * 0.125;
     precise float t7 = 1.0 - r * 0.14285715 * t8;
@@ -40,11 +49,21 @@ uint poisson_tail(float mean, uint word) {
         p = square;
         any = twice;
     }
-    // p is P(N = n), `any` is P(N >= n + 1).
+    law.none = p;
+    law.any = any;
+    return law;
+}
+
+// How many n have P(N >= n) above the fraction, for the rest of the mean.
+uint poisson_tail(PoissonLaw law, uint word) {
+    float fraction = unit_fraction(word);
+    // P(N = n) and P(N >= n + 1).
+    float p = law.none;
+    float any = law.any;
     uint n = 0u;
     while (fraction < any && p > kSmallestProbability && n < kMostTailSteps) {
         ++n;
-        precise float times = p * mean;
+        precise float times = p * law.rest;
         p = ratio(times, float(n));
         precise float rest = any - p;
         any = rest;
@@ -94,14 +113,10 @@ uint poisson_walk(uint mean, uint word) {
     return mean;
 }
 
-uint poisson(float mean, uint first, uint second) {
-    if (!(mean >= kSmallestMean)) {
-        return 0u;
-    }
-    uint whole = mean < kLargestTailMean ? 0u : uint(mean);
-    precise float rest = mean - float(whole);
-    uint count = poisson_tail(rest, second);
-    return whole > 0u ? count + poisson_walk(whole, first) : count;
+// Of a mean that is not below kSmallestMean.
+uint poisson(PoissonLaw law, uint first, uint second) {
+    uint count = poisson_tail(law, second);
+    return law.whole > 0u ? count + poisson_walk(law.whole, first) : count;
 }
 
 #endif
