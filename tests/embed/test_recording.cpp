@@ -554,6 +554,31 @@ TEST_SUITE("workspaces") {
         check_silent(context);
     }
 
+    TEST_CASE("buffers are named as the domain uses them") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const TestMesh shape = builtin("cube", 1);
+        const PreparedMesh mesh = prepared(shape);
+        const auto check = [&](const Domain& domain, BufferRole role, const char* name) {
+            const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
+            Workshop workshop(context);
+            Workspace wrong = workshop.cut(expect(sampler.workspace_needs(domain, plan)));
+            wrong[static_cast<std::size_t>(role)].buffer = VK_NULL_HANDLE;
+            const Result<Job> job = sampler.make_job(domain, plan, wrong);
+            REQUIRE_FALSE(job);
+            CHECK(job.error().message ==
+                  std::string("the workspace's buffer ") + name + " is null");
+        };
+        BoxParams box;
+        box.min_distance = 0.1;
+        check(expect(Domain::box(box)), BufferRole::axes, "axes");
+        check(expect(Domain::box(box)), BufferRole::points, "points");
+        const SampleParams params = params_for(mesh, 50);
+        check(expect(Domain::surface_in_space(shape.view(), mesh, params, Metric::euclidean)),
+              BufferRole::corners, "corners");
+        check(expect(Domain::surface(mesh, params)), BufferRole::fans, "fans");
+    }
+
     TEST_CASE("plans and pools that cannot work are refused") {
         const Context context = expect(Context::create());
         const Sampler sampler = expect(Sampler::create(context.device()));

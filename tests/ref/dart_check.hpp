@@ -20,7 +20,7 @@ struct Darts {
     std::vector<Point> samples() const;
 };
 
-/// ref::throw_darts with the tolerances of a run: those of the plan's chain, or of a longer one
+/// ref::throw_darts with the tolerances of a run: those of the first error bound, or a larger one
 /// where a disk took it.
 template <class Real>
 Darts thrown(const PreparedMesh& mesh, const SampleParams& params);

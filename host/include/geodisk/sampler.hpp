@@ -1,7 +1,7 @@
 // Sampler: records a sampling job into the caller's command buffers. It allocates no memory,
 // submits nothing and waits for nothing.
 //
-// How a job goes:
+// How a job of a Domain goes:
 //   1. plan_run             how many candidates are active at a time, how many invocations compute
 //                           their disks, and how much memory each gets
 //   2. workspace_needs      sizes of the buffers; the caller allocates them
@@ -119,10 +119,14 @@ enum class BufferRole : std::uint32_t {
     samples,
     accepted,
     buckets,
+    // The same buffers where distances go through space.
+    corners = faces, ///< Of a surface.
+    axes = fans,     ///< Of the grid.
+    points = weights,
 };
 inline constexpr std::size_t kBufferRoles = 15;
 
-/// Name of a role as spelled above, for messages.
+/// Name of a role as spelled first, for messages.
 GEODISK_API const char* to_string(BufferRole role) noexcept;
 
 /// A range of a caller's buffer, bound as storage and texel buffer: `offset` a multiple of the

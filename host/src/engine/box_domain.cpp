@@ -93,9 +93,15 @@ std::uint64_t GridDomain::cells(std::uint32_t candidates, double error_bound) co
 
 void GridDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                            const RunPlan& plan) const {
-    needs.bytes[gpu::kBindAxes] = upload_size(BufferRole::fans);
+    needs.bytes[gpu::kBindAxes] = upload_size(BufferRole::axes);
     needs.bytes[gpu::kBindPoints] =
         ((words_per_point_ + 1) * std::uint64_t{candidates} + words_per_point_ * plan.slots) * 4;
+}
+
+const char* GridDomain::name_of(BufferRole role) const {
+    return role == BufferRole::axes     ? "axes"
+           : role == BufferRole::points ? "points"
+                                        : to_string(role);
 }
 
 void GridDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
@@ -103,9 +109,7 @@ void GridDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
 }
 
 std::size_t GridDomain::upload_size(BufferRole role) const {
-    return static_cast<std::uint32_t>(role) == gpu::kBindAxes
-               ? box_.extents.size() * sizeof(gpu::AxisRec)
-               : 0;
+    return role == BufferRole::axes ? box_.extents.size() * sizeof(gpu::AxisRec) : 0;
 }
 
 Result<Done> GridDomain::write_upload(const RunPlan& plan, BufferRole,

@@ -18,6 +18,7 @@ class GridDomain : public Domain::Impl {
     std::uint64_t cells(std::uint32_t candidates, double error_bound) const override;
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
+    const char* name_of(BufferRole role) const override;
     void set_push(gpu::Push& push, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role,

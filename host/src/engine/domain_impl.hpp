@@ -57,6 +57,8 @@ struct Domain::Impl {
                            const RunPlan& plan) const = 0;
     /// What takes room besides candidates, for messages: " and 12 faces".
     virtual std::string beside_candidates() const = 0;
+    /// Of a buffer, as the domain uses it.
+    virtual const char* name_of(BufferRole role) const { return to_string(role); }
     /// The fields of the push block that neither the plan nor the stages tell.
     virtual void set_push(gpu::Push& push, const RunPlan& plan) const = 0;
     /// Bytes of a buffer that is uploaded, 0 for others.

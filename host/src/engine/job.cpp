@@ -21,23 +21,22 @@ namespace {
 // Beside a minimum distance of one.
 constexpr double kMostError = 0.5;
 
-Error range_error(Status status, std::size_t role, const std::string& what) {
-    return Error{status, std::string("the workspace's buffer ") +
-                             to_string(static_cast<BufferRole>(role)) + ' ' + what};
+Error range_error(Status status, const char* name, const std::string& what) {
+    return Error{status, std::string("the workspace's buffer ") + name + ' ' + what};
 }
 
-Result<Done> check_range(const BufferRange& range, std::size_t role, VkDeviceSize needed,
+Result<Done> check_range(const BufferRange& range, const char* name, VkDeviceSize needed,
                          const DeviceLimits& limits) {
     if (range.buffer == VK_NULL_HANDLE) {
-        return range_error(Status::invalid_argument, role, "is null");
+        return range_error(Status::invalid_argument, name, "is null");
     }
     if (range.size < needed) {
-        return range_error(Status::workspace_too_small, role,
+        return range_error(Status::workspace_too_small, name,
                            "has " + std::to_string(range.size) + " bytes and needs " +
                                std::to_string(needed));
     }
     if (range.size > limits.max_storage_buffer_range) {
-        return range_error(Status::invalid_argument, role,
+        return range_error(Status::invalid_argument, name,
                            "has " + std::to_string(range.size) +
                                " bytes, but the device binds at "
                                "most " +
@@ -46,7 +45,7 @@ Result<Done> check_range(const BufferRange& range, std::size_t role, VkDeviceSiz
     const std::uint64_t alignment = std::max(limits.min_storage_buffer_offset_alignment,
                                              limits.min_texel_buffer_offset_alignment);
     if (range.offset % alignment != 0) {
-        return range_error(Status::invalid_argument, role,
+        return range_error(Status::invalid_argument, name,
                            "starts at " + std::to_string(range.offset) +
                                ", off the device's alignment of " + std::to_string(alignment));
     }
@@ -58,19 +57,19 @@ bool overlap(const BufferRange& a, const BufferRange& b) {
 }
 
 Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
-                             const DeviceLimits& limits) {
+                             const Domain::Impl& of, const DeviceLimits& limits) {
+    const auto name = [&of](std::size_t i) { return of.name_of(static_cast<BufferRole>(i)); };
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         if (needs.bytes[i] == 0) {
             continue;
         }
-        if (auto checked = check_range(workspace[i], i, needs.bytes[i], limits); !checked) {
+        if (auto checked = check_range(workspace[i], name(i), needs.bytes[i], limits); !checked) {
             return checked;
         }
         for (std::size_t k = 0; k < i; ++k) {
             if (overlap(workspace[i], workspace[k])) {
-                return range_error(Status::invalid_argument, i,
-                                   std::string("overlaps the buffer ") +
-                                       to_string(static_cast<BufferRole>(k)));
+                return range_error(Status::invalid_argument, name(i),
+                                   std::string("overlaps the buffer ") + name(k));
             }
         }
     }
@@ -229,8 +228,8 @@ Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
 
 Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked =
-                check_range(pool, gpu::kBindPool, plan.pool_bytes(), impl_->sampler->report.limits);
+        if (auto checked = check_range(pool, to_string(BufferRole::pool), plan.pool_bytes(),
+                                       impl_->sampler->report.limits);
             !checked) {
             return checked;
         }
@@ -283,7 +282,8 @@ Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples
              {gpu::kBindBuckets, buckets}}};
         for (std::size_t i = 0; i < ranges.size(); ++i) {
             const auto& [role, range] = ranges[i];
-            if (auto checked = check_range(range, role, bytes[i], impl_->sampler->report.limits);
+            if (auto checked = check_range(range, to_string(static_cast<BufferRole>(role)),
+                                           bytes[i], impl_->sampler->report.limits);
                 !checked) {
                 return checked;
             }
@@ -309,10 +309,10 @@ Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
         if (!needs) {
             return needs.error();
         }
-        if (auto checked = check_workspace(workspace, *needs, impl_->report.limits); !checked) {
+        const Domain::Impl& of = Domain::Impl::of(domain);
+        if (auto checked = check_workspace(workspace, *needs, of, impl_->report.limits); !checked) {
             return checked.error();
         }
-        const Domain::Impl& of = Domain::Impl::of(domain);
         const KernelVariant variant = impl_->variant_for(domain);
         const auto pipelines = impl_->pipelines.of(variant);
         if (!pipelines) {

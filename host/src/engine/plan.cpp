@@ -65,16 +65,16 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
-/// `job` is as " for 100 candidates and 12 faces".
-Result<Done> check_needs(const WorkspaceNeeds& needs, const std::string& job,
-                         const DeviceReport& report) {
+Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
+                         std::uint32_t candidates, const DeviceReport& report) {
     const std::uint64_t limit = report.limits.max_storage_buffer_range;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindKeys;
         if (needs.bytes[i] > limit) {
             return Error{
                 Status::job_too_large,
-                std::string("the buffer ") + to_string(static_cast<BufferRole>(i)) + job +
+                std::string("the buffer ") + of.name_of(static_cast<BufferRole>(i)) + " for " +
+                    std::to_string(candidates) + " candidates" + of.beside_candidates() +
                     " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
                     " binds at most " + std::to_string(limit) +
                     (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
@@ -304,9 +304,7 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain,
         needs.bytes[gpu::kBindAccepted] = samples[1];
         needs.bytes[gpu::kBindBuckets] = samples[2];
         of.add_needs(needs, candidates, plan);
-        const std::string job =
-            " for " + std::to_string(candidates) + " candidates" + of.beside_candidates();
-        if (auto checked = check_needs(needs, job, impl_->report); !checked) {
+        if (auto checked = check_needs(needs, of, candidates, impl_->report); !checked) {
             return checked.error();
         }
         return needs;

@@ -152,7 +152,7 @@ SpaceDomain::SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const S
 void SpaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                             const RunPlan& plan) const {
     GridDomain::add_needs(needs, candidates, plan);
-    needs.bytes[gpu::kBindFaces] = upload_size(BufferRole::faces);
+    needs.bytes[gpu::kBindFaces] = upload_size(BufferRole::corners);
 }
 
 std::string SpaceDomain::beside_candidates() const {
@@ -160,13 +160,13 @@ std::string SpaceDomain::beside_candidates() const {
 }
 
 std::size_t SpaceDomain::upload_size(BufferRole role) const {
-    return role == BufferRole::faces ? std::size_t{mesh_.face_count()} * gpu::kSpaceRows * 16
-                                     : GridDomain::upload_size(role);
+    return role == BufferRole::corners ? std::size_t{mesh_.face_count()} * gpu::kSpaceRows * 16
+                                       : GridDomain::upload_size(role);
 }
 
 Result<Done> SpaceDomain::write_upload(const RunPlan& plan, BufferRole role,
                                        std::span<std::byte> out) const {
-    if (role != BufferRole::faces) {
+    if (role != BufferRole::corners) {
         return GridDomain::write_upload(plan, role, out);
     }
     std::fill(out.begin(), out.end(), std::byte{0});

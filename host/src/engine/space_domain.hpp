@@ -32,6 +32,9 @@ class SpaceDomain : public GridDomain {
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
     std::string beside_candidates() const override;
+    const char* name_of(BufferRole role) const override {
+        return role == BufferRole::corners ? "corners" : GridDomain::name_of(role);
+    }
     std::size_t upload_size(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role,
                               std::span<std::byte> out) const override;
