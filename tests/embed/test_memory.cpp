@@ -61,11 +61,6 @@ TEST_CASE("memory: functions without a device survive its lack") {
     }
     sweep([&] { return Domain::box(box); });
     sweep([&] { return pool_size(mesh, far); });
-
-    const Sampler sampler = expect(Sampler::create(shared_context().device()));
-    const Domain domain = expect(Domain::surface(mesh, params));
-    const RunPlan plan = expect(sampler.plan_run(domain, 1 << 24));
-    sweep([&] { return sampler.workspace_needs(domain, plan); });
 }
 
 TEST_CASE("memory: nor do errors need it") {
