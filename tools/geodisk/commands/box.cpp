@@ -102,9 +102,7 @@ void run_box(const BoxOptions& options) {
     check_outputs(job.out, "the samples", {});
     check_box_dimension(job.out.output, domain.dimension());
     ProgressLine progress(job.out.quiet);
-    const double room = expected_count(job.box);
-    const double expected =
-        job.box.stop_count != 0 ? std::min<double>(room, job.box.stop_count) : room;
+    const double expected = job.method.expected(expected_count(job.box));
     const auto [set, done] = run_on_device(job.run, job.runner, domain, expected, progress);
     const std::vector<SampleRow> rows = to_rows(set.points, domain.dimension());
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);

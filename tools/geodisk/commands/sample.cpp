@@ -45,13 +45,6 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     return params;
 }
 
-/// Samples to reckon with, at least one.
-double expected_samples(const PreparedMesh& mesh, const SampleParams& params) {
-    const double expected =
-        std::max(1.0, expected_count(effective_area(mesh, params), params.min_distance));
-    return params.stop_count != 0 ? std::min<double>(expected, params.stop_count) : expected;
-}
-
 Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params) {
     if (job.is_geodesic()) {
         return take(Domain::surface(mesh.prepared, params));
@@ -86,8 +79,9 @@ void run_sample(const SampleOptions& options) {
 
     const SampleParams params = params_on(mesh, job);
     const Domain domain = domain_of(job, mesh, params); // Fails before a device is needed.
-    auto [set, done] = run_on_device(job.run, job.runner, domain,
-                                     expected_samples(mesh.prepared, params), progress);
+    const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
+    auto [set, done] =
+        run_on_device(job.run, job.runner, domain, job.method.expected(room), progress);
     job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
     const SampleResult result{params, std::move(done),
                               to_rows(mesh, params.min_distance, set.samples)};

@@ -57,6 +57,11 @@ std::uint32_t Method::throws_for(double samples) const {
         std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
 }
 
+double Method::expected(double samples) const {
+    const double room = std::max(1.0, samples);
+    return stop_count != 0 ? std::min<double>(room, stop_count) : room;
+}
+
 void Method::check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const {
     if (throws == 0 && samples < stop_count) {
         fail_usage("--count: only " + grouped(samples) + " of " + grouped(stop_count) +

@@ -38,6 +38,8 @@ struct Method {
     /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
     /// they end at a number that leaves hardly any gap.
     std::uint32_t throws_for(double samples) const;
+    /// Samples to reckon with where there is room for so many, at least one.
+    double expected(double samples) const;
     /// A count asked for, with no number of darts that would do, must be reached: throws
     /// UserError(usage) if there are fewer samples.
     void check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const;
