@@ -22,3 +22,12 @@ function(geodisk_target name)
         endif()
     endif()
 endfunction()
+
+# geodisk_compile_quickly(SOURCE...): for sources that hardly compute and whose headers take long to
+# optimize, such as options.
+function(geodisk_compile_quickly)
+    if(NOT MSVC)
+        set_source_files_properties(${ARGN} PROPERTIES
+            COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+    endif()
+endfunction()
