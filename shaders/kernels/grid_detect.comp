@@ -27,6 +27,8 @@ GEODISK_CONTROL;
 // A copy that stays in registers; reading push constants in a branch is a gather on lavapipe.
 Push P;
 
+uint overflow; // kOverflow* bits
+
 #include "../lib/slice.glsl"
 #include "../lib/list.glsl"
 #include "../lib/complete.glsl"
@@ -38,6 +40,8 @@ uint own_cell[kMostAxes];
 float own_inside[kMostAxes]; // the cell, as part of its width, rounded down
 vec3 own_normal;
 uint own_place;
+uint idle_conflicts;      // listed so far
+uint active_conflicts;
 uint turn;
 uint scan_place;           // next candidate
 uint scan_end;
@@ -194,7 +198,7 @@ void trip() {
         }
         ++tested;
         if (conflicts_with(place)) {
-            list_conflict(place, state == kActive);
+            list_conflict(idle_conflicts, active_conflicts, place, state == kActive);
         }
     }
 }

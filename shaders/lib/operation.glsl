@@ -1,19 +1,6 @@
-// The operation in flight: what spreads over which face. It is set up in registers and kept in
-// LaneRec between dispatches.
+// The operation in flight: what spreads, which the lane's record holds, and over which face.
 #ifndef GEODISK_OPERATION_GLSL
 #define GEODISK_OPERATION_GLSL
-
-uint phase;
-uint half_edge;     // the face is seen from here
-uint mode;          // kMode*
-float x;            // source, in the frame of half_edge, or of the window's own edge
-float y;
-float b0;           // lit interval of a window
-float b1;
-float sigma;        // distance of the source
-uint chain;         // crossings so far
-uint known;         // of a window: what was known of its edge's ends, see leave()
-uint longest_chain;
 
 // The face, seen from half_edge.
 Edge edge;
@@ -42,8 +29,8 @@ float reach() { return kAdaptive ? limit_with(radii.w) : P.limit; }
 float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : P.limit; }
 
 void load_face() {
-    uint face = half_edge / 3u;
-    uint corner = half_edge - 3u * face;
+    uint face = lane.half_edge / 3u;
+    uint corner = lane.half_edge - 3u * face;
     edge = load_edge(face, corner);
     right = load_edge(face, next_corner(corner));
     left = load_edge(face, previous_corner(corner));
@@ -60,14 +47,14 @@ void load_face() {
 
 // A window enters the face of half_edge with its source at (entry_x, -y) in that frame.
 float entry_x() {
-    precise float mirrored = edge.len - x;
-    return mode == kModeOpposite ? mirrored : x;
+    precise float mirrored = edge.len - lane.x;
+    return lane.mode == kModeOpposite ? mirrored : lane.x;
 }
 
 vec2 entry_interval() {
-    precise float low = edge.len - b1;
-    precise float high = edge.len - b0;
-    return mode == kModeOpposite ? vec2(low, high) : vec2(b0, b1);
+    precise float low = edge.len - lane.b1;
+    precise float high = edge.len - lane.b0;
+    return lane.mode == kModeOpposite ? vec2(low, high) : vec2(lane.b0, lane.b1);
 }
 
 float squared(float dx, float dy) {

@@ -13,7 +13,7 @@
 // Whether `distance` plus a straight way beats the window's own distance to a point at this squared
 // distance from its source, by more than the margin.
 bool beats(float distance, float way, float own_square) {
-    precise float rest = ((distance + way) - sigma) + P.margin;
+    precise float rest = ((distance + way) - lane.sigma) + P.margin;
     precise float square = rest * rest;
     return rest < 0.0 || square < own_square;
 }
@@ -35,10 +35,10 @@ float from_steps(uint steps) {
 // What was known of the start and the end of half_edge when the window in flight set out. Where many
 // faces share the edge the window carries its own half-edge instead.
 vec2 known_ends() {
-    bool turned = mode == kModeOpposite;
-    uint low = known & 0xffffu;
-    uint high = known >> 16;
-    bool unknown = mode == kModeInside || (edge.origin & kManyFaces) != 0u;
+    bool turned = lane.mode == kModeOpposite;
+    uint low = lane.known & 0xffffu;
+    uint high = lane.known >> 16;
+    bool unknown = lane.mode == kModeInside || (edge.origin & kManyFaces) != 0u;
     return vec2(unknown ? kFar : from_steps(turned ? high : low),
                 unknown ? kFar : from_steps(turned ? low : high));
 }
@@ -66,9 +66,9 @@ struct Meeting {
 Meeting meet_apex(float sx, vec2 lit) {
     Meeting m;
     precise float apex_dx = apex.x - sx;
-    precise float apex_dy = apex.y + y;
-    precise float crossing = sx + apex_dx * ratio(y, apex_dy);
-    precise float distance = sigma + root(squared(apex_dx, apex_dy));
+    precise float apex_dy = apex.y + lane.y;
+    precise float crossing = sx + apex_dx * ratio(lane.y, apex_dy);
+    precise float distance = lane.sigma + root(squared(apex_dx, apex_dy));
     precise float slack_low = lit.x - P.slack;
     precise float slack_high = lit.y + P.slack;
     m.crossing = crossing;
@@ -86,7 +86,7 @@ Meeting meet_apex(float sx, vec2 lit) {
 // is whose.
 void split_once(inout Meeting m, VertexRow row) {
     if (P.splits_once != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
-        row.through == half_edge) {
+        row.through == lane.half_edge) {
         precise float beaten_from = row.distance + P.margin;
         precise float left_of = row.crossing - P.slack;
         precise float right_of = row.crossing + P.slack;
@@ -101,11 +101,11 @@ void split_once(inout Meeting m, VertexRow row) {
 // edge. Vertices that may bend shortest paths become events. Returns what is known of start, end and
 // apex; `source_square` is the squared distance of the candidate from the start.
 vec3 reach_vertices(inout Meeting m, float source_square) {
-    bool inside = mode == kModeInside;
-    bool from_vertex = phase == kPhaseFan;
+    bool inside = lane.mode == kModeInside;
+    bool from_vertex = lane.phase == kPhaseFan;
     vec3 distances = vec3(known_ends(), kFar);
-    precise float start_distance = sigma + (from_vertex ? left.len : root(source_square));
-    precise float end_distance = sigma + right.len;
+    precise float start_distance = lane.sigma + (from_vertex ? left.len : root(source_square));
+    precise float end_distance = lane.sigma + right.len;
     for (uint i = inside ? 0u : 2u; i < (inside ? 2u : 3u); ++i) {
         uint origin = i == 0u ? edge.origin : (i == 1u ? right.origin : left.origin);
         uint vertex = origin & kVertexMask;
@@ -119,15 +119,15 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
         }
         if (distance < best && distance < reach()) {
             best = distance;
-            note_vertex(row, vertex, distance, inside ? kNoHalfEdge : half_edge,
+            note_vertex(row, vertex, distance, inside ? kNoHalfEdge : lane.half_edge,
                         inside ? 0.0 : m.crossing);
-            bool whole_fan = phase == kPhaseSource && distance <= kNearVertex;
+            bool whole_fan = lane.phase == kPhaseSource && distance <= kNearVertex;
             if (whole_fan || (origin & kOriginBends) != 0u) {
-                uint corner = i == 0u   ? half_edge
-                              : i == 1u ? next_in_face(half_edge)
-                                        : next_in_face(next_in_face(half_edge));
-                longest_chain = max(longest_chain, chain + 1u);
-                push_event(uvec4(vertex, floatBitsToUint(distance), chain + 1u,
+                uint corner = i == 0u   ? lane.half_edge
+                              : i == 1u ? next_in_face(lane.half_edge)
+                                        : next_in_face(next_in_face(lane.half_edge));
+                lane.longest_chain = max(lane.longest_chain, lane.chain + 1u);
+                push_event(uvec4(vertex, floatBitsToUint(distance), lane.chain + 1u,
                                  whole_fan ? kWholeFan : corner));
             }
         }
@@ -150,7 +150,7 @@ const Window kNoWindow = Window(-1.0, uvec4(0u), uvec4(0u));
 // The operation in flight leaves the face: from inside it through half_edge itself, as a window
 // through the left edge or the right one.
 Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
-    bool inside = mode == kModeInside;
+    bool inside = lane.mode == kModeInside;
     Edge child = left;
     Edge before = right; // ends where child starts
     if (!is_left) {
@@ -165,31 +165,31 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     precise float high_from_end = edge.len - lit.x;
     float source = is_left ? sx : from_end;
     vec2 top = vec2(is_left ? apex.x : apex_from_end, apex.y);
-    float low = along(is_left ? lit.x : low_from_end, source, y, top, child.len);
-    float high = along(is_left ? lit.y : high_from_end, source, y, top, child.len);
+    float low = along(is_left ? lit.x : low_from_end, source, lane.y, top, child.len);
+    float high = along(is_left ? lit.y : high_from_end, source, lane.y, top, child.len);
     if (is_left ? m.reaches_right : m.reaches_left) {
         high = child.len;
     }
     float cosine = is_left ? edge.cosine : right.cosine;
     float sine = is_left ? edge.sine : right.sine;
-    precise float child_x = source * cosine - y * sine;
-    precise float child_y = source * sine + y * cosine;
+    precise float child_x = source * cosine - lane.y * sine;
+    precise float child_y = source * sine + lane.y * cosine;
     precise float turned_x = child.len - child_x;
     precise float turned_low = child.len - high;
     precise float turned_high = child.len - low;
 
-    uint out_edge = half_edge;
+    uint out_edge = lane.half_edge;
     uint around = edge_around;
     uint origin = edge.origin;
     float len = edge.len;
     vec2 ends = distances.xy; // known of the edge's start and end
-    float px = x;
-    float py = y;
+    float px = lane.x;
+    float py = lane.y;
     float i0 = 0.0;
     float i1 = edge.len;
     bool useless = false;
     if (!inside) {
-        uint next = next_in_face(half_edge);
+        uint next = next_in_face(lane.half_edge);
         out_edge = is_left ? next_in_face(next) : next;
         around = is_left ? left_around : right_around;
         origin = child.origin;
@@ -217,20 +217,20 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     precise float left_of = i0 - px;
     precise float right_of = px - i1;
     float aside = px < i0 ? left_of : (px > i1 ? right_of : 0.0);
-    precise float distance = sigma + root(squared(aside, py));
+    precise float distance = lane.sigma + root(squared(aside, py));
     precise float to_end = len - i0;
     bool border = around >> 1 == out_edge;
     if (useless || border || on_end || !(i0 < i1) || !(distance < reach()) ||
         beats(ends.x, i1, squared(right_of, py)) || beats(ends.y, to_end, squared(left_of, py))) {
         return kNoWindow;
     }
-    if (chain >= kLongestChain) {
+    if (lane.chain >= kLongestChain) {
         overflow |= kOverflowChain;
         return kNoWindow;
     }
     return Window(distance,
                   uvec4(around, floatBitsToUint(px), floatBitsToUint(py), floatBitsToUint(i0)),
-                  uvec4(floatBitsToUint(i1), floatBitsToUint(sigma), chain + 1u,
+                  uvec4(floatBitsToUint(i1), floatBitsToUint(lane.sigma), lane.chain + 1u,
                         (origin & kManyFaces) != 0u ? out_edge
                                                     : steps_up(ends.x) | steps_up(ends.y) << 16));
 }
@@ -238,7 +238,7 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
 // What the operation in flight does to vertices and edges. The nearer child of a window comes last,
 // so that the stack gives it back first.
 void spread(float source_square) {
-    bool inside = mode == kModeInside;
+    bool inside = lane.mode == kModeInside;
     float sx = entry_x();
     vec2 lit = entry_interval();
     Meeting m = meet_apex(sx, lit);
@@ -256,7 +256,7 @@ void spread(float source_square) {
     for (uint i = 0u; i < 2u; ++i) {
         Window next = swapped == (i == 0u) ? second : first;
         if (next.distance >= 0.0) {
-            longest_chain = max(longest_chain, chain + 1u);
+            lane.longest_chain = max(lane.longest_chain, lane.chain + 1u);
             push_window(next.row0, next.row1);
         }
     }

@@ -4,15 +4,8 @@
 #define GEODISK_SCAN_GLSL
 
 uint own_place;
-uint scan_place;    // next candidate
-uint scan_end;
-uint scan_row;      // next row: its first cell that can be reached
-uint scan_row_end;  // and that of the row after the last
-uint scan_columns;  // cells of a row that can be reached
-uint scan_stride;   // cells of a whole row
-uint tested;
 
-bool scanning() { return scan_place < scan_end || scan_row != scan_row_end; }
+bool scanning() { return lane.scan_place < lane.scan_end || lane.scan_row != lane.scan_row_end; }
 
 // A point given in the frame of half_edge, in the frame of another half-edge of the face.
 vec2 in_grid_frame(bool to_left, bool to_right, float px, float py) {
@@ -26,7 +19,7 @@ vec2 in_grid_frame(bool to_left, bool to_right, float px, float py) {
 
 // Sets out the cells of the face within reach of the source at (sx, sy).
 void begin_scan(float sx, float sy) {
-    uint corner = half_edge % 3u;
+    uint corner = lane.half_edge % 3u;
     uint base = grid_corner(cell_word);
     bool to_left = base == previous_corner(corner);
     bool to_right = base == next_corner(corner);
@@ -34,7 +27,7 @@ void begin_scan(float sx, float sy) {
     float height = to_left ? apex_of(left, right).y : (to_right ? apex_of(right, edge).y : apex.y);
     Grid grid = face_grid(cell_word, len, height, cells_per_unit(radii));
     vec2 at = in_grid_frame(to_left, to_right, sx, sy);
-    precise float rest = reach_inside() - sigma;
+    precise float rest = reach_inside() - lane.sigma;
     precise float range = rest + kCellPadding * (len + 1.0);
     precise float low_x = at.x - range;
     precise float high_x = at.x + range;
@@ -45,62 +38,62 @@ void begin_scan(float sx, float sy) {
     uint row1 = cell_at(high_y, grid.rows, grid.per_unit);
     // Where all faces are of one cell, each has an entry for every stage.
     uint entries = P.all_single != 0u ? P.stages : 1u;
-    scan_columns = (cell_at(high_x, grid.columns, grid.per_unit) - column + 1u) * entries;
-    scan_stride = grid.columns * entries;
-    scan_row = grid.first + row0 * grid.columns + column;
-    scan_row_end = scan_row + (row1 - row0 + 1u) * scan_stride;
-    scan_place = 0u;
-    scan_end = 0u;
+    lane.scan_columns = (cell_at(high_x, grid.columns, grid.per_unit) - column + 1u) * entries;
+    lane.scan_stride = grid.columns * entries;
+    lane.scan_row = grid.first + row0 * grid.columns + column;
+    lane.scan_row_end = lane.scan_row + (row1 - row0 + 1u) * lane.scan_stride;
+    lane.scan_place = 0u;
+    lane.scan_end = 0u;
     if (kAdaptive && rest <= 0.0) {
-        scan_row = scan_row_end; // The disk ends before the face.
+        lane.scan_row = lane.scan_row_end; // The disk ends before the face.
     }
 }
 
 // Where radii vary: the squared distance from the source below which a candidate with these weights
 // conflicts.
 float conflict_square(float weight1, float weight2) {
-    precise float rest = limit_with(radius_at(radii, weight1, weight2)) - sigma;
+    precise float rest = limit_with(radius_at(radii, weight1, weight2)) - lane.sigma;
     precise float square = rest * rest;
     return rest > 0.0 ? square : 0.0;
 }
 
 // Tests candidates against the operation in flight, no more than a trip may.
 void scan_some() {
-    bool inside = mode == kModeInside;
-    uint corner = half_edge % 3u;
+    bool inside = lane.mode == kModeInside;
+    uint corner = lane.half_edge % 3u;
     float sx = entry_x();
-    float sy = inside ? y : -y;
+    float sy = inside ? lane.y : -lane.y;
     vec2 lit = entry_interval();
     precise float low = (lit.x - P.slack) - sx;
     precise float high = (lit.y + P.slack) - sx;
-    precise float rest = P.limit - sigma;
+    precise float rest = P.limit - lane.sigma;
     precise float rest2 = rest * rest;
     for (uint i = 0u; i < kRowsPerTrip && scanning(); ++i) {
-        if (scan_place >= scan_end) {
-            scan_place = word_at(cells, scan_row);
-            scan_end = word_at(cells, scan_row + scan_columns);
-            scan_row += scan_stride;
+        if (lane.scan_place >= lane.scan_end) {
+            lane.scan_place = word_at(cells, lane.scan_row);
+            lane.scan_end = word_at(cells, lane.scan_row + lane.scan_columns);
+            lane.scan_row += lane.scan_stride;
         }
-        for (uint k = 0u; k < kScanPerRow && scan_place < scan_end; ++k) {
-            uint place = scan_place;
-            ++scan_place;
+        for (uint k = 0u; k < kScanPerRow && lane.scan_place < lane.scan_end; ++k) {
+            uint place = lane.scan_place;
+            ++lane.scan_place;
             uint word = word_at(states, place);
             uint state = word & kStateMask;
             if (state > kActive || place == own_place) {
                 continue;
             }
-            ++tested;
+            ++lane.tested;
             float weight1 = weight_of(word >> kWeightShift);
             float weight2 = weight_of(word_at(weights, place));
             vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
             precise float dx = q.x - sx;
             precise float dy = q.y - sy;
-            precise float at = dx * y;
+            precise float at = dx * lane.y;
             precise float from = low * dy;
             precise float to = high * dy;
             float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
             if (squared(dx, dy) < limit2 && (inside || (at >= from && at <= to))) {
-                list_conflict(place, state == kActive);
+                list_conflict(lane.idle_conflicts, lane.active_conflicts, place, state == kActive);
             }
         }
     }

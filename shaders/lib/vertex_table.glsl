@@ -4,14 +4,10 @@
 #ifndef GEODISK_VERTEX_TABLE_GLSL
 #define GEODISK_VERTEX_TABLE_GLSL
 
-uint first_vertex; // of the table, among the rows of this lane
-uint generation;   // of this disk, 1 to kMostGenerations
-uint vertices;     // rows in use
-
 uint vertex_row(uint at) { return own_row(first_vertex + at); }
 
-uint vertex_tag() { return generation << kTagShift; }
-uint distance_tag() { return (generation << (kTagShift - 2u)) & kTagMask; }
+uint vertex_tag() { return lane.generation << kTagShift; }
+uint distance_tag() { return (lane.generation << (kTagShift - 2u)) & kTagMask; }
 
 struct VertexRow {
     uint at;        // row, or where it belongs; the table's size if neither was found
@@ -46,11 +42,11 @@ VertexRow find_vertex(uint vertex) {
 
 // `row` is what find_vertex gave.
 void note_vertex(VertexRow row, uint vertex, float distance, uint through, float crossing) {
-    if (row.at == P.table_capacity || (!row.found && 2u * vertices >= P.table_capacity)) {
+    if (row.at == P.table_capacity || (!row.found && 2u * lane.vertices >= P.table_capacity)) {
         overflow |= kOverflowVertices;
         return;
     }
-    vertices += row.found ? 0u : 1u;
+    lane.vertices += row.found ? 0u : 1u;
     pool[vertex_row(row.at)] =
         uvec4(vertex | vertex_tag(), floatBitsToUint(distance) | distance_tag(), through,
               floatBitsToUint(crossing));

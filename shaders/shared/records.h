@@ -64,15 +64,23 @@ struct SlotRec {
 // Where a lane stands with the slot it works on, at the head of its slice, so that detect can stop at
 // any trip and go on.
 struct LaneRec {
-    uint slot; uint phase; uint idle_conflicts; uint active_conflicts;
+    uint slot; uint phase; uint idle_conflicts; uint active_conflicts; // kPhase*; listed so far
+    // Windows on the stack; events taken from the ring (0 of the heap) and one past the last; which disk
+    // of the vertex table this is, 1 to kMostGenerations.
     uint windows; uint event_head; uint event_tail; uint generation;
-    // The operation in flight: what spreads, in the frame of half_edge.
+    // The operation in flight, in the frame of half_edge: kMode*, the source, the lit interval of a
+    // window, the source's distance, crossings so far.
     uint half_edge; uint mode; float x; float y;
     float b0; float b1; float sigma; uint chain;
+    // What a window knew of its edge's ends, see leave(); where a phase stands: the next table row, edge
+    // or corner, and the end; the lit corner that comes next.
     uint known; uint cursor; uint cursor_end; uint corner_ahead;
+    // Candidates that come next in the row of cells at hand; the next row's first cell within reach,
+    // that of the row after the last; cells of a row within reach, and of a whole row.
     uint scan_place; uint scan_end; uint scan_row; uint scan_row_end;
-    uint scan_columns; uint scan_stride; uint tested; uint pushed;
-    uint most_waiting; uint longest_chain; uint vertices; uint spare;
+    uint scan_columns; uint scan_stride; uint tested; uint pushed; // candidates; windows and events
+    uint most_waiting; uint longest_chain; uint vertices; uint spare; // on the stack or of events
+    // The vertex whose fan is walked: the corner its path came in through, or kWholeFan.
     uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
 };
 

@@ -1,0 +1,82 @@
+// The lane at work on one disk: all that it keeps in its slice between dispatches, and where that lies.
+#ifndef GEODISK_LANE_GLSL
+#define GEODISK_LANE_GLSL
+
+LaneRec lane;
+uint overflow;     // kOverflow* bits
+uint slice;        // first row of the lane in the pool
+uint first_event;  // among the rows of the lane
+uint first_vertex;
+
+// A row of this lane in the pool.
+uint own_row(uint at) { return slice + at * kPoolBlock; }
+
+// Member by member: of a struct that is assigned whole, glslang 12 does not end to ask what is precise.
+void load_lane(uint index) {
+    slice = first_row(index);
+    first_event = kLaneRows + kWindowRows * P.window_capacity;
+    first_vertex = first_event + P.window_capacity;
+    overflow = 0u;
+    uvec4 a = own_row_at(pool, own_row(0u));
+    uvec4 b = own_row_at(pool, own_row(1u));
+    uvec4 c = own_row_at(pool, own_row(2u));
+    uvec4 d = own_row_at(pool, own_row(3u));
+    uvec4 e = own_row_at(pool, own_row(4u));
+    uvec4 f = own_row_at(pool, own_row(5u));
+    uvec4 g = own_row_at(pool, own_row(6u));
+    uvec4 h = own_row_at(pool, own_row(7u));
+    uvec4 i = own_row_at(pool, own_row(8u));
+    lane.slot = a.x, lane.phase = a.y, lane.idle_conflicts = a.z, lane.active_conflicts = a.w;
+    lane.windows = b.x, lane.event_head = b.y, lane.event_tail = b.z, lane.generation = b.w;
+    lane.half_edge = c.x, lane.mode = c.y;
+    lane.x = uintBitsToFloat(c.z), lane.y = uintBitsToFloat(c.w);
+    lane.b0 = uintBitsToFloat(d.x), lane.b1 = uintBitsToFloat(d.y);
+    lane.sigma = uintBitsToFloat(d.z), lane.chain = d.w;
+    lane.known = e.x, lane.cursor = e.y, lane.cursor_end = e.z, lane.corner_ahead = e.w;
+    lane.scan_place = f.x, lane.scan_end = f.y, lane.scan_row = f.z, lane.scan_row_end = f.w;
+    lane.scan_columns = g.x, lane.scan_stride = g.y, lane.tested = g.z, lane.pushed = g.w;
+    lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z;
+    lane.entered_by = i.x, lane.entry_angles = i.y, lane.fan_angle = i.z, lane.fan_flags = i.w;
+}
+
+void save_lane() {
+    pool[own_row(0u)] =
+        uvec4(lane.slot, lane.phase, lane.idle_conflicts, lane.active_conflicts);
+    pool[own_row(1u)] = uvec4(lane.windows, lane.event_head, lane.event_tail, lane.generation);
+    pool[own_row(2u)] =
+        uvec4(lane.half_edge, lane.mode, floatBitsToUint(lane.x), floatBitsToUint(lane.y));
+    pool[own_row(3u)] = uvec4(floatBitsToUint(lane.b0), floatBitsToUint(lane.b1),
+                              floatBitsToUint(lane.sigma), lane.chain);
+    pool[own_row(4u)] = uvec4(lane.known, lane.cursor, lane.cursor_end, lane.corner_ahead);
+    pool[own_row(5u)] = uvec4(lane.scan_place, lane.scan_end, lane.scan_row, lane.scan_row_end);
+    pool[own_row(6u)] = uvec4(lane.scan_columns, lane.scan_stride, lane.tested, lane.pushed);
+    pool[own_row(7u)] = uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, 0u);
+    pool[own_row(8u)] =
+        uvec4(lane.entered_by, lane.entry_angles, lane.fan_angle, lane.fan_flags);
+}
+
+// The lane takes a slot, as its table's next disk.
+void begin_disk(uint slot) {
+    bool wrapped = lane.generation == kMostGenerations;
+    lane.generation = wrapped ? 1u : lane.generation + 1u;
+    lane.phase = wrapped ? kPhaseClear : kPhaseSource;
+    lane.slot = slot;
+    lane.idle_conflicts = 0u;
+    lane.active_conflicts = 0u;
+    lane.windows = 0u;
+    lane.event_head = 0u;
+    lane.event_tail = 0u;
+    lane.mode = kModeInside;
+    lane.cursor = 0u;
+    lane.scan_place = 0u;
+    lane.scan_end = 0u;
+    lane.scan_row = 0u;
+    lane.scan_row_end = 0u;
+    lane.tested = 0u;
+    lane.pushed = 0u;
+    lane.most_waiting = 0u;
+    lane.longest_chain = 0u;
+    lane.vertices = 0u;
+}
+
+#endif
