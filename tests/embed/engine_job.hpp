@@ -1,0 +1,190 @@
+// One job of a recording engine, in a workspace that it cuts out of its buffer.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <geodisk/context.hpp>
+#include <geodisk/sampler.hpp>
+
+#include "gpu/device_run.hpp"
+#include "gpu/sets.hpp"
+#include "records.h"
+#include "support/meshes.hpp"
+#include "vk/barriers.hpp"
+#include "workshop.hpp"
+
+namespace geodisk::test {
+
+inline constexpr BufferRole kUploaded[] = {BufferRole::faces, BufferRole::fans, BufferRole::keys};
+
+struct Task {
+    PreparedMesh mesh;
+    SampleParams params;
+    Points wanted;
+
+    Domain domain() const { return expect(Domain::surface(mesh, params)); }
+};
+
+inline Task task(const Sampler& sampler, const char* shape, int resolution, double count) {
+    PreparedMesh mesh = prepared(builtin(shape, resolution));
+    const SampleParams params = params_for(mesh, count);
+    const Domain domain = expect(Domain::surface(mesh, params));
+    const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
+    auto wanted = float_set(mesh, params, plan.error_bound);
+    return {std::move(mesh), params, std::move(wanted)};
+}
+
+/// One job of the engine, a few rounds a frame.
+class EngineJob {
+  public:
+    /// With all candidates at once, or those of so many stages.
+    EngineJob(Workshop& workshop, const Sampler& sampler, const Task& task,
+              std::uint32_t stages = 0)
+        : EngineJob(workshop, sampler, task.domain(), stages) {
+        wanted_ = task.wanted;
+    }
+    /// Of any domain.
+    EngineJob(Workshop& workshop, const Sampler& sampler, Domain domain, std::uint32_t stages = 0)
+        : workshop_(workshop), sampler_(sampler), domain_(std::move(domain)),
+          plan_(expect(sampler.plan_run(domain_, Workshop::kPoolBytes))) {
+        plan_.stages = stages != 0 ? stages : plan_.stages;
+        const WorkspaceNeeds needs = expect(sampler.workspace_needs(domain_, plan_));
+        workspace_ = workshop.cut(needs);
+        job_.emplace(expect(sampler.make_job(domain_, plan_, workspace_)));
+    }
+
+    /// Uploads through staging and begins, in the frame's command buffer.
+    void record_first(VkCommandBuffer commands) {
+        std::size_t staged = 0;
+        for (const BufferRole role : kUploaded) {
+            const std::size_t size = sampler_.upload_size(domain_, role);
+            if (size == 0) {
+                continue;
+            }
+            expect(sampler_.write_upload(domain_, plan_, role,
+                                         workshop_.upload_bytes().subspan(staged, size)));
+            workshop_.record_upload(commands, range(role), staged, size);
+            staged += size;
+        }
+        workshop_.barrier(commands, Workshop::kUploaded, Sampler::kFirstUse);
+        sampler_.record_begin(commands, *job_);
+    }
+
+    void record_rounds(VkCommandBuffer commands, std::uint32_t rounds) {
+        sampler_.record_rounds(commands, *job_, rounds);
+        record_read(commands, BufferRole::control, sizeof(gpu::ControlRec));
+    }
+
+    void record_last(VkCommandBuffer commands) {
+        sampler_.record_finish(commands, *job_);
+        record_read(commands, BufferRole::samples, range(BufferRole::samples).size);
+    }
+
+    /// The engine's own copy to where the host can read.
+    void record_read(VkCommandBuffer commands, BufferRole role, VkDeviceSize size) {
+        workshop_.barrier(commands, Sampler::kLastUse, Workshop::kCopied);
+        workshop_.record_download(commands, range(role), size);
+        workshop_.barrier(commands, Workshop::kCopied, Sampler::kFirstUse);
+    }
+
+    gpu::ControlRec control() const {
+        gpu::ControlRec control;
+        std::memcpy(&control, workshop_.download_bytes().data(), sizeof control);
+        return control;
+    }
+
+    /// With larger slices, as far as the pool allows.
+    void record_regrown(VkCommandBuffer commands, std::uint32_t overflow) {
+        expect(job_->set_plan(
+            expect(sampler_.grow_plan(job_->plan(), overflow, range(BufferRole::pool).size))));
+        sampler_.record_rewind(commands, *job_);
+    }
+
+    std::vector<gpu::SampleRec> samples(std::uint32_t accepted) const {
+        std::vector<gpu::SampleRec> samples(accepted);
+        std::memcpy(samples.data(), workshop_.download_bytes().data(),
+                    accepted * sizeof samples[0]);
+        return samples;
+    }
+
+    void check_samples(std::uint32_t accepted) const {
+        Points points;
+        for (const gpu::SampleRec& sample : samples(accepted)) {
+            points.push_back({sample.face, sample.weight1, sample.weight2});
+        }
+        CHECK(points == wanted_);
+    }
+
+    /// Frames until the samples are there, as many as are returned.
+    std::uint32_t run_frames() {
+        const std::uint32_t stages = domain_.stages().pool_stages();
+        gpu::ControlRec last{};
+        for (std::uint32_t first = 0; first < stages; first += plan_.stages) {
+            expect(job_->set_stages(first, std::min(plan_.stages, stages - first)));
+            last = run_chunk(first == 0);
+            workshop_.frame(0, [&](VkCommandBuffer commands) { record_last(commands); });
+        }
+        return last.accepted;
+    }
+
+    void run() { check_samples(run_frames()); }
+
+    gpu::ControlRec run_chunk(bool is_first) {
+        gpu::ControlRec last{};
+        for (std::uint32_t frame = 0; last.done == 0; ++frame) {
+            workshop_.frame(frame, [&](VkCommandBuffer commands) {
+                if (frame == 0 && is_first) {
+                    record_first(commands);
+                } else if (frame == 0) {
+                    sampler_.record_begin(commands, *job_);
+                }
+                if (last.overflow != 0) {
+                    record_regrown(commands, last.overflow);
+                }
+                record_rounds(commands, 3);
+            });
+            last = control();
+            if (last.abi != gpu::kAbi || frame == 10'000) {
+                throw std::runtime_error("the rounds lead nowhere");
+            }
+        }
+        return last;
+    }
+
+    Job& job() { return *job_; }
+    const Domain& domain() const { return domain_; }
+    const Workspace& workspace() const { return workspace_; }
+    const RunPlan& plan() const { return plan_; }
+
+  private:
+    const BufferRange& range(BufferRole role) const {
+        return workspace_[static_cast<std::size_t>(role)];
+    }
+
+    Workshop& workshop_;
+    const Sampler& sampler_;
+    Domain domain_;
+    Points wanted_;
+    RunPlan plan_;
+    Workspace workspace_;
+    std::optional<Job> job_;
+};
+
+inline Context validated_context() {
+    ContextOptions options;
+    options.validation = true;
+    return expect(Context::create(options));
+}
+
+inline void check_silent(const Context& context) {
+    CHECK(expect(context.validation_messages()) == std::vector<std::string>{});
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,177 @@
+// Workspaces, plans and uploads that cannot work are refused, by name.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "engine_job.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// A key for each face, other than its index.
+std::vector<std::uint32_t> all_keys(const PreparedMesh& mesh) {
+    std::vector<std::uint32_t> keys(mesh.face_count());
+    std::iota(keys.rbegin(), keys.rend(), 100u);
+    return keys;
+}
+
+} // namespace
+
+TEST_SUITE("workspaces") {
+    /// The error that make_job gives for a workspace with one range replaced.
+    Error refused(const Sampler& sampler, const Task& task, const RunPlan& plan,
+                  const Workspace& workspace) {
+        const Result<Job> job = sampler.make_job(task.domain(), plan, workspace);
+        REQUIRE_FALSE(job);
+        return job.error();
+    }
+
+    TEST_CASE("ranges that cannot work are refused by name") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            // One that needs all buffers.
+            Task cube = task(sampler, "cube", 1, 300);
+            const std::vector<std::uint32_t> keys = all_keys(cube.mesh);
+            cube.params.face_keys = keys;
+            Workshop workshop(context);
+            const EngineJob good(workshop, sampler, cube);
+            const WorkspaceNeeds needs =
+                expect(sampler.workspace_needs(cube.domain(), good.plan()));
+            const char* names[] = {"faces",   "fans",   "keys",    "cells",    "states",
+                                   "weights", "orders", "starts",  "pool",     "control",
+                                   "list",    "sums",   "samples", "accepted", "buckets"};
+            for (std::size_t i = 0; i < kBufferRoles; ++i) {
+                CAPTURE(names[i]);
+                const auto check = [&](const BufferRange& range, Status status, const char* part) {
+                    Workspace wrong = good.workspace();
+                    wrong[i] = range;
+                    const Error error = refused(sampler, cube, good.plan(), wrong);
+                    CHECK(error.status == status);
+                    CHECK(error.message.find(names[i]) != std::string::npos);
+                    CHECK(error.message.find(part) != std::string::npos);
+                };
+                const BufferRange& range = good.workspace()[i];
+                const std::string needed = std::to_string(needs.bytes[i]);
+                check({VK_NULL_HANDLE, 0, range.size}, Status::invalid_argument, "null");
+                check({range.buffer, range.offset, needs.bytes[i] - 1}, Status::workspace_too_small,
+                      needed.c_str());
+                check({range.buffer, range.offset + 4, range.size}, Status::invalid_argument,
+                      "alignment");
+                check({range.buffer, range.offset, VK_WHOLE_SIZE}, Status::invalid_argument,
+                      "binds at most");
+                check({range.buffer, good.workspace()[(i + 1) % kBufferRoles].offset, range.size},
+                      Status::invalid_argument, "overlaps");
+            }
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("buffers are named as the domain uses them") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const TestMesh shape = builtin("cube", 1);
+        const PreparedMesh mesh = prepared(shape);
+        const auto check = [&](const Domain& domain, BufferRole role, const char* name) {
+            const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
+            Workshop workshop(context);
+            Workspace wrong = workshop.cut(expect(sampler.workspace_needs(domain, plan)));
+            wrong[static_cast<std::size_t>(role)].buffer = VK_NULL_HANDLE;
+            const Result<Job> job = sampler.make_job(domain, plan, wrong);
+            REQUIRE_FALSE(job);
+            CHECK(job.error().message ==
+                  std::string("the workspace's buffer ") + name + " is null");
+        };
+        BoxParams box;
+        box.min_distance = 0.1;
+        check(expect(Domain::box(box)), BufferRole::axes, "axes");
+        check(expect(Domain::box(box)), BufferRole::points, "points");
+        const SampleParams params = params_for(mesh, 50);
+        check(expect(Domain::surface_in_space(shape.view(), mesh, params, Metric::euclidean)),
+              BufferRole::corners, "corners");
+        check(expect(Domain::surface(mesh, params)), BufferRole::fans, "fans");
+    }
+
+    TEST_CASE("plans and pools that cannot work are refused") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const Task knot = task(sampler, "torus-knot", 8, 60);
+        Workshop workshop(context);
+        EngineJob good(workshop, sampler, knot);
+        const auto check = [&]<class Value>(Value RunPlan::*field,
+                                            std::type_identity_t<Value> value) {
+            CAPTURE(value);
+            RunPlan plan = good.plan();
+            plan.*field = value;
+            const Error error = refused(sampler, knot, plan, good.workspace());
+            CHECK(error.status == Status::invalid_argument);
+            CHECK(error.message.find("plan") != std::string::npos);
+            const Result<Done> set = good.job().set_plan(plan);
+            REQUIRE_FALSE(set);
+            CHECK(set.error().status == Status::invalid_argument);
+        };
+        check(&RunPlan::slots, 0);
+        check(&RunPlan::slots, 1u << 25);
+        check(&RunPlan::window_capacity, 0);
+        check(&RunPlan::window_capacity, 33);
+        check(&RunPlan::window_capacity, 0xfffffffe);
+        check(&RunPlan::table_capacity, 0);
+        check(&RunPlan::table_capacity, 48);
+        check(&RunPlan::list_capacity, 0);
+        check(&RunPlan::list_capacity, 6);
+        check(&RunPlan::step_budget, 0);
+        check(&RunPlan::lanes, 0);
+        check(&RunPlan::detect_passes, 0);
+        check(&RunPlan::detect_passes, 5000);
+        check(&RunPlan::slots, kLeastSlots - 1);
+        check(&RunPlan::sample_capacity, 0);
+        check(&RunPlan::sample_capacity, good.plan().slots);
+        check(&RunPlan::stages, 0);
+        check(&RunPlan::stages, 16);
+        check(&RunPlan::idle_capacity, 0);
+        check(&RunPlan::idle_capacity, (1u << 23) + 1);
+        check(&RunPlan::error_bound, 0.75);
+        check(&RunPlan::error_bound, -0.25);
+
+        RunPlan larger = good.plan();
+        larger.window_capacity *= 2;
+        const Result<Done> grown = good.job().set_plan(larger);
+        REQUIRE_FALSE(grown);
+        CHECK(grown.error().status == Status::workspace_too_small);
+        const BufferRange& pool = good.workspace()[static_cast<std::size_t>(BufferRole::pool)];
+        for (const BufferRange& wrong :
+             {BufferRange{VK_NULL_HANDLE, 0, pool.size},
+              BufferRange{pool.buffer, pool.offset + 4, pool.size},
+              BufferRange{pool.buffer, pool.offset, good.plan().pool_bytes() - 1}}) {
+            const Result<Done> set = good.job().set_plan(good.plan(), wrong);
+            REQUIRE_FALSE(set);
+            CHECK(set.error().message.find("pool") != std::string::npos);
+        }
+        CHECK(good.job().plan().slots == good.plan().slots);
+        good.run(); // As if nothing had been asked.
+    }
+
+    TEST_CASE("mesh bytes go to mesh buffers of the right size only") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        Task knot = task(sampler, "torus-knot", 8, 60);
+        const std::vector<std::uint32_t> keys = all_keys(knot.mesh);
+        knot.params.face_keys = keys;
+        const Domain domain = knot.domain();
+        const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
+        for (const BufferRole role : kUploaded) {
+            std::vector<std::byte> bytes(sampler.upload_size(domain, role));
+            CHECK(sampler.write_upload(domain, plan, role, bytes));
+            bytes.pop_back();
+            CHECK_FALSE(sampler.write_upload(domain, plan, role, bytes));
+        }
+        std::vector<std::byte> none;
+        CHECK_FALSE(sampler.write_upload(domain, plan, BufferRole::pool, none));
+    }
+}
+
+} // namespace geodisk::test
