@@ -15,16 +15,17 @@ uint block_index(uint i) { return i + i / kScanPerLane; }
 uint block_exclusive_scan(uint lane, uint before) {
     barrier();
     uint first = block_index(lane * kScanPerLane);
+    uint own_words[kScanPerLane];
     uint own = 0u;
     for (uint i = 0u; i < kScanPerLane; ++i) {
-        own += block_words[first + i];
+        own_words[i] = block_words[first + i];
+        own += own_words[i];
     }
     uint total;
     uint sum = before + group_exclusive_scan(lane, own, total);
     for (uint i = 0u; i < kScanPerLane; ++i) {
-        uint word = block_words[first + i];
         block_words[first + i] = sum;
-        sum += word;
+        sum += own_words[i];
     }
     barrier();
     return total;

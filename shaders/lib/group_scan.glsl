@@ -2,23 +2,26 @@
 #ifndef GEODISK_GROUP_SCAN_GLSL
 #define GEODISK_GROUP_SCAN_GLSL
 
-shared uint group_sums[2u * kScanLanes];
+shared uint group_sums[kScanLanes];
 
-// Every lane must call it. `total` is the sum over all lanes.
+// Every lane must call it. `total` is the sum over all lanes. Few steps with more terms each: a barrier
+// costs more than a term.
 uint group_exclusive_scan(uint lane, uint value, out uint total) {
-    // The lower half stays zero, so that no lane needs to look whether one before it exists.
-    barrier();
-    group_sums[lane] = 0u;
-    group_sums[kScanLanes + lane] = value;
-    barrier();
-    for (uint offset = 1u; offset < kScanLanes; offset <<= 1) {
-        uint sum = group_sums[kScanLanes + lane] + group_sums[kScanLanes + lane - offset];
+    uint sum = value;
+    for (uint offset = 1u; offset < kScanLanes; offset *= kScanTerms) {
         barrier();
-        group_sums[kScanLanes + lane] = sum;
+        group_sums[lane] = sum;
         barrier();
+        for (uint k = 1u; k < kScanTerms; ++k) {
+            uint behind = k * offset;
+            sum += behind <= lane ? group_sums[lane - behind] : 0u;
+        }
     }
-    total = group_sums[2u * kScanLanes - 1u];
-    return group_sums[kScanLanes + lane] - value;
+    barrier();
+    group_sums[lane] = sum;
+    barrier();
+    total = group_sums[kScanLanes - 1u];
+    return sum - value;
 }
 
 #endif

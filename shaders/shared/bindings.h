@@ -44,7 +44,8 @@ GEODISK_CONST uint kBindBuckets = 14u;   // while samples are put in order: wher
 GEODISK_CONST uint kBindPoolTexels = 15u;
 GEODISK_CONST uint kBindStatesTexels = 16u;
 GEODISK_CONST uint kBindOrdersTexels = 17u;
-GEODISK_CONST uint kBindCount = 18u;
+GEODISK_CONST uint kBindCellsTexels = 18u;
+GEODISK_CONST uint kBindCount = 19u;
 
 GEODISK_END_SHARED
 

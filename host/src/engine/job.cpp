@@ -144,7 +144,7 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
 
 /// The buffer behind a binding; the scan kernels work on whatever is bound as cells.
 std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
-    if (binding == gpu::kBindCells) {
+    if (binding == gpu::kBindCells || binding == gpu::kBindCellsTexels) {
         switch (role) {
         case SetRole::workspace:
         case SetRole::cell_scan:

@@ -41,8 +41,6 @@ namespace {
 #include "resume_texels.spv.inc"
 #include "rewind.spv.inc"
 #include "rewind_texels.spv.inc"
-#include "scan_add.spv.inc"
-#include "scan_add_texels.spv.inc"
 #include "scan_blocks.spv.inc"
 #include "scan_blocks_texels.spv.inc"
 #include "scan_sums.spv.inc"
@@ -59,6 +57,8 @@ namespace {
 #include "space_draw_texels.spv.inc"
 #include "space_select.spv.inc"
 #include "space_select_texels.spv.inc"
+#include "sum_blocks.spv.inc"
+#include "sum_blocks_texels.spv.inc"
 
 using namespace gpu;
 
@@ -72,9 +72,10 @@ constexpr Binding kCount[] = {{kBindFaces, read},
                               {kBindKeys, read},
                               {kBindCells, storage},
                               {kBindStarts, storage}};
-constexpr Binding kScanBlocks[] = {{kBindCells, storage}, {kBindSums, storage}};
+constexpr Binding kSumBlocks[] = {{kBindCells, read}, {kBindSums, storage}};
 constexpr Binding kScanSums[] = {{kBindSums, storage}};
-constexpr Binding kScanAdd[] = {{kBindCells, storage}, {kBindSums, read}};
+constexpr Binding kScanBlocks[] = {
+    {kBindCells, storage}, {kBindSums, read}, {kBindCellsTexels, read_before}};
 constexpr Binding kBin[] = {{kBindFaces, read},
                             {kBindFans, read},
                             {kBindKeys, read},
@@ -150,9 +151,9 @@ constexpr Binding kGridDetect[] = {
 
 const std::array<KernelInfo, kKernels> kTable{{
     {"count", k_count_spirv, k_count_texels_spirv, kCount, false, DomainKind::surface},
-    {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanBlocks, false},
+    {"sum_blocks", k_sum_blocks_spirv, k_sum_blocks_texels_spirv, kSumBlocks, false},
     {"scan_sums", k_scan_sums_spirv, k_scan_sums_texels_spirv, kScanSums, false},
-    {"scan_add", k_scan_add_spirv, k_scan_add_texels_spirv, kScanAdd, false},
+    {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanBlocks, false},
     {"bin", k_bin_spirv, k_bin_texels_spirv, kBin, false, DomainKind::surface},
     {"draw", k_draw_spirv, k_draw_texels_spirv, kDraw, false, DomainKind::surface},
     {"begin_chunk", k_begin_chunk_spirv, k_begin_chunk_texels_spirv, kBeginChunk, true},

@@ -14,9 +14,9 @@ namespace geodisk {
 
 enum class Kernel : std::uint32_t {
     count,
-    scan_blocks,
+    sum_blocks,
     scan_sums,
-    scan_add,
+    scan_blocks,
     bin,
     draw,
     begin_chunk,

@@ -61,9 +61,9 @@ class Recorder {
         gpu::Push push = job_.push;
         push.scan_count = count;
         const Groups blocks = groups_for(count, gpu::kScanBlock);
-        dispatch(Kernel::scan_blocks, blocks, push, role);
+        dispatch(Kernel::sum_blocks, blocks, push, role);
         dispatch(Kernel::scan_sums, {1, 1}, push, role);
-        dispatch(Kernel::scan_add, blocks, push, role);
+        dispatch(Kernel::scan_blocks, blocks, push, role);
     }
 
     void fill(BufferRole role, VkDeviceSize size) const {
