@@ -10,6 +10,9 @@ Grid face_grid(const Surface<Real>& surface, std::uint32_t face) {
     for (std::uint32_t h = base + 1; h < 3 * face + 3; ++h) {
         base = surface.edges[h].length > surface.edges[base].length ? h : base;
     }
+    if (surface.one_cell_each) {
+        return {1, 1, base};
+    }
     const Edge<Real>& edge = surface.edges[base];
     const Real per_unit = surface.cells_per_unit(face);
     const auto count = [per_unit](Real extent) {

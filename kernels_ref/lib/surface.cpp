@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "engine/stages.hpp"
 #include "engine/tolerances.hpp"
 #include "lib/scalar.hpp"
 
@@ -17,7 +18,8 @@ Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params)
     : unit(working_distance(mesh, params)), fans(mesh.fans()), corners(mesh.corners()),
-      splits_once(mesh.statistics().nonmanifold_edges == 0) {
+      splits_once(mesh.statistics().nonmanifold_edges == 0),
+      one_cell_each(has_small_faces(mesh, params)) {
     place_edges(mesh);
     if (params.radii == nullptr) {
         return;

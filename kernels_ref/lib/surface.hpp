@@ -47,6 +47,8 @@ struct Surface {
     /// No edge has three faces. Only then a vertex lies between any two ways into an edge, and the
     /// order of their rays tells which window serves which side ("one angle, one split").
     bool splits_once;
+    /// Whatever the size of faces, see has_small_faces().
+    bool one_cell_each = false;
     /// By face, where radii vary, and in units of `unit`; else empty, and all radii are half of it.
     std::vector<FaceRadii<Real>> radii;
 

@@ -375,6 +375,23 @@ TEST_SUITE("kernels") {
         }
     }
 
+    TEST_CASE("step by step with faces of one cell beside faces of many") {
+        TestMesh shape = builtin("cube", 1);
+        const TestMesh ball = builtin("icosphere", 3);
+        const std::uint32_t first = shape.vertex_count();
+        shape.positions.insert(shape.positions.end(), ball.positions.begin(), ball.positions.end());
+        for (const std::uint32_t vertex : ball.triangles) {
+            shape.triangles.push_back(first + vertex);
+        }
+        const PreparedMesh mesh = prepared(shape);
+        const SampleParams params = params_for(mesh, 600);
+        CHECK_FALSE(has_small_faces(mesh, params));
+        for (const SamplerOptions& options : {on_cpu(), kOnGpu}) {
+            step_through(mesh, params, options, roomy_plan(64));
+        }
+        CHECK(has_small_faces(prepared(ball), params_for(prepared(ball), 600)));
+    }
+
     TEST_CASE("step by step where the surface is no manifold, one-sided or folded") {
         step_through(prepared(builtin("moebius", 8)), 300, on_cpu(), 32);
         step_through(prepared(builtin("folded-sheet", 8)), 300, kOnGpu, 32);

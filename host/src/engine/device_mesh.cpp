@@ -8,6 +8,7 @@
 #include <geodisk/params.hpp>
 
 #include "constants.h"
+#include "engine/stages.hpp"
 #include "engine/tolerances.hpp"
 #include "records.h"
 
@@ -97,6 +98,9 @@ void store(std::span<std::byte> out, std::size_t index, const Record& record) {
 } // namespace
 
 Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& params) {
+    if (has_small_faces(mesh, params)) {
+        return 0u;
+    }
     const double unit = working_distance(mesh, params);
     std::uint64_t cells = 0;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
@@ -109,7 +113,7 @@ Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& 
                          f};
         }
     }
-    return static_cast<std::uint32_t>(cells);
+    return cells == mesh.face_count() ? 0 : static_cast<std::uint32_t>(cells);
 }
 
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
@@ -130,7 +134,8 @@ std::size_t key_bytes(const SampleParams& params) {
     return std::max<std::size_t>(params.face_keys.size_bytes(), sizeof(std::uint32_t));
 }
 
-void write_faces(const PreparedMesh& mesh, const SampleParams& params, std::span<std::byte> out) {
+void write_faces(const PreparedMesh& mesh, const SampleParams& params, bool one_cell_each,
+                 std::span<std::byte> out) {
     const double unit = working_distance(mesh, params);
     std::uint32_t first_cell = 0;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
@@ -144,7 +149,7 @@ void write_faces(const PreparedMesh& mesh, const SampleParams& params, std::span
                                        (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u)});
         }
         const Grid grid = face_grid(mesh, params, f, unit);
-        const bool single = grid.columns * grid.rows == 1;
+        const bool single = one_cell_each || grid.columns * grid.rows == 1;
         const auto edges = mesh.half_edges().subspan(std::size_t{3} * f, 3);
         store(out, gpu::kFaceRows * f + 3,
               gpu::FaceLinksRec{edges[0].around, edges[1].around, edges[2].around,

@@ -11,7 +11,8 @@
 
 namespace geodisk {
 
-/// Cells of all faces together; more than 2^30 is an error naming the face.
+/// Cells of all faces together, 0 where each face has one; more than 2^30 is an error naming the
+/// face.
 Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& params);
 
 /// The area of a face in units of working_distance(), which is `unit`, as kernels compute it.
@@ -24,7 +25,8 @@ std::size_t fan_bytes(const PreparedMesh& mesh, bool adaptive);
 std::size_t key_bytes(const SampleParams& params);
 
 // Each fills exactly its number of bytes.
-void write_faces(const PreparedMesh& mesh, const SampleParams& params, std::span<std::byte> out);
+void write_faces(const PreparedMesh& mesh, const SampleParams& params, bool one_cell_each,
+                 std::span<std::byte> out);
 Result<Done> write_fans(const PreparedMesh& mesh, const SampleParams& params,
                         std::span<std::byte> out);
 void write_keys(const SampleParams& params, std::span<std::byte> out);

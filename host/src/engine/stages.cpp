@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kMostDartsOfStage = 0x1p23;
 constexpr double kMostDartsPerSample = 640;
+// Candidates of a small face, in the mean over all candidates. By measurement.
+constexpr double kMostInSmallFace = 24;
 
 } // namespace
 
@@ -43,6 +45,20 @@ double samples_per_area() noexcept {
 
 float stage_intensity(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t stage) {
     return static_cast<float>(stages_of(mesh, params).per_sample(stage) * samples_per_area());
+}
+
+bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params) {
+    const double per_area = stages_of(mesh, params).candidates() / effective_area(mesh, params);
+    double sum = 0;
+    double squares = 0;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
+        const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
+        const double expected = per_area * 0.5 * edge.length * edge.apex_y * density;
+        sum += expected;
+        squares += expected * expected;
+    }
+    return squares <= kMostInSmallFace * sum;
 }
 
 } // namespace geodisk

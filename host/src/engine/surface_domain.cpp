@@ -42,8 +42,7 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
 
 SurfaceDomain::SurfaceDomain(const PreparedMesh& mesh, const SampleParams& params,
                              std::uint32_t cells)
-    : mesh_(mesh), params_(params), error_(mesh, params),
-      cells_(cells == mesh.face_count() ? 0 : cells),
+    : mesh_(mesh), params_(params), error_(mesh, params), cells_(cells),
       full_(std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance))) {
     kernels.domain = DomainKind::surface;
     kernels.adaptive = params.radii != nullptr;
@@ -135,7 +134,7 @@ Result<Done> SurfaceDomain::write_upload(const RunPlan&, BufferRole role,
                                          std::span<std::byte> out) const {
     switch (role) {
     case BufferRole::faces:
-        write_faces(mesh_, params_, out);
+        write_faces(mesh_, params_, cells_ == 0, out);
         return Done{};
     case BufferRole::fans:
         return write_fans(mesh_, params_, out);
