@@ -148,8 +148,8 @@ void write_faces(const PreparedMesh& mesh, const SampleParams& params, bool one_
                                    e.origin | (bends ? gpu::kOriginBends : 0u) |
                                        (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u)});
         }
-        const Grid grid = face_grid(mesh, params, f, unit);
-        const bool single = one_cell_each || grid.columns * grid.rows == 1;
+        const Grid grid = one_cell_each ? Grid{1, 1, 0} : face_grid(mesh, params, f, unit);
+        const bool single = grid.columns * grid.rows == 1;
         const auto edges = mesh.half_edges().subspan(std::size_t{3} * f, 3);
         store(out, gpu::kFaceRows * f + 3,
               gpu::FaceLinksRec{edges[0].around, edges[1].around, edges[2].around,

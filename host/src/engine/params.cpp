@@ -28,9 +28,7 @@ Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& pa
         return Done{};
     }
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-        const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
-        const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
-        const double expected = most * 0.5 * edge.length * edge.apex_y * density;
+        const double expected = expected_in_face(mesh, params, face, most);
         if (!(expected <= kMostPerFace)) {
             return Error{Status::invalid_argument,
                          "the minimum distance is too small for this mesh: face " +

@@ -47,14 +47,19 @@ float stage_intensity(const PreparedMesh& mesh, const SampleParams& params, std:
     return static_cast<float>(stages_of(mesh, params).per_sample(stage) * samples_per_area());
 }
 
+double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
+                        double per_area) {
+    const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
+    const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
+    return per_area * 0.5 * edge.length * edge.apex_y * density;
+}
+
 bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params) {
     const double per_area = stages_of(mesh, params).candidates() / effective_area(mesh, params);
     double sum = 0;
     double squares = 0;
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-        const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
-        const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
-        const double expected = per_area * 0.5 * edge.length * edge.apex_y * density;
+        const double expected = expected_in_face(mesh, params, face, per_area);
         sum += expected;
         squares += expected * expected;
     }

@@ -23,6 +23,10 @@ GEODISK_API double samples_per_area() noexcept;
 GEODISK_API float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
                                   std::uint32_t stage);
 
+/// Candidates that a face expects, where `per_area` are expected per unit of effective_area().
+double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
+                        double per_area);
+
 /// Whether faces hold so few candidates that disks need not tell their cells apart: all then have
 /// one cell. The rule bears on speed alone.
 GEODISK_API bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params);
