@@ -17,7 +17,6 @@
 #include "gpu/sets.hpp"
 #include "records.h"
 #include "support/meshes.hpp"
-#include "vk/barriers.hpp"
 #include "workshop.hpp"
 
 namespace geodisk::test {

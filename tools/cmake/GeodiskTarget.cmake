@@ -23,11 +23,13 @@ function(geodisk_target name)
     endif()
 endfunction()
 
+# For what hardly computes: time to compile weighs more.
+if(NOT MSVC)
+    set(geodisk_quick_options "$<$<CONFIG:Release>:-O1>")
+endif()
+
 # geodisk_compile_quickly(SOURCE...): for sources that hardly compute and whose headers take long to
 # optimize, such as options.
 function(geodisk_compile_quickly)
-    if(NOT MSVC)
-        set_source_files_properties(${ARGN} PROPERTIES
-            COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
-    endif()
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${geodisk_quick_options}")
 endfunction()
