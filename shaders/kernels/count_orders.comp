@@ -18,7 +18,7 @@ void main() {
         group_below = 0u;
     }
     barrier();
-    uint begin = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kSelectBlock;
+    uint begin = own_group() * kSelectBlock;
     uint end = min(begin + kSelectBlock, min(control.drawn, push.capacity));
     uint below = 0u;
     for (uint place = begin + gl_LocalInvocationID.x; place < end; place += kWideLanes) {

@@ -8,8 +8,6 @@
 #include "../lib/order_samples.glsl"
 #include "../lib/slots.glsl"
 
-layout(local_size_x_id = 0) in;
-
 GEODISK_BUFFER(kBindBuckets, coherent, uint, buckets);
 
 void main() {

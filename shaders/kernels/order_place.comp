@@ -6,8 +6,6 @@
 #include "../lib/prelude.glsl"
 #include "../lib/order_samples.glsl"
 
-layout(local_size_x_id = 0) in;
-
 GEODISK_BUFFER(kBindBuckets, coherent, uint, buckets);
 
 void main() {

@@ -7,8 +7,6 @@
 #include "../lib/order_samples.glsl"
 #include "../lib/dart_order.glsl"
 
-layout(local_size_x_id = 0) in;
-
 GEODISK_WORDS(kBindBuckets, buckets);
 GEODISK_BUFFER(kBindSamples, writeonly, uvec4, samples);
 

@@ -14,6 +14,9 @@ GEODISK_CONTROL;
 void main() {
     control.undecided = 0u;
     control.overflow = 0u;
+    if (control.mode == kSelectPool) {
+        control.list_end = 0u; // It may hold but a part.
+    }
     if (control.done == 0u) {
         prepare_select();
     }

@@ -14,7 +14,7 @@ GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 GEODISK_CONTROL;
 
 void main() {
-    uint slot = gl_GlobalInvocationID.x;
+    uint slot = own_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (slot < control.slots_used && slots[slot].place != kNoPlace) {
         uint place = slots[slot].place;
         states[place] &= ~kStateMask;

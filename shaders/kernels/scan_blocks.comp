@@ -13,7 +13,7 @@ GEODISK_WORDS(kBindSums, sums);
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint block = own_group();
     uint begin = min(block * kScanBlock, push.scan_count);
     uint count = min(push.scan_count - begin, kScanBlock);
     for (uint k = 0u; k < kScanPerLane; ++k) {

@@ -14,7 +14,7 @@ shared uint group_sum;
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint block = own_group();
     if (lane == 0u) {
         group_sum = 0u;
     }

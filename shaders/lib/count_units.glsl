@@ -10,8 +10,7 @@ layout(local_size_x_id = 0) in;
 GEODISK_BUFFER(kBindStarts, writeonly, uint, starts);
 
 void main() {
-    uint cell = gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) +
-                gl_GlobalInvocationID.x;
+    uint cell = own_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (cell >= push.faces) {
         return;
     }

@@ -7,13 +7,11 @@
 
 layout(local_size_x = kWideLanes) in;
 
-uint wide_group() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
 void visit(uint unit, uint number);
 
 void visit_each() {
     uint count = drawn_count();
-    uint begin = wide_group() * kDrawBlock;
+    uint begin = own_group() * kDrawBlock;
     if (begin >= count || count > push.capacity) {
         return;
     }

@@ -4,12 +4,12 @@
 #ifndef GEODISK_ORDER_SAMPLES_GLSL
 #define GEODISK_ORDER_SAMPLES_GLSL
 
+layout(local_size_x_id = 0) in;
+
 GEODISK_ROWS(kBindAccepted, accepted);
 GEODISK_CONTROL;
 
-uint own_index() {
-    return gl_WorkGroupID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) + gl_GlobalInvocationID.x;
-}
+uint own_index() { return own_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 
 // Samples to put in order, from control.ordered on.
 uint unordered_count() { return control.accepted - control.ordered; }

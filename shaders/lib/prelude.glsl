@@ -10,4 +10,7 @@
 
 GEODISK_PUSH;
 
+// Passes over faces, candidates or samples are cut into several dispatches.
+uint own_group() { return push.first_group + gl_WorkGroupID.x; }
+
 #endif

@@ -55,9 +55,27 @@ void prepare_list(uint first) {
     control.list_first = first;
     control.list_width = (control.list_end - first - 1u) / ranges + 1u;
     control.list_left = kNoOrder;
+    control.listed_blocks = 0u;
     for (uint range = 0u; range < ranges; ++range) {
         list[list_head(range)] = 0u;
     }
+}
+
+// Blocks of candidates that a select for the list goes through next.
+uint next_blocks() {
+    uint blocks = (control.drawn + kSelectBlock - 1u) / kSelectBlock;
+    return min(blocks - control.listed_blocks, push.list_groups);
+}
+
+// Sets out select alone, with so many work groups.
+void set_out_select(uint groups) {
+    control.selected_groups = 0u;
+    control.select_x = groups;
+    control.select_y = 1u;
+    control.select_z = 1u;
+    control.detect_x = 0u;
+    control.groups_x = 0u;
+    control.count_x = 0u;
 }
 
 // Sets the next select out on the batch after first_order.
@@ -73,7 +91,7 @@ void prepare_select() {
         if (end > control.list_end && !is_fresh) {
             control.mode = kSelectPool;
             prepare_list(first);
-            groups = (control.drawn + kSelectBlock - 1u) / kSelectBlock;
+            groups = next_blocks();
         } else {
             control.mode = kSelectList;
             control.batch_end = min(end, control.list_end);
@@ -89,15 +107,8 @@ void prepare_select() {
     }
     control.first_left = kNoOrder;
     control.due = 0u;
-    control.selected_groups = 0u;
     control.slots_used = 0u;
-    uint rows = (groups + 65534u) / 65535u;
-    control.select_x = (groups + rows - 1u) / rows;
-    control.select_y = rows;
-    control.select_z = 1u;
-    control.detect_x = 0u;
-    control.groups_x = 0u;
-    control.count_x = 0u;
+    set_out_select(groups);
 }
 
 // Sets out what comes next, if anything does and there is room for its samples.
@@ -120,9 +131,7 @@ void end_batch() {
     } else {
         control.first_order = min(control.batch_end, control.first_left);
     }
-    control.select_x = 0u;
-    control.groups_x = 0u;
-    control.count_x = 0u;
+    set_out_select(0u);
     control.slots_used = 0u;
     go_on();
 }
@@ -163,6 +172,11 @@ void begin_batch() {
 // the slots.
 void go_on_selected() {
     if (control.mode == kSelectPool) {
+        control.listed_blocks += control.select_x;
+        if (next_blocks() > 0u) {
+            set_out_select(next_blocks());
+            return;
+        }
         limit_span(control.list_left <= control.first_order, control.list_end);
         control.list_end = min(control.list_end, control.list_left);
         prepare_select();

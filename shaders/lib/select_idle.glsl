@@ -130,7 +130,7 @@ void give_slots() {
 
 void main() {
     bool is_first = gl_LocalInvocationID.x == 0u;
-    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint group = gl_WorkGroupID.x;
     uint mode = control.mode;
     if (is_first) {
         group_due = 0u;
@@ -139,7 +139,7 @@ void main() {
     if (mode == kSelectSettled) {
         select_settled(group * kSelectBlock);
     } else if (mode == kSelectPool) {
-        list_idle(group * kSelectBlock);
+        list_idle((control.listed_blocks + group) * kSelectBlock);
     } else {
         uint ranges = is_ranked() ? due_ranges() : 1u;
         for (uint i = 0u; i < ranges; ++i) {
@@ -154,8 +154,8 @@ void main() {
     give_slots();
     memoryBarrierBuffer();
     barrier();
-    uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    bool is_last = is_first && atomicAdd(control.selected_groups, 1u) == groups - 1u;
+    bool is_last =
+        is_first && atomicAdd(control.selected_groups, 1u) == gl_NumWorkGroups.x - 1u;
     memoryBarrierBuffer();
     if (is_last) {
         go_on_selected();

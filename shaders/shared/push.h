@@ -39,6 +39,8 @@ struct Push {
     uint idle_capacity;   // places that the list of idle candidates holds
     uint buckets;         // ranges of orders by which samples are put in order
     uint bucket_shift;    // an order's range lies above so many bits
+    uint first_group;     // the work groups of a pass that earlier dispatches of it had
+    uint list_groups;     // most work groups of a select that goes through all candidates
 };
 
 GEODISK_END_SHARED
@@ -46,7 +48,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 120 && offsetof(Push, bucket_shift) == 116);
+static_assert(sizeof(Push) == 128 && offsetof(Push, list_groups) == 124);
 }
 #endif
 

@@ -92,6 +92,7 @@ struct ControlRec {
     uint groups_x; uint groups_y; uint groups_z;
     uint count_x; uint count_y; uint count_z;    // of count_calls, once a batch is decided
     uint abi;
+    uint generation;       // of the begin or rewind that the run went on from last
     uint drawn;            // candidates of the chunk
     uint mode;             // kSelect*
     uint first_order;      // all of lower order are decided or active
@@ -100,6 +101,7 @@ struct ControlRec {
     uint list_first;       // from this order on; the list is kept by ranges of orders
     uint list_width;       // of a range
     uint list_left;        // lowest order that the list had no room for
+    uint listed_blocks;    // of candidates that are gone through for the list, kSelectBlock each
     uint first_range;      // that select goes through
     uint longest_span;     // most orders of a batch
     uint first_left;       // lowest order that found no slot; slots of no lower one are void
@@ -153,7 +155,7 @@ static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 272 && offsetof(ControlRec, calls_high) == 268);
+static_assert(sizeof(ControlRec) == 280 && offsetof(ControlRec, calls_high) == 276);
 } // namespace geodisk::gpu
 #endif
 

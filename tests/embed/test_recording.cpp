@@ -82,6 +82,24 @@ void check_finishes(const RunPlan& plan, bool is_tight = false) {
     CHECK((!is_tight || run.plan().window_capacity > 2));
 }
 
+/// All of a chunk's candidates decided.
+void decide(DeviceRun& run) {
+    for (std::uint32_t round = 0; run.control().done == 0; ++round) {
+        REQUIRE(round < 100'000);
+        REQUIRE(run.control().overflow == 0);
+        run.rounds(1);
+    }
+}
+
+Points ready_points(const DeviceRun& run) {
+    Points points;
+    for (const gpu::SampleRec& s :
+         run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready)) {
+        points.push_back({s.face, s.weight1, s.weight2});
+    }
+    return points;
+}
+
 void check_finishes_in_box(const RunPlan& plan, bool is_tight = false) {
     BoxParams box{{1, 1, 1}, true};
     box.min_distance = distance_for_count(box, 60);
@@ -224,6 +242,61 @@ TEST_SUITE("recording") {
         CHECK(workshop.contents() == before);
         CHECK(job.control().done == 1);
         CHECK(job.control().accepted == knot.wanted.size());
+    }
+
+    TEST_CASE("begins and finishes recorded a dispatch at a time, each bounded") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 12));
+        const SampleParams params = params_for(mesh, 60);
+        RunPlan plan;
+        plan.dispatch_items = 500;
+        plan.stages = 1;
+        DeviceRun run(mesh, params, plan);
+        const std::uint32_t stages = stages_of(mesh, params).pool_stages();
+        REQUIRE(stages > 1);
+        for (std::uint32_t stage = 0; stage < stages; ++stage) {
+            run.set_stages(stage, 1);
+            const std::uint64_t before = run.dispatches();
+            const std::uint32_t parts = run.begin_in_parts(1);
+            CHECK(parts > 2880 / 500);
+            CHECK(run.dispatches() - before == parts);
+            decide(run);
+            CHECK(run.finish_in_parts(1) > 60 / 500);
+        }
+        CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
+    }
+
+    TEST_CASE("what a begin or a finish has left is recorded before all else") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 12));
+        const SampleParams params = params_for(mesh, 60);
+        RunPlan plan;
+        plan.dispatch_items = 500;
+        plan.slots = kLeastSlots;
+        DeviceRun run(mesh, params, plan);
+        for (const std::uint32_t dispatches : {0u, 1u, 2u, 5u, 11u}) {
+            CAPTURE(dispatches);
+            run.set_stages(0, stages_of(mesh, params).pool_stages());
+            run.begin_partly(dispatches);
+            if (dispatches == 0) {
+                run.begin();
+            } else if (dispatches == 1) {
+                run.finish();
+            } else if (dispatches == 2) {
+                run.rewind();
+            }
+            for (std::uint32_t round = 0; run.control().done == 0; ++round) {
+                REQUIRE(round < 10'000);
+                run.finish_partly(dispatches);
+                run.rounds(1);
+            }
+            run.finish_in_parts(3);
+            CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
+        }
+        run.finish_partly(1);
+        Job::Impl& job = Job::Impl::of(run.job());
+        CHECK_FALSE(job.finished.is_at_start());
+        const auto early = run.job().set_stages(1, 1);
+        REQUIRE_FALSE(early);
+        CHECK(early.error().status == Status::invalid_argument);
     }
 
     TEST_CASE("finishing early changes nothing, and what is ready stays") {

@@ -51,18 +51,51 @@ DeviceRun::DeviceRun(const Domain& domain, const RunPlan& plan, const SamplerOpt
     job_.emplace(expect(sampler_.make_job(domain, used, workspace)));
 }
 
-void DeviceRun::begin() {
+void DeviceRun::submit(const std::function<void(VkCommandBuffer)>& record) {
     expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_.record_begin(commands, *job_);
+        record(commands);
         barrier_to_host(vk_, commands);
     }));
 }
 
+void DeviceRun::begin() {
+    submit([&](VkCommandBuffer commands) { sampler_.record_begin(commands, *job_); });
+}
+
+void DeviceRun::begin_partly(std::uint32_t dispatches) {
+    submit([&](VkCommandBuffer commands) { sampler_.record_begin(commands, *job_, dispatches); });
+}
+
+std::uint32_t DeviceRun::begin_in_parts(std::uint32_t dispatches) {
+    std::uint32_t parts = 0;
+    for (bool is_last = false; !is_last; ++parts) {
+        submit([&](VkCommandBuffer commands) {
+            is_last = sampler_.record_begin(commands, *job_, dispatches);
+        });
+    }
+    return parts;
+}
+
+void DeviceRun::finish() {
+    submit([&](VkCommandBuffer commands) { sampler_.record_finish(commands, *job_); });
+}
+
+void DeviceRun::finish_partly(std::uint32_t dispatches) {
+    submit([&](VkCommandBuffer commands) { sampler_.record_finish(commands, *job_, dispatches); });
+}
+
+std::uint32_t DeviceRun::finish_in_parts(std::uint32_t dispatches) {
+    std::uint32_t parts = 0;
+    for (bool is_last = false; !is_last; ++parts) {
+        submit([&](VkCommandBuffer commands) {
+            is_last = sampler_.record_finish(commands, *job_, dispatches);
+        });
+    }
+    return parts;
+}
+
 void DeviceRun::rounds(std::uint32_t count) {
-    expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_.record_rounds(commands, *job_, count);
-        barrier_to_host(vk_, commands);
-    }));
+    submit([&](VkCommandBuffer commands) { sampler_.record_rounds(commands, *job_, count); });
 }
 
 void DeviceRun::grow(std::uint32_t overflow) {
@@ -72,10 +105,7 @@ void DeviceRun::grow(std::uint32_t overflow) {
 }
 
 void DeviceRun::rewind() {
-    expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_.record_rewind(commands, *job_);
-        barrier_to_host(vk_, commands);
-    }));
+    submit([&](VkCommandBuffer commands) { sampler_.record_rewind(commands, *job_); });
 }
 
 void DeviceRun::enlarge_samples(std::uint32_t capacity) {
@@ -91,13 +121,6 @@ void DeviceRun::enlarge_samples(std::uint32_t capacity) {
         ranges[i] = {buffer.handle(), 0, buffer.size()};
     }
     expect(job_->set_samples(capacity, ranges[0], ranges[1], ranges[2]));
-}
-
-void DeviceRun::finish() {
-    expect(submitter_->run([&](VkCommandBuffer commands) {
-        sampler_.record_finish(commands, *job_);
-        barrier_to_host(vk_, commands);
-    }));
 }
 
 std::vector<gpu::SlotRec> slots_of(const DeviceRun& run) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -47,6 +48,12 @@ class DeviceRun {
     /// Within the pool there is.
     void set_plan(const RunPlan& plan) { expect(job_->set_plan(plan)); }
     void begin();
+    /// So many dispatches to a submission; returns how many submissions that takes.
+    std::uint32_t begin_in_parts(std::uint32_t dispatches);
+    std::uint32_t finish_in_parts(std::uint32_t dispatches);
+    /// Records some dispatches of a begin or a finish, and then what else there is.
+    void begin_partly(std::uint32_t dispatches);
+    void finish_partly(std::uint32_t dispatches);
     void rounds(std::uint32_t count);
     void grow(std::uint32_t overflow);
     void finish();
@@ -56,6 +63,7 @@ class DeviceRun {
 
     gpu::ControlRec control() const { return read<gpu::ControlRec>(BufferRole::control, 1)[0]; }
     const RunPlan& plan() const { return job_->plan(); }
+    Job& job() { return *job_; }
     const gpu::Push& push() const { return Job::Impl::of(*job_).push; }
     const Sampler& sampler() const { return sampler_; }
 
@@ -71,7 +79,13 @@ class DeviceRun {
         return records;
     }
 
+    /// Dispatches recorded so far.
+    std::uint64_t dispatches() const { return Job::Impl::of(*job_).dispatches; }
+
   private:
+    /// Records, submits and waits.
+    void submit(const std::function<void(VkCommandBuffer)>& record);
+
     DeviceRefs device_;
     DeviceTable vk_;
     Sampler sampler_;

@@ -223,6 +223,12 @@ TEST_SUITE("invariance") {
             CAPTURE(idle);
             CHECK(same(options));
         }
+        for (const std::uint32_t items : {1u, 2000u, 20000u}) {
+            RunnerOptions options;
+            options.plan.dispatch_items = items;
+            CAPTURE(items);
+            CHECK(same(options));
+        }
         RunnerOptions counting;
         counting.sampler.count_calls = true;
         CHECK(same(counting));

@@ -44,7 +44,8 @@ struct RunReport {
     std::uint32_t candidates = 0;     ///< Decided: all, or up to the last sample of a count.
     std::uint32_t chunks = 0;         ///< Parts in which they were drawn, of a stage or more each.
     std::uint32_t iterations = 0;     ///< Batches of disks.
-    std::uint32_t dispatches = 0;     ///< Recorded, empty ones included.
+    std::uint32_t dispatches = 0;     ///< Recorded, empty ones and clears of memory
+                                      ///< included.
     std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples; those of
                                       ///< samples anew with every chunk.
     std::uint32_t regrown = 0;        ///< Times a batch was repeated with more memory.

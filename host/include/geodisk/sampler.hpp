@@ -7,13 +7,16 @@
 //   2. workspace_needs      sizes of the buffers; the caller allocates them
 //   3. write_upload         what to upload before the first use
 //   4. make_job             writes descriptor sets; nothing is recorded yet
-//   5. record_begin         draws the candidates of the first stages
+//   5. record_begin         draws the candidates of the first stages; whole, or some dispatches in
+//                           one command buffer and the rest in later ones
 //   6. record_rounds        a fixed number of rounds; those after the last cost empty dispatches.
 //                           Submit, read gpu::ControlRec from the control buffer, and record more
 //                           until `done`. With `overflow` set nothing is decided until the host has
 //                           acted: kOverflowSamples asks for larger buffers (set_samples), others
 //                           for a larger pool (grow_plan, set_plan); then record_rewind
-//   7. record_finish        at any time: gpu::SampleRec per accepted candidate, in dart order.
+//   7. record_finish        at any time, and in parts as 5: gpu::SampleRec per accepted candidate,
+//   in
+//                           dart order.
 //                           ControlRec::ready of them are final: the first of all that will be
 //                           accepted
 //   8. set_stages           if the plan's stages are fewer than the job's: the next ones, and on
@@ -169,6 +172,8 @@ struct RunPlan {
     std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
     std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
                                        ///< at most 2^23.
+    std::uint32_t dispatch_items = 0;  ///< Faces, candidates, samples or words that a dispatch goes
+                                       ///< through at most, but at least one work group of them.
     /// Of what rounding does to a distance, in minimum distances, at most 1/2. The guard is that,
     /// of surfaces rounded up to a power of two (host/docs/precision.md).
     double error_bound = 0;
@@ -180,6 +185,9 @@ struct RunPlan {
     /// The slices of all lanes and the lists of all slots.
     GEODISK_API std::uint64_t pool_bytes() const noexcept;
 };
+
+/// Bounds no recording.
+inline constexpr std::uint32_t kAllDispatches = ~std::uint32_t{0};
 
 /// As many candidates never share one priority.
 inline constexpr std::uint32_t kLeastSlots = 8;
@@ -255,11 +263,19 @@ class GEODISK_API Sampler {
     //
     // record_finish may be recorded between any rounds, and as often as is liked: what it leaves is
     // put in order once and stays, and the rest grows.
-    void record_begin(VkCommandBuffer commands, const Job& job) const noexcept;
-    void record_rounds(VkCommandBuffer commands, const Job& job,
-                       std::uint32_t rounds) const noexcept;
-    void record_rewind(VkCommandBuffer commands, const Job& job) const noexcept;
-    void record_finish(VkCommandBuffer commands, const Job& job) const noexcept;
+    //
+    // No dispatch grows with the mesh or the candidates: RunPlan::dispatch_items bounds those that
+    // go through them, RunPlan::step_budget and lanes those of disks. record_begin and
+    // record_finish record at most `dispatches` of theirs, clears of memory included, from where
+    // the call before stopped, and return whether those were the last. What they have left is
+    // recorded first by whatever call comes next. A round is 2 dispatches and
+    // RunPlan::detect_passes, and 2 more with SamplerOptions::count_calls.
+    bool record_begin(VkCommandBuffer commands, Job& job,
+                      std::uint32_t dispatches = kAllDispatches) const noexcept;
+    void record_rounds(VkCommandBuffer commands, Job& job, std::uint32_t rounds) const noexcept;
+    void record_rewind(VkCommandBuffer commands, Job& job) const noexcept;
+    bool record_finish(VkCommandBuffer commands, Job& job,
+                       std::uint32_t dispatches = kAllDispatches) const noexcept;
 
     static constexpr SyncScope kFirstUse{
         VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,

@@ -79,20 +79,21 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 /// What the shaders rely on without looking.
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
     constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
-    const bool fine = plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
-                      std::has_single_bit(plan.window_capacity) &&
-                      std::has_single_bit(plan.table_capacity) && plan.list_capacity >= 4 &&
-                      plan.list_capacity % 4 == 0 && plan.lanes >= 1 && plan.lanes <= kMost &&
-                      plan.step_budget >= 1 && plan.detect_passes >= 1 &&
-                      plan.detect_passes <= 4096 && plan.sample_capacity > plan.slots &&
-                      plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
-                      plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed &&
-                      plan.slots <= kMost && plan.window_capacity <= kMost &&
-                      plan.table_capacity <= kMost && plan.list_capacity <= kMost;
+    const bool fine =
+        plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
+        std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
+        plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
+        plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
+        plan.dispatch_items >= 1 && plan.detect_passes <= 4096 &&
+        plan.sample_capacity > plan.slots && plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
+        plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed && plan.slots <= kMost &&
+        plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
+        plan.list_capacity <= kMost;
     if (!fine) {
         return Error{Status::invalid_argument,
                      "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
-                     "detect_passes, stages and idle_capacity at least 1, stages at most 15, "
+                     "detect_passes, stages, idle_capacity and dispatch_items at least 1, stages "
+                     "at most 15, "
                      "sample_capacity more than slots, window_capacity and table_capacity powers "
                      "of two, list_capacity a "
                      "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
@@ -213,6 +214,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.step_budget = std::min(plan.step_budget, most_steps);
     push.sample_capacity = plan.sample_capacity;
     push.idle_capacity = plan.idle_capacity;
+    push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, 65535u);
 }
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
@@ -254,12 +256,17 @@ Result<Done> Job::set_stages(std::uint32_t first, std::uint32_t count) noexcept 
         if (std::uint64_t{first} + count > std::uint64_t{1} << 32) {
             return Error{Status::invalid_argument, "stages go beyond the last one, 4294967295"};
         }
+        if (first != 0 && !impl_->finished.is_at_start()) {
+            return Error{Status::invalid_argument,
+                         "record_finish of the stages before is recorded in part"};
+        }
         impl_->begin_stages(first, count);
         return Done{};
     });
 }
 
 void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
+    begun = finished = {};
     push.first_stage = first;
     push.stages = count;
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);

@@ -24,6 +24,9 @@ constexpr double kMostSlots = (1u << 16) - 512;
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
 constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMostLevels;
+// Some milliseconds for each dispatch.
+constexpr std::uint32_t kCpuDispatchItems = 1u << 17;
+constexpr std::uint32_t kDispatchItems = 1u << 21;
 // Of candidates: deviations from what a stage expects that there is room for.
 constexpr double kDeviations = 8;
 // Slots besides those that a batch aims at, in square roots of their number, see lib/schedule.glsl.
@@ -199,6 +202,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.pool_block, wanted.pool_block);
     replace(plan.stages, wanted.stages);
     replace(plan.idle_capacity, wanted.idle_capacity);
+    replace(plan.dispatch_items, wanted.dispatch_items);
     plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
 }
@@ -236,6 +240,8 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan.sample_capacity =
             wanted_sample_capacity(of.samples, of.stop_count, plan.slots, report);
         plan.idle_capacity = wanted_idle_capacity(plan.slots, candidates);
+        plan.dispatch_items =
+            report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuDispatchItems : kDispatchItems;
         of.plan_disks(plan, candidates, report);
         plan.step_budget = of.most_steps(report, impl_->variant_for(domain));
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);

@@ -15,75 +15,158 @@
 namespace geodisk {
 namespace {
 
+// Of memory that one command clears.
+constexpr VkDeviceSize kFillBytes = VkDeviceSize{32} << 20;
+// Vulkan promises no more work groups.
+constexpr std::uint32_t kMostGroups = 65535;
+
+/// Records dispatches, and clears of memory, one after the other. Sequences of them may be cut
+/// anywhere: a cursor tells where the next recording goes on.
 class Recorder {
   public:
-    Recorder(VkCommandBuffer commands, const Sampler::Impl& sampler, const Job::Impl& job)
-        : commands_(commands), sampler_(sampler), job_(job) {}
+    Recorder(VkCommandBuffer commands, Job::Impl& job)
+        : Recorder(commands, job, whole_, kAllDispatches) {}
+    /// At most so many dispatches, from the cursor on.
+    Recorder(VkCommandBuffer commands, Job::Impl& job, Cursor& cursor, std::uint32_t dispatches)
+        : commands_(commands), sampler_(*job.sampler), job_(job), cursor_(cursor),
+          left_(dispatches) {}
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+    ~Recorder() { mark(); }
 
-    void dispatch(Kernel kernel, Groups groups, const gpu::Push& push,
-                  SetRole role = SetRole::workspace) {
-        bind(kernel, push, role);
-        sampler_.vk.vkCmdDispatch(commands_, groups.x, groups.y, 1);
-        barrier_compute_to_compute(sampler_.vk, commands_);
+    /// A pass over `count` items, `per_group` to a work group. Dispatches of it are bounded.
+    void pass(Kernel kernel, std::uint64_t count, std::uint32_t per_group, const gpu::Push& push,
+              SetRole role = SetRole::workspace) {
+        const std::uint64_t groups = (count + per_group - 1) / per_group;
+        const std::uint64_t most =
+            std::clamp(job_.plan.dispatch_items / per_group, 1u, kMostGroups);
+        in_parts(groups, most, [&](std::uint64_t first, std::uint64_t part) {
+            gpu::Push own = push;
+            own.first_group = static_cast<std::uint32_t>(first);
+            bind(kernel, own, role);
+            sampler_.vk.vkCmdDispatch(commands_, static_cast<std::uint32_t>(part), 1, 1);
+            barrier_compute_to_compute(sampler_.vk, commands_);
+        });
     }
 
-    void dispatch_per_face(Kernel kernel) {
-        dispatch(kernel, groups_for(job_.push.faces, sampler_.choices.tuning.local_size),
-                 job_.push);
+    void pass_over_faces(Kernel kernel) {
+        pass(kernel, job_.push.faces, sampler_.choices.tuning.local_size, job_.push);
     }
 
-    void dispatch_per_candidate(Kernel kernel, std::uint32_t per_group, const gpu::Push& push) {
-        dispatch(kernel, groups_for(push.capacity, per_group), push);
+    void pass_over_candidates(Kernel kernel, std::uint32_t per_group, const gpu::Push& push) {
+        pass(kernel, push.capacity, per_group, push);
     }
 
-    void dispatch_per_sample(Kernel kernel) {
-        const std::uint32_t most = std::max(job_.push.sample_capacity, job_.push.slots);
-        dispatch(kernel, groups_for(most, sampler_.choices.tuning.local_size), job_.push);
+    void pass_over_samples(Kernel kernel) {
+        pass(kernel, std::max(job_.push.sample_capacity, job_.push.slots),
+             sampler_.choices.tuning.local_size, job_.push);
+    }
+
+    void single(Kernel kernel, const gpu::Push& push, SetRole role = SetRole::workspace) {
+        pass(kernel, 1, 1, push, role);
     }
 
     /// The size is what `select` left at this offset of the control record.
     void dispatch_indirect(Kernel kernel, VkDeviceSize offset) {
-        bind(kernel, job_.push, SetRole::workspace);
-        const BufferRange& control = range(BufferRole::control);
-        sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset + offset);
-        barrier_compute_to_compute(sampler_.vk, commands_);
-    }
-
-    /// What was recorded since the last mark belongs to this stage.
-    void mark(Stage stage) const {
-        if (job_.clock != nullptr) {
-            job_.clock->mark(commands_, stage);
-        }
+        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) {
+            bind(kernel, job_.push, SetRole::workspace);
+            const BufferRange& control = range(BufferRole::control);
+            sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset + offset);
+            barrier_compute_to_compute(sampler_.vk, commands_);
+        });
     }
 
     /// Exclusive scan of `count` words.
     void scan(std::uint32_t count, SetRole role) {
         gpu::Push push = job_.push;
         push.scan_count = count;
-        const Groups blocks = groups_for(count, gpu::kScanBlock);
-        dispatch(Kernel::sum_blocks, blocks, push, role);
-        dispatch(Kernel::scan_sums, {1, 1}, push, role);
-        dispatch(Kernel::scan_blocks, blocks, push, role);
+        pass(Kernel::sum_blocks, count, gpu::kScanBlock, push, role);
+        single(Kernel::scan_sums, push, role);
+        pass(Kernel::scan_blocks, count, gpu::kScanBlock, push, role);
     }
 
-    void fill(BufferRole role, VkDeviceSize size) const {
+    void clear(BufferRole role, VkDeviceSize size) {
         const BufferRange& target = range(role);
-        sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset, size, 0);
+        in_parts(size, kFillBytes, [&](std::uint64_t first, std::uint64_t part) {
+            transfer([&] {
+                sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset + first, part,
+                                            0);
+            });
+        });
     }
 
-    void fill_control(std::size_t first, std::size_t size, std::uint32_t word) const {
+    /// What `change` does to the control record by the three functions that follow.
+    template <class Change>
+    void change_control(const Change& change) {
+        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) { transfer(change); });
+    }
+    void fill(std::size_t first, std::size_t size, std::uint32_t word) const {
         const BufferRange& control = range(BufferRole::control);
         sampler_.vk.vkCmdFillBuffer(commands_, control.buffer, control.offset + first, size, word);
     }
-
-    /// Copies a word of the control record to another.
-    void copy_control(std::size_t from, std::size_t to) const {
+    /// Zeros but for the generation, which is the job's.
+    void fill_below(std::size_t end) const {
+        constexpr std::size_t kAt = offsetof(gpu::ControlRec, generation);
+        fill(0, kAt, 0);
+        fill(kAt, 4, job_.generation);
+        fill(kAt + 4, end - kAt - 4, 0);
+    }
+    void copy(std::size_t from, std::size_t to) const {
         const BufferRange& control = range(BufferRole::control);
         const VkBufferCopy copy{control.offset + from, control.offset + to, 4};
         sampler_.vk.vkCmdCopyBuffer(commands_, control.buffer, control.buffer, 1, &copy);
     }
 
+    /// What is recorded from now on belongs to this stage.
+    void stage(Stage stage) {
+        mark();
+        stage_ = stage;
+    }
+
+    /// Whether the sequence was recorded to its end; the next one begins anew then.
+    bool is_complete() {
+        if (cursor_.step < step_) {
+            return false;
+        }
+        cursor_ = {};
+        return true;
+    }
+
   private:
+    /// Calls record(first, count) for parts of `count`, as many as are left.
+    template <class Record>
+    void in_parts(std::uint64_t count, std::uint64_t most, const Record& record) {
+        if (step_++ != cursor_.step) {
+            return; // Recorded before, or to come.
+        }
+        while (cursor_.done < count) {
+            if (left_ == 0) {
+                return;
+            }
+            const std::uint64_t part = std::min(count - cursor_.done, most);
+            record(cursor_.done, part);
+            cursor_.done += part;
+            --left_;
+            ++job_.dispatches;
+            has_unmarked_ = true;
+        }
+        cursor_ = {cursor_.step + 1, 0};
+    }
+
+    template <class Commands>
+    void transfer(const Commands& commands) {
+        barrier_compute_to_transfer(sampler_.vk, commands_);
+        commands();
+        barrier_transfer_to_compute(sampler_.vk, commands_);
+    }
+
+    void mark() {
+        if (job_.clock != nullptr && has_unmarked_ && stage_) {
+            job_.clock->mark(commands_, *stage_);
+        }
+        has_unmarked_ = false;
+    }
+
     const BufferRange& range(BufferRole role) const {
         return job_.workspace[static_cast<std::size_t>(role)];
     }
@@ -109,109 +192,143 @@ class Recorder {
 
     VkCommandBuffer commands_;
     const Sampler::Impl& sampler_;
-    const Job::Impl& job_;
+    Job::Impl& job_;
+    Cursor whole_;
+    Cursor& cursor_;
+    std::uint32_t left_;
+    std::uint32_t step_ = 0; ///< Of the sequence, whether recorded or not.
+    std::optional<Stage> stage_;
+    bool has_unmarked_ = false;
     std::optional<Kernel> bound_;
     SetRole bound_role_ = SetRole::workspace;
     gpu::Push bound_push_{};
 };
 
-} // namespace
-
-void Sampler::record_begin(VkCommandBuffer commands, const Job& job) const noexcept {
-    Recorder recorder(commands, *impl_, *job.impl_);
-    const gpu::Push& push = job.impl_->push;
-    const DomainKernels own = kernels_of(job.impl_->domain);
+bool begin(VkCommandBuffer commands, Job::Impl& job, std::uint32_t dispatches) {
+    if (job.begun.is_at_start() && dispatches > 0) {
+        ++job.generation;
+    }
+    Recorder recorder(commands, job, job.begun, dispatches);
+    const gpu::Push& push = job.push;
+    const DomainKernels own = kernels_of(job.domain);
     const bool has_cells = push.all_single == 0;
-    if (push.first_stage == 0) {
-        recorder.fill_control(0, sizeof(gpu::ControlRec), 0);
-        recorder.fill(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
-    } else {
+    recorder.stage(Stage::count);
+    recorder.change_control([&] {
+        if (push.first_stage == 0) {
+            recorder.fill_below(sizeof(gpu::ControlRec));
+            return;
+        }
         // What was accepted so far is settled, and in order.
-        barrier_compute_to_transfer(impl_->vk, commands);
-        recorder.copy_control(offsetof(gpu::ControlRec, accepted),
-                              offsetof(gpu::ControlRec, settled));
-        recorder.copy_control(offsetof(gpu::ControlRec, accepted),
-                              offsetof(gpu::ControlRec, ordered));
-        recorder.fill_control(0, offsetof(gpu::ControlRec, accepted), 0);
-    }
-    if (has_cells) {
-        recorder.fill(BufferRole::cells, (VkDeviceSize{push.cells} + 2) * 4);
-    }
-    barrier_transfer_to_compute(impl_->vk, commands);
-    recorder.dispatch_per_face(own.count);
+        recorder.copy(offsetof(gpu::ControlRec, accepted), offsetof(gpu::ControlRec, settled));
+        recorder.copy(offsetof(gpu::ControlRec, accepted), offsetof(gpu::ControlRec, ordered));
+        recorder.fill_below(offsetof(gpu::ControlRec, accepted));
+    });
+    recorder.clear(BufferRole::pool,
+                   push.first_stage == 0 ? VkDeviceSize{push.first_list_row} * 16 : 0);
+    recorder.clear(BufferRole::cells, has_cells ? (VkDeviceSize{push.cells} + 2) * 4 : 0);
+    recorder.pass_over_faces(own.count);
     recorder.scan(push.faces * push.stages + 1, SetRole::start_scan);
-    recorder.mark(Stage::count);
     if (has_cells) {
-        recorder.dispatch_per_candidate(own.bin, gpu::kDrawBlock, push);
+        recorder.stage(Stage::bin);
+        recorder.pass_over_candidates(own.bin, gpu::kDrawBlock, push);
         recorder.scan(push.cells + 2, SetRole::cell_scan);
     }
-    recorder.mark(Stage::bin);
-    recorder.dispatch_per_candidate(own.draw, gpu::kDrawBlock, push);
-    recorder.dispatch(Kernel::begin_chunk, {1, 1}, push);
-    recorder.mark(Stage::draw);
+    recorder.stage(Stage::draw);
+    recorder.pass_over_candidates(own.draw, gpu::kDrawBlock, push);
+    recorder.single(Kernel::begin_chunk, push);
+    return recorder.is_complete();
 }
 
-void Sampler::record_rounds(VkCommandBuffer commands, const Job& job,
+bool finish(VkCommandBuffer commands, Job::Impl& job, std::uint32_t dispatches) {
+    Recorder recorder(commands, job, job.finished, dispatches);
+    const gpu::Push& push = job.push;
+    recorder.stage(Stage::gather);
+    recorder.change_control(
+        [&] { recorder.fill(offsetof(gpu::ControlRec, first_open), 4, gpu::kNoOrder); });
+    recorder.clear(BufferRole::buckets, (VkDeviceSize{push.buckets} + 2) * 4);
+    recorder.pass_over_samples(Kernel::order_count);
+    recorder.scan(push.buckets + 2, SetRole::bucket_scan);
+    recorder.pass_over_samples(Kernel::order_place);
+    recorder.pass_over_samples(Kernel::order_write);
+    recorder.change_control([&] {
+        recorder.copy(offsetof(gpu::ControlRec, next_ordered), offsetof(gpu::ControlRec, ordered));
+    });
+    return recorder.is_complete();
+}
+
+/// What is left of a begin or a finish: nothing else may come between.
+void complete(VkCommandBuffer commands, Job::Impl& job) {
+    if (!job.begun.is_at_start()) {
+        begin(commands, job, kAllDispatches);
+    }
+    if (!job.finished.is_at_start()) {
+        finish(commands, job, kAllDispatches);
+    }
+}
+
+} // namespace
+
+bool Sampler::record_begin(VkCommandBuffer commands, Job& job,
+                           std::uint32_t dispatches) const noexcept {
+    if (!job.impl_->finished.is_at_start()) {
+        complete(commands, *job.impl_);
+    }
+    return begin(commands, *job.impl_, dispatches);
+}
+
+void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
                             std::uint32_t rounds) const noexcept {
-    Recorder recorder(commands, *impl_, *job.impl_);
+    complete(commands, *job.impl_);
+    Recorder recorder(commands, *job.impl_);
     const DomainKernels own = kernels_of(job.impl_->domain);
     for (std::uint32_t round = 0; round < rounds; ++round) {
+        recorder.stage(Stage::select);
         recorder.dispatch_indirect(own.select, offsetof(gpu::ControlRec, select_x));
-        recorder.mark(Stage::select);
+        recorder.stage(Stage::detect);
         for (std::uint32_t pass = 0; pass < job.impl_->plan.detect_passes; ++pass) {
             recorder.dispatch_indirect(own.detect, offsetof(gpu::ControlRec, detect_x));
         }
-        recorder.mark(Stage::detect);
+        recorder.stage(Stage::resolve);
         recorder.dispatch_indirect(Kernel::resolve, offsetof(gpu::ControlRec, groups_x));
         for (std::uint32_t pass = 0; pass < impl_->count_passes(); ++pass) {
             recorder.dispatch_indirect(Kernel::count_calls, offsetof(gpu::ControlRec, count_x));
         }
-        recorder.mark(Stage::resolve);
     }
 }
 
-void Sampler::record_rewind(VkCommandBuffer commands, const Job& job) const noexcept {
+void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
+    complete(commands, *job.impl_);
+    ++job.impl_->generation;
     // The batch was selected with the slots of an earlier plan, never fewer than now.
-    Recorder recorder(commands, *impl_, *job.impl_);
-    // No lane has a slot, and no row of a table a disk.
-    recorder.fill(BufferRole::pool, VkDeviceSize{job.impl_->push.first_list_row} * 16);
-    barrier_transfer_to_compute(impl_->vk, commands);
-    recorder.dispatch(Kernel::rewind,
-                      groups_for(job.impl_->most_slots, impl_->choices.tuning.slot_local_size),
-                      job.impl_->push);
-    recorder.dispatch(Kernel::resume, {1, 1}, job.impl_->push);
-}
-
-void Sampler::record_finish(VkCommandBuffer commands, const Job& job) const noexcept {
-    Recorder recorder(commands, *impl_, *job.impl_);
+    Recorder recorder(commands, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    barrier_compute_to_transfer(impl_->vk, commands);
-    recorder.fill_control(offsetof(gpu::ControlRec, first_open), 4, gpu::kNoOrder);
-    recorder.fill(BufferRole::buckets, (VkDeviceSize{push.buckets} + 2) * 4);
-    barrier_transfer_to_compute(impl_->vk, commands);
-    recorder.dispatch_per_sample(Kernel::order_count);
-    recorder.scan(push.buckets + 2, SetRole::bucket_scan);
-    recorder.dispatch_per_sample(Kernel::order_place);
-    recorder.dispatch_per_sample(Kernel::order_write);
-    barrier_compute_to_transfer(impl_->vk, commands);
-    recorder.copy_control(offsetof(gpu::ControlRec, next_ordered),
-                          offsetof(gpu::ControlRec, ordered));
-    barrier_transfer_to_compute(impl_->vk, commands);
-    recorder.mark(Stage::gather);
+    recorder.change_control(
+        [&] { recorder.fill(offsetof(gpu::ControlRec, generation), 4, job.impl_->generation); });
+    // No lane has a slot, and no row of a table a disk.
+    recorder.clear(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
+    recorder.pass(Kernel::rewind, job.impl_->most_slots, impl_->choices.tuning.slot_local_size,
+                  push);
+    recorder.single(Kernel::resume, push);
 }
 
-void Job::Impl::record_restart(VkCommandBuffer commands) const {
-    Recorder(commands, *sampler, *this).dispatch(Kernel::begin_chunk, {1, 1}, push);
+bool Sampler::record_finish(VkCommandBuffer commands, Job& job,
+                            std::uint32_t dispatches) const noexcept {
+    if (!job.impl_->begun.is_at_start()) {
+        complete(commands, *job.impl_);
+    }
+    return finish(commands, *job.impl_, dispatches);
 }
 
-void Job::Impl::record_count(VkCommandBuffer commands, std::uint32_t end_order) const {
-    Recorder recorder(commands, *sampler, *this);
+void Job::Impl::record_restart(VkCommandBuffer commands) {
+    Recorder(commands, *this).single(Kernel::begin_chunk, push);
+}
+
+void Job::Impl::record_count(VkCommandBuffer commands, std::uint32_t end_order) {
+    Recorder recorder(commands, *this);
     gpu::Push counted = push;
     counted.end_order = end_order;
-    barrier_compute_to_transfer(sampler->vk, commands);
-    recorder.fill_control(offsetof(gpu::ControlRec, below), 4, 0);
-    barrier_transfer_to_compute(sampler->vk, commands);
-    recorder.dispatch_per_candidate(Kernel::count_orders, gpu::kSelectBlock, counted);
+    recorder.change_control([&] { recorder.fill(offsetof(gpu::ControlRec, below), 4, 0); });
+    recorder.pass_over_candidates(Kernel::count_orders, gpu::kSelectBlock, counted);
 }
 
 } // namespace geodisk

@@ -22,11 +22,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Recorded dispatches per round, besides those of detect: select and resolve.
-constexpr std::uint32_t kDispatchesPerRound = 2;
-constexpr std::uint32_t kDispatchesToBegin = 6;
-constexpr std::uint32_t kDispatchesToBin = 4;
-constexpr std::uint32_t kDispatchesToFinish = 6;
 // Submissions start small and grow towards this time, so that no watchdog bites and progress and
 // cancellation stay prompt.
 constexpr double kTargetSeconds = 0.1;
@@ -155,20 +150,15 @@ Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
     return submit([&](VkCommandBuffer commands) {
         if (rewind) {
             runner_.sampler.record_rewind(commands, *job_);
-            report_.dispatches += 2;
         }
         runner_.sampler.record_rounds(commands, *job_, rounds);
-        report_.dispatches += rounds * (kDispatchesPerRound + job_->plan().detect_passes +
-                                        runner_.engine().count_passes());
     });
 }
 
 /// Candidates of the chunk that are of lower order.
 Result<std::uint32_t> Run::count_before(std::uint32_t order) {
-    auto counted = submit([&](VkCommandBuffer commands) {
-        Job::Impl::of(*job_).record_count(commands, order);
-        ++report_.dispatches;
-    });
+    auto counted = submit(
+        [&](VkCommandBuffer commands) { Job::Impl::of(*job_).record_count(commands, order); });
     if (!counted) {
         return counted.error();
     }
@@ -263,11 +253,8 @@ Result<Done> Run::sample(const ProgressCallback& progress) {
 }
 
 Result<Done> Run::begin_chunk() {
-    auto begun = submit([&](VkCommandBuffer commands) {
-        runner_.sampler.record_begin(commands, *job_);
-        report_.dispatches += kDispatchesToBegin;
-        report_.dispatches += Job::Impl::of(*job_).push.all_single != 0 ? 0 : kDispatchesToBin;
-    });
+    auto begun =
+        submit([&](VkCommandBuffer commands) { runner_.sampler.record_begin(commands, *job_); });
     if (!begun) {
         return begun;
     }
@@ -307,10 +294,7 @@ Result<Done> Run::cut_darts() {
     const bool at_low = low_count == wanted;
     chunk_darts_ = at_low ? low_count : high_count;
     Job::Impl::of(*job_).push.end_order = static_cast<std::uint32_t>(at_low ? low : high);
-    return submit([&](VkCommandBuffer commands) {
-        Job::Impl::of(*job_).record_restart(commands);
-        ++report_.dispatches;
-    });
+    return submit([&](VkCommandBuffer commands) { Job::Impl::of(*job_).record_restart(commands); });
 }
 
 Result<Done> Run::decide_chunk(const ProgressCallback& progress) {
@@ -356,7 +340,6 @@ Result<Done> Run::act_on_overflow() {
 }
 
 Result<Done> Run::gather_chunk() {
-    report_.dispatches += kDispatchesToFinish;
     return submit(
         [&](VkCommandBuffer commands) { runner_.sampler.record_finish(commands, *job_); });
 }
@@ -406,6 +389,7 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, const RunPlan& plan)
     }
     report_.candidates = static_cast<std::uint32_t>(thrown_);
     report_.iterations = control_.iterations;
+    report_.dispatches = static_cast<std::uint32_t>(Job::Impl::of(*job_).dispatches);
     report_.disks = control_.disks;
     report_.windows = wide(control_.windows_low, control_.windows_high);
     report_.tested = wide(control_.tested_low, control_.tested_high);

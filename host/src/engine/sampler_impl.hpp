@@ -47,6 +47,13 @@ inline constexpr std::size_t kSetRoles = 4;
 
 class StageClock;
 
+/// Where a sequence of dispatches stands that is recorded in parts.
+struct Cursor {
+    std::uint32_t step = 0; ///< Passes recorded.
+    std::uint64_t done = 0; ///< Of the one at hand, work groups or bytes.
+    bool is_at_start() const { return step == 0 && done == 0; }
+};
+
 struct Job::Impl {
     const Sampler::Impl* sampler = nullptr;
     StageClock* clock = nullptr; ///< Where recording marks the stages, if anywhere.
@@ -65,6 +72,9 @@ struct Job::Impl {
     double samples_per_measure = 0;
     RunPlan plan;
     gpu::Push push{};
+    Cursor begun, finished;       ///< Of record_begin and record_finish.
+    std::uint32_t generation = 0; ///< See ControlRec.
+    std::uint64_t dispatches = 0; ///< Recorded, empty ones included.
 
     bool has(std::size_t kernel) const {
         return kernel_info(static_cast<Kernel>(kernel)).serves(domain);
@@ -85,20 +95,9 @@ struct Job::Impl {
     Result<Done> replace_buffer(std::size_t buffer, const BufferRange& range);
     void apply_plan(const RunPlan& new_plan);
     /// Counts the candidates of lower order into ControlRec::below; none may be active.
-    void record_count(VkCommandBuffer commands, std::uint32_t end_order) const;
+    void record_count(VkCommandBuffer commands, std::uint32_t end_order);
     /// Sets out the first batch anew, after a change of the push block.
-    void record_restart(VkCommandBuffer commands) const;
+    void record_restart(VkCommandBuffer commands);
 };
-
-/// Work groups for `count` invocations, folded over two dimensions where one is not enough.
-struct Groups {
-    std::uint32_t x, y;
-};
-constexpr Groups groups_for(std::uint64_t count, std::uint32_t local_size) {
-    const std::uint64_t groups = (count + local_size - 1) / local_size;
-    const std::uint64_t rows = (groups + 65534) / 65535;
-    return {static_cast<std::uint32_t>(rows == 0 ? 0 : (groups + rows - 1) / rows),
-            static_cast<std::uint32_t>(rows)};
-}
 
 } // namespace geodisk

@@ -119,8 +119,8 @@ Result<Done> Runner::Impl::check_rounding() {
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0,
                                    nullptr);
         vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
-        vk.vkCmdDispatch(commands, groups_for(kVectors, sampler_impl.choices.tuning.local_size).x,
-                         1, 1);
+        const std::uint32_t local_size = sampler_impl.choices.tuning.local_size;
+        vk.vkCmdDispatch(commands, (kVectors + local_size - 1) / local_size, 1, 1);
         record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                        VK_ACCESS_HOST_READ_BIT);
