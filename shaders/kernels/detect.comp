@@ -304,6 +304,7 @@ void work_on(uint index) {
     load_face();
     for (uint i = 0u; i < P.step_budget && overflow == 0u; ++i) {
         step();
+        ++own_disks.steps;
         if (lane.phase == kPhaseIdle && !slots_left()) {
             break;
         }

@@ -240,6 +240,7 @@ void find_conflicts(uint slot) {
     load_own(slot);
     for (uint i = 0u; i < P.step_budget && running(); ++i) {
         trip();
+        ++own_disks.steps;
     }
     slots[slot].idle_conflicts = idle_conflicts;
     slots[slot].active_conflicts = active_conflicts;
@@ -251,7 +252,8 @@ void find_conflicts(uint slot) {
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
     } else if (!running() && block_conflicts(slot)) {
-        own_disks = DiskTotals(1u, rows_visited, tested, 0u, 0u, idle_conflicts + active_conflicts);
+        own_disks = DiskTotals(max(own_disks.steps, 1u), 1u, rows_visited, tested, 0u, 0u,
+                               idle_conflicts + active_conflicts);
         complete(slot);
     }
 }

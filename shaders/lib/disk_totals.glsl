@@ -1,9 +1,10 @@
-// What the disks completed in a dispatch took, summed over each work group before it goes to the
+// What disks took in a dispatch, summed over each work group before it goes to the
 // control record.
 #ifndef GEODISK_DISK_TOTALS_GLSL
 #define GEODISK_DISK_TOTALS_GLSL
 
 struct DiskTotals {
+    uint steps; // of all disks, complete or not
     uint disks;
     uint windows;
     uint tested;
@@ -12,7 +13,7 @@ struct DiskTotals {
     uint most_conflicts;
 };
 
-const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u);
+const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u, 0u);
 
 DiskTotals own_disks; // of this invocation
 shared DiskTotals group_disks;
@@ -24,7 +25,8 @@ void sum_disks() {
         group_disks = kNoDisks;
     }
     barrier();
-    if (own_disks.disks > 0u) {
+    if (own_disks.steps > 0u) {
+        atomicAdd(group_disks.steps, own_disks.steps);
         atomicAdd(group_disks.disks, own_disks.disks);
         atomicAdd(group_disks.windows, own_disks.windows);
         atomicAdd(group_disks.tested, own_disks.tested);
@@ -33,7 +35,8 @@ void sum_disks() {
         atomicMax(group_disks.most_conflicts, own_disks.most_conflicts);
     }
     barrier();
-    if (is_first && group_disks.disks > 0u) {
+    if (is_first && group_disks.steps > 0u) {
+        atomicAdd(control.steps, group_disks.steps);
         atomicAdd(control.disks, group_disks.disks);
         GEODISK_ADD_WIDE(control.windows_low, control.windows_high, group_disks.windows)
         GEODISK_ADD_WIDE(control.tested_low, control.tested_high, group_disks.tested)

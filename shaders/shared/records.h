@@ -124,6 +124,7 @@ struct ControlRec {
     uint ordered;          // accepted ones that need not be put in order any more
     uint next_ordered;     // what that will be the next time
     uint iterations;       // batches selected
+    uint steps;            // of lanes, modulo 2^32
     uint disks;            // disks completed
     uint windows_low;      // windows pushed in completed disks, 64 bits
     uint windows_high;
@@ -155,7 +156,7 @@ static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
-static_assert(sizeof(ControlRec) == 280 && offsetof(ControlRec, calls_high) == 276);
+static_assert(sizeof(ControlRec) == 284 && offsetof(ControlRec, calls_high) == 280);
 } // namespace geodisk::gpu
 #endif
 

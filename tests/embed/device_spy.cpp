@@ -172,6 +172,24 @@ struct DeviceSpy::Functions {
         return result;
     }
 
+    static void tell_dispatch(std::uint32_t groups) {
+        if (active->on_dispatch) {
+            active->on_dispatch(groups);
+        }
+    }
+
+    static VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, std::uint32_t x,
+                                               std::uint32_t y, std::uint32_t z) {
+        tell_dispatch(x * y * z);
+        real<PFN_vkCmdDispatch>("vkCmdDispatch")(commands, x, y, z);
+    }
+
+    static VKAPI_ATTR void VKAPI_CALL dispatch_indirect(VkCommandBuffer commands, VkBuffer buffer,
+                                                        VkDeviceSize offset) {
+        tell_dispatch(0);
+        real<PFN_vkCmdDispatchIndirect>("vkCmdDispatchIndirect")(commands, buffer, offset);
+    }
+
     static VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, std::uint32_t count,
                                                const VkFence* fences, VkBool32 all,
                                                std::uint64_t timeout) {
@@ -238,6 +256,8 @@ PFN_vkVoidFunction DeviceSpy::Functions::find(std::string_view name) {
          reinterpret_cast<PFN_vkVoidFunction>(&Destroy<"vkFreeMemory", PFN_vkFreeMemory>::call)},
         {"vkMapMemory", reinterpret_cast<PFN_vkVoidFunction>(&map)},
         {"vkWaitForFences", reinterpret_cast<PFN_vkVoidFunction>(&wait)},
+        {"vkCmdDispatch", reinterpret_cast<PFN_vkVoidFunction>(&dispatch)},
+        {"vkCmdDispatchIndirect", reinterpret_cast<PFN_vkVoidFunction>(&dispatch_indirect)},
     };
 #undef GEODISK_PAIR
 #undef GEODISK_STEP

@@ -42,6 +42,9 @@ class DeviceSpy {
     /// Called before each call that is watched.
     std::function<void(std::string_view)> on_call;
 
+    /// Called for each dispatch with its work groups, 0 where the device alone knows them.
+    std::function<void(std::uint32_t)> on_dispatch;
+
     bool never_signal = false; ///< Waiting for a fence times out, though the work ends.
     VkDeviceSize memory_left = std::numeric_limits<VkDeviceSize>::max();
     /// Called with what is mapped, after the work that a fence stood for has ended.

@@ -59,8 +59,8 @@ class EngineJob {
         job_.emplace(expect(sampler.make_job(domain_, plan_, workspace_)));
     }
 
-    /// Uploads through staging and begins, in the frame's command buffer.
-    void record_first(VkCommandBuffer commands) {
+    /// Through staging, in the frame's command buffer.
+    void record_upload(VkCommandBuffer commands) {
         std::size_t staged = 0;
         for (const BufferRole role : kUploaded) {
             const std::size_t size = sampler_.upload_size(domain_, role);
@@ -73,7 +73,36 @@ class EngineJob {
             staged += size;
         }
         workshop_.barrier(commands, Workshop::kUploaded, Sampler::kFirstUse);
+    }
+
+    void record_first(VkCommandBuffer commands) {
+        record_upload(commands);
         sampler_.record_begin(commands, *job_);
+    }
+
+    /// As little as one may in a frame.
+    void record_next(VkCommandBuffer commands, const Advice& advice) {
+        switch (advice.next) {
+        case Next::begin:
+            sampler_.record_begin(commands, *job_, 3);
+            return;
+        case Next::go_on:
+            if (!is_begun()) {
+                sampler_.record_begin(commands, *job_, 3);
+            } else {
+                sampler_.record_rounds(commands, *job_, 3);
+            }
+            return;
+        case Next::finish:
+            sampler_.record_finish(commands, *job_, 3);
+            return;
+        case Next::larger_pool:
+            expect(job_->set_plan(advice.plan));
+            sampler_.record_rewind(commands, *job_);
+            return;
+        default:
+            throw std::runtime_error(to_string(advice.next));
+        }
     }
 
     void record_rounds(VkCommandBuffer commands, std::uint32_t rounds) {
@@ -99,13 +128,6 @@ class EngineJob {
         return control;
     }
 
-    /// With larger slices, as far as the pool allows.
-    void record_regrown(VkCommandBuffer commands, std::uint32_t overflow) {
-        expect(job_->set_plan(
-            expect(sampler_.grow_plan(job_->plan(), overflow, range(BufferRole::pool).size))));
-        sampler_.record_rewind(commands, *job_);
-    }
-
     std::vector<gpu::SampleRec> samples(std::uint32_t accepted) const {
         std::vector<gpu::SampleRec> samples(accepted);
         std::memcpy(samples.data(), workshop_.download_bytes().data(),
@@ -121,42 +143,35 @@ class EngineJob {
         CHECK(points == wanted_);
     }
 
-    /// Frames until the samples are there, as many as are returned.
-    std::uint32_t run_frames() {
-        const std::uint32_t stages = domain_.stages().pool_stages();
-        gpu::ControlRec last{};
-        for (std::uint32_t first = 0; first < stages; first += plan_.stages) {
-            expect(job_->set_stages(first, std::min(plan_.stages, stages - first)));
-            last = run_chunk(first == 0);
-            workshop_.frame(0, [&](VkCommandBuffer commands) { record_last(commands); });
-        }
-        return last.accepted;
-    }
-
-    void run() { check_samples(run_frames()); }
-
-    gpu::ControlRec run_chunk(bool is_first) {
-        gpu::ControlRec last{};
-        for (std::uint32_t frame = 0; last.done == 0; ++frame) {
-            workshop_.frame(frame, [&](VkCommandBuffer commands) {
-                if (frame == 0 && is_first) {
-                    record_first(commands);
-                } else if (frame == 0) {
-                    sampler_.record_begin(commands, *job_);
-                }
-                if (last.overflow != 0) {
-                    record_regrown(commands, last.overflow);
-                }
-                record_rounds(commands, 3);
-            });
-            last = control();
-            if (last.abi != gpu::kAbi || frame == 10'000) {
-                throw std::runtime_error("the rounds lead nowhere");
+    /// Frames until the samples are there, as many as are returned. The host sees what the device
+    /// reports `lag` frames later, as with so many frames in flight.
+    std::uint32_t run_frames(std::size_t lag = 0) {
+        std::vector<gpu::ControlRec> reports(lag + 1);
+        for (std::uint32_t frame = 0; frame < 10'000; ++frame) {
+            const gpu::ControlRec seen = reports[frame];
+            const Advice advice = expect(job_->advance(seen));
+            if (advice.next == Next::complete) {
+                workshop_.frame(0, [&](VkCommandBuffer commands) {
+                    record_read(commands, BufferRole::samples, range(BufferRole::samples).size);
+                });
+                return seen.ready;
             }
+            workshop_.frame(frame, [&](VkCommandBuffer commands) {
+                if (frame == 0) {
+                    record_upload(commands);
+                }
+                record_next(commands, advice);
+                record_read(commands, BufferRole::control, sizeof(gpu::ControlRec));
+            });
+            reports.push_back(control());
         }
-        return last;
+        throw std::runtime_error("the rounds lead nowhere");
     }
 
+    void run(std::size_t lag = 0) { check_samples(run_frames(lag)); }
+
+    /// Whether a begin is recorded to its end.
+    bool is_begun() const { return Job::Impl::of(*job_).begun.is_at_start(); }
     Job& job() { return *job_; }
     const Domain& domain() const { return domain_; }
     const Workspace& workspace() const { return workspace_; }

@@ -9,7 +9,6 @@
 #include <geodisk/context.hpp>
 #include <geodisk/runner.hpp>
 
-#include "device_spy.hpp"
 #include "engine/stages.hpp"
 #include "fake_driver.hpp"
 #include "gpu/device_run.hpp"
@@ -17,6 +16,7 @@
 #include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
 #include "vk/result.hpp"
+#include "watched_bench.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -51,48 +51,6 @@ const std::vector<Fallible> kFallible = {
     {"vkEndCommandBuffer", {kNoHostMemory, kNoDeviceMemory}},
     {"vkQueueSubmit", {kNoHostMemory, kNoDeviceMemory}},
     {"vkResetFences", {kNoDeviceMemory}},
-};
-
-/// A context whose device is watched, and a small job with its answer.
-struct Bench {
-    Context context = expect(Context::create());
-    DeviceSpy spy{context.device().get_instance_proc_addr};
-    PreparedMesh mesh = prepared(builtin("icosphere", 2));
-    SampleParams params = params_for(mesh, 30);
-
-    /// Whether runners read through buffer views; they do wherever they can.
-    bool reads_texels() const { return reads_of(context.report()).back() == Reads::texels; }
-
-    Result<Runner> create(RunnerOptions options = {}) const {
-        options.sampler.tuning.reads = reads_of(context.report()).back();
-        DeviceRefs refs = context.device();
-        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
-        return Runner::create(refs, context.queue(), options);
-    }
-
-    void check_set(const Result<SampleSet>& set) {
-        REQUIRE_MESSAGE(set, (set ? "" : set.error().message));
-        if (wanted_.empty()) {
-            wanted_ = float_set(mesh, params, set->report.plan.error_bound);
-        }
-        CHECK(points_of(*set) == wanted_);
-    }
-
-    void check_run(Runner& runner) { check_set(runner.sample_and_wait(mesh, params)); }
-
-    Result<Done> prepare(const Runner& runner) const {
-        return runner.sampler().prepare(expect(Domain::surface(mesh, params)));
-    }
-
-    /// A runner that has compiled all that the job needs.
-    Runner prepared_runner(const RunnerOptions& options = {}) const {
-        Runner runner = expect(create(options));
-        expect(prepare(runner));
-        return runner;
-    }
-
-  private:
-    Points wanted_;
 };
 
 void check_error(const Error& error, const char* function, VkResult result) {

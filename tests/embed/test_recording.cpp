@@ -143,6 +143,28 @@ TEST_SUITE("recording") {
         check_silent(context);
     }
 
+    TEST_CASE("two frames in flight: what the device reports comes late") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 200);
+            Workshop workshop(context);
+            for (const std::size_t lag : {1u, 2u, 5u}) {
+                workshop.start_over();
+                EngineJob job(workshop, sampler, knot, 1);
+                RunPlan tight = job.plan();
+                tight.window_capacity = 2;
+                tight.table_capacity = 4;
+                tight.list_capacity = 4;
+                expect(job.job().set_plan(tight));
+                job.run(lag);
+                CHECK(job.job().plan().window_capacity > tight.window_capacity);
+                CHECK(workshop.damage() == 0);
+            }
+        }
+        check_silent(context);
+    }
+
     TEST_CASE("chunk by chunk, in a workspace for one of them") {
         const Context context = validated_context();
         {

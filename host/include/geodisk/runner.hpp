@@ -96,8 +96,13 @@ struct RunnerOptions {
     RunPlan plan;
     /// Measures the device time of each stage by timestamps, where the queue has them.
     bool time_stages = false;
-    /// A submission that takes longer counts as hung.
-    std::uint32_t stall_seconds = 120;
+    /// That a submission is to take, so that no watchdog bites and progress and cancellation stay
+    /// prompt: the first is tiny, and the others follow what those before took. 0 chooses 0.02, and
+    /// 0.1 on a CPU.
+    double submission_seconds = 0;
+    /// A submission that is waited for longer counts as hung; time in which the process is stopped
+    /// does not count. 0 chooses 120, and 600 on a CPU.
+    double stall_seconds = 0;
 };
 
 /// Called between submissions; return false to stop the run with `cancelled`.

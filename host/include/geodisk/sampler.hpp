@@ -10,19 +10,13 @@
 //   5. record_begin         draws the candidates of the first stages; whole, or some dispatches in
 //                           one command buffer and the rest in later ones
 //   6. record_rounds        a fixed number of rounds; those after the last cost empty dispatches.
-//                           Submit, read gpu::ControlRec from the control buffer, and record more
-//                           until `done`. With `overflow` set nothing is decided until the host has
-//                           acted: kOverflowSamples asks for larger buffers (set_samples), others
-//                           for a larger pool (grow_plan, set_plan); then record_rewind
+//                           Submit, copy gpu::ControlRec from the control buffer, and do what
+//                           Job::advance makes of it
 //   7. record_finish        at any time, and in parts as 5: gpu::SampleRec per accepted candidate,
 //   in
 //                           dart order.
 //                           ControlRec::ready of them are final: the first of all that will be
 //                           accepted
-//   8. set_stages           if the plan's stages are fewer than the job's: the next ones, and on
-//                           with 5 after a finish, until all were drawn or `accepted` has reached
-//                           the count to stop at
-//   9. widen_plan           tells whether the error bound held; if not, start over
 #pragma once
 
 #include <array>
@@ -199,6 +193,32 @@ struct SyncScope {
     VkAccessFlags access;
 };
 
+/// What comes next for a job.
+enum class Next : std::uint32_t {
+    begin,          ///< record_begin: the first stages, or more of them.
+    go_on,          ///< record_rounds; or the control record is older than what was recorded last.
+    finish,         ///< record_finish: all candidates of these stages are decided.
+    larger_pool,    ///< Job::set_plan with Advice::plan, then record_rewind.
+    larger_samples, ///< Job::set_samples with Advice::sample_capacity, then record_rewind.
+    start_over,     ///< A new job, of Advice::plan: the guard was made for shorter window chains.
+    complete,       ///< The samples are there, the first ControlRec::ready.
+};
+
+/// Name of it as spelled above.
+GEODISK_API const char* to_string(Next next) noexcept;
+
+/// What Job::advance says.
+struct Advice {
+    Next next = Next::go_on;
+    /// The job's, or the one to go on with. Its pool_bytes() tell how large the pool must be.
+    RunPlan plan;
+    std::uint32_t sample_capacity = 0; ///< The least that goes on, and half as many again.
+};
+
+namespace gpu {
+struct ControlRec;
+}
+
 class Job;
 
 /// The pipelines of a device, for jobs of all domains. Any number of threads may use one.
@@ -301,6 +321,16 @@ class GEODISK_API Job {
     ~Job();
 
     const RunPlan& plan() const noexcept;
+    /// Tells what comes next, by a copy of the control record that the host has read. Copies of
+    /// before the last record_begin or record_rewind say nothing, so that several frames may be in
+    /// flight; the same copy may be given twice. Sets the job to its next stages where Next::begin
+    /// comes after others. A larger pool is one of at most `pool_bytes`, or 0 for as much as the
+    /// workspace has.
+    ///
+    /// Errors: `internal` where the mesh defeats single precision, or the device its control
+    /// record; `workspace_too_small` as grow_plan(); `job_too_large` where no binding holds the
+    /// samples.
+    Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes = 0) noexcept;
     /// Replaces the plan, for rounds recorded from now on. Its slots must not be more than the job
     /// was made with, its stages and error_bound the same, and its pool must fit the workspace's.
     Result<Done> set_plan(const RunPlan& plan) noexcept;

@@ -46,6 +46,7 @@ GridDomain::GridDomain(BoxParams box, const DrawAxes& lattice, std::uint32_t wor
                        double crowd, double guard)
     : box_(std::move(box)), lattice_(lattice), words_per_point_(words_per_point), crowd_(crowd),
       guard_(guard) {
+    error = ErrorModel(guard);
     kernels.dimension = static_cast<std::uint32_t>(box_.extents.size());
     seed = box_.seed;
     bytes_per_candidate = (3 + words_per_point + 2 * kHeadsPerCandidate) * 4;

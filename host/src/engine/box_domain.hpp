@@ -23,7 +23,6 @@ class GridDomain : public Domain::Impl {
     std::size_t upload_size(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role,
                               std::span<std::byte> out) const override;
-    double error_of(std::uint32_t) const override { return guard_; }
     double guard_for(double error_bound) const override { return error_bound; }
 
   protected:

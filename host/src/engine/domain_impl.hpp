@@ -10,6 +10,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "engine/kernel_table.hpp"
+#include "engine/tolerances.hpp"
 #include "push.h"
 
 namespace geodisk {
@@ -22,6 +23,7 @@ struct Domain::Impl {
     double samples = 0;             ///< To reckon with: not more than are asked for, or thrown.
     std::uint32_t stop_count = 0;   ///< 0 for none.
     std::uint64_t seed = 0;
+    ErrorModel error; ///< Of distances.
     /// What candidates are drawn by: faces, or cells of a box.
     std::uint64_t units = 0;
     /// Of device memory, about.
@@ -65,8 +67,6 @@ struct Domain::Impl {
     virtual std::size_t upload_size(BufferRole role) const = 0;
     virtual Result<Done> write_upload(const RunPlan& plan, BufferRole role,
                                       std::span<std::byte> out) const = 0;
-    /// Of distances, by window chains of so many crossings.
-    virtual double error_of(std::uint32_t chain) const = 0;
     virtual double guard_for(double error_bound) const = 0;
     virtual void coordinates(const gpu::SampleRec&, std::span<double>) const {}
 };

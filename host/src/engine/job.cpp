@@ -267,6 +267,9 @@ Result<Done> Job::set_stages(std::uint32_t first, std::uint32_t count) noexcept 
 
 void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
     begun = finished = {};
+    is_begin_due = true;
+    thrown = first == 0 ? 0 : thrown;
+    cut_darts = 0;
     push.first_stage = first;
     push.stages = count;
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
@@ -331,10 +334,12 @@ Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
         job->domain = variant.domain;
         job->workspace = workspace;
         job->most_slots = plan.slots;
+        job->most_lanes = plan.lanes;
         job->most_steps = of.most_steps(impl_->report, variant);
         job->has_lane_per_slot = of.has_lane_per_slot;
         job->stages = of.stages;
         job->samples_per_measure = of.samples_per_measure;
+        job->error = of.error;
         gpu::Push& push = job->push;
         push.capacity = capacity_for(of.stages, plan.stages);
         push.buckets = bucket_count(push.capacity);

@@ -25,7 +25,7 @@ constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
 constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMostLevels;
 // Some milliseconds for each dispatch.
-constexpr std::uint32_t kCpuDispatchItems = 1u << 17;
+constexpr std::uint32_t kCpuDispatchItems = 1u << 19;
 constexpr std::uint32_t kDispatchItems = 1u << 21;
 // Of candidates: deviations from what a stage expects that there is room for.
 constexpr double kDeviations = 8;
@@ -255,34 +255,40 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
     });
 }
 
+Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
+                           const DeviceReport& report) {
+    RunPlan grown = plan;
+    const auto grow = [overflow](std::uint32_t bit, std::uint32_t& capacity) {
+        capacity = (overflow & bit) != 0 ? std::min(2 * capacity, kLargestCapacity) : capacity;
+    };
+    grow(gpu::kOverflowWindows, grown.window_capacity);
+    grow(gpu::kOverflowVertices, grown.table_capacity);
+    grow(gpu::kOverflowConflicts, grown.list_capacity);
+    pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
+    fit(grown, pool_bytes);
+    const bool same =
+        grown.lane_rows() == plan.lane_rows() && grown.list_capacity == plan.list_capacity;
+    if (grown.lanes == 0 || same) {
+        return slice_error(grown, pool_bytes);
+    }
+    return grown;
+}
+
 Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
                                    std::uint64_t pool_bytes) const noexcept {
-    return guarded([&]() -> Result<RunPlan> {
-        RunPlan grown = plan;
-        const auto grow = [overflow](std::uint32_t bit, std::uint32_t& capacity) {
-            capacity = (overflow & bit) != 0 ? std::min(2 * capacity, kLargestCapacity) : capacity;
-        };
-        grow(gpu::kOverflowWindows, grown.window_capacity);
-        grow(gpu::kOverflowVertices, grown.table_capacity);
-        grow(gpu::kOverflowConflicts, grown.list_capacity);
-        pool_bytes = std::min(pool_bytes, impl_->report.limits.max_storage_buffer_range);
-        fit(grown, pool_bytes);
-        const bool same =
-            grown.lane_rows() == plan.lane_rows() && grown.list_capacity == plan.list_capacity;
-        if (grown.lanes == 0 || same) {
-            return slice_error(grown, pool_bytes);
-        }
-        return grown;
-    });
+    return guarded([&] { return grown_plan(plan, overflow, pool_bytes, impl_->report); });
+}
+
+RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain) {
+    if (error.error_of(longest_chain) > plan.error_bound) {
+        plan.error_bound = error.error_of(2 * longest_chain);
+    }
+    return plan;
 }
 
 RunPlan Sampler::widen_plan(const Domain& domain, RunPlan plan,
                             std::uint32_t longest_chain) const noexcept {
-    const Domain::Impl& of = Domain::Impl::of(domain);
-    if (of.error_of(longest_chain) > plan.error_bound) {
-        plan.error_bound = of.error_of(2 * longest_chain);
-    }
-    return plan;
+    return widened(plan, Domain::Impl::of(domain).error, longest_chain);
 }
 
 Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain,

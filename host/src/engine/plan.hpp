@@ -5,10 +5,19 @@
 
 #include <geodisk/sampler.hpp>
 
+#include "engine/tolerances.hpp"
+
 namespace geodisk {
 
 /// `plan` with each field of `wanted` that is not zero in place of its own.
 GEODISK_API RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept;
+
+/// As Sampler::grow_plan.
+Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
+                           const DeviceReport& report);
+
+/// As Sampler::widen_plan.
+RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain);
 
 /// As many slots as the tuning's batches ask for with this many disks, and enough to fill the
 /// device.

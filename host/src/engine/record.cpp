@@ -7,7 +7,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "constants.h"
-#include "engine/sampler_impl.hpp"
+#include "engine/record.hpp"
 #include "engine/stage_clock.hpp"
 #include "records.h"
 #include "vk/barriers.hpp"
@@ -15,8 +15,8 @@
 namespace geodisk {
 namespace {
 
-// Of memory that one command clears.
-constexpr VkDeviceSize kFillBytes = VkDeviceSize{32} << 20;
+// Of memory that is cleared, to an item.
+constexpr VkDeviceSize kClearBytes = 64;
 // Vulkan promises no more work groups.
 constexpr std::uint32_t kMostGroups = 65535;
 
@@ -24,12 +24,11 @@ constexpr std::uint32_t kMostGroups = 65535;
 /// anywhere: a cursor tells where the next recording goes on.
 class Recorder {
   public:
-    Recorder(VkCommandBuffer commands, Job::Impl& job)
-        : Recorder(commands, job, whole_, kAllDispatches) {}
-    /// At most so many dispatches, from the cursor on.
-    Recorder(VkCommandBuffer commands, Job::Impl& job, Cursor& cursor, std::uint32_t dispatches)
-        : commands_(commands), sampler_(*job.sampler), job_(job), cursor_(cursor),
-          left_(dispatches) {}
+    Recorder(VkCommandBuffer commands, Job::Impl& job) : Recorder(commands, job, whole_, all_) {}
+    /// From the cursor on, as much as the budget allows.
+    Recorder(VkCommandBuffer commands, Job::Impl& job, Cursor& cursor, Budget& budget)
+        : commands_(commands), sampler_(*job.sampler), job_(job), cursor_(cursor), budget_(budget) {
+    }
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
     ~Recorder() { mark(); }
@@ -37,14 +36,12 @@ class Recorder {
     /// A pass over `count` items, `per_group` to a work group. Dispatches of it are bounded.
     void pass(Kernel kernel, std::uint64_t count, std::uint32_t per_group, const gpu::Push& push,
               SetRole role = SetRole::workspace) {
-        const std::uint64_t groups = (count + per_group - 1) / per_group;
-        const std::uint64_t most =
-            std::clamp(job_.plan.dispatch_items / per_group, 1u, kMostGroups);
-        in_parts(groups, most, [&](std::uint64_t first, std::uint64_t part) {
+        in_parts(count, per_group, [&](std::uint64_t first, std::uint64_t part) {
             gpu::Push own = push;
-            own.first_group = static_cast<std::uint32_t>(first);
+            own.first_group = static_cast<std::uint32_t>(first / per_group);
             bind(kernel, own, role);
-            sampler_.vk.vkCmdDispatch(commands_, static_cast<std::uint32_t>(part), 1, 1);
+            sampler_.vk.vkCmdDispatch(
+                commands_, static_cast<std::uint32_t>((part + per_group - 1) / per_group), 1, 1);
             barrier_compute_to_compute(sampler_.vk, commands_);
         });
     }
@@ -87,10 +84,13 @@ class Recorder {
 
     void clear(BufferRole role, VkDeviceSize size) {
         const BufferRange& target = range(role);
-        in_parts(size, kFillBytes, [&](std::uint64_t first, std::uint64_t part) {
+        const std::uint64_t items = (size + kClearBytes - 1) / kClearBytes;
+        in_parts(items, 1, [&](std::uint64_t first, std::uint64_t part) {
+            const VkDeviceSize begin = first * kClearBytes;
+            const VkDeviceSize end = std::min((first + part) * kClearBytes, size);
             transfer([&] {
-                sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset + first, part,
-                                            0);
+                sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset + begin,
+                                            end - begin, 0);
             });
         });
     }
@@ -133,20 +133,24 @@ class Recorder {
     }
 
   private:
-    /// Calls record(first, count) for parts of `count`, as many as are left.
+    /// Calls record(first, count) for parts of `count` items, of whole work groups but the last.
     template <class Record>
-    void in_parts(std::uint64_t count, std::uint64_t most, const Record& record) {
+    void in_parts(std::uint64_t count, std::uint64_t per_group, const Record& record) {
         if (step_++ != cursor_.step) {
             return; // Recorded before, or to come.
         }
         while (cursor_.done < count) {
-            if (left_ == 0) {
+            if (budget_.is_spent()) {
                 return;
             }
-            const std::uint64_t part = std::min(count - cursor_.done, most);
+            const std::uint64_t groups = std::clamp<std::uint64_t>(
+                std::min<std::uint64_t>(job_.plan.dispatch_items, budget_.items) / per_group, 1,
+                kMostGroups);
+            const std::uint64_t part = std::min(count - cursor_.done, groups * per_group);
             record(cursor_.done, part);
             cursor_.done += part;
-            --left_;
+            --budget_.dispatches;
+            budget_.items -= std::min(budget_.items, part);
             ++job_.dispatches;
             has_unmarked_ = true;
         }
@@ -194,8 +198,9 @@ class Recorder {
     const Sampler::Impl& sampler_;
     Job::Impl& job_;
     Cursor whole_;
+    Budget all_;
     Cursor& cursor_;
-    std::uint32_t left_;
+    Budget& budget_;
     std::uint32_t step_ = 0; ///< Of the sequence, whether recorded or not.
     std::optional<Stage> stage_;
     bool has_unmarked_ = false;
@@ -204,11 +209,14 @@ class Recorder {
     gpu::Push bound_push_{};
 };
 
-bool begin(VkCommandBuffer commands, Job::Impl& job, std::uint32_t dispatches) {
-    if (job.begun.is_at_start() && dispatches > 0) {
+} // namespace
+
+bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
+    if (job.begun.is_at_start() && !budget.is_spent()) {
         ++job.generation;
+        job.is_begin_due = false;
     }
-    Recorder recorder(commands, job, job.begun, dispatches);
+    Recorder recorder(commands, job, job.begun, budget);
     const gpu::Push& push = job.push;
     const DomainKernels own = kernels_of(job.domain);
     const bool has_cells = push.all_single == 0;
@@ -239,8 +247,8 @@ bool begin(VkCommandBuffer commands, Job::Impl& job, std::uint32_t dispatches) {
     return recorder.is_complete();
 }
 
-bool finish(VkCommandBuffer commands, Job::Impl& job, std::uint32_t dispatches) {
-    Recorder recorder(commands, job, job.finished, dispatches);
+bool record_finish(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
+    Recorder recorder(commands, job, job.finished, budget);
     const gpu::Push& push = job.push;
     recorder.stage(Stage::gather);
     recorder.change_control(
@@ -256,13 +264,16 @@ bool finish(VkCommandBuffer commands, Job::Impl& job, std::uint32_t dispatches) 
     return recorder.is_complete();
 }
 
+namespace {
+
 /// What is left of a begin or a finish: nothing else may come between.
-void complete(VkCommandBuffer commands, Job::Impl& job) {
+void record_rest(VkCommandBuffer commands, Job::Impl& job) {
+    Budget all;
     if (!job.begun.is_at_start()) {
-        begin(commands, job, kAllDispatches);
+        record_begin(commands, job, all);
     }
     if (!job.finished.is_at_start()) {
-        finish(commands, job, kAllDispatches);
+        record_finish(commands, job, all);
     }
 }
 
@@ -271,14 +282,15 @@ void complete(VkCommandBuffer commands, Job::Impl& job) {
 bool Sampler::record_begin(VkCommandBuffer commands, Job& job,
                            std::uint32_t dispatches) const noexcept {
     if (!job.impl_->finished.is_at_start()) {
-        complete(commands, *job.impl_);
+        record_rest(commands, *job.impl_);
     }
-    return begin(commands, *job.impl_, dispatches);
+    Budget budget{dispatches};
+    return geodisk::record_begin(commands, *job.impl_, budget);
 }
 
 void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
                             std::uint32_t rounds) const noexcept {
-    complete(commands, *job.impl_);
+    record_rest(commands, *job.impl_);
     Recorder recorder(commands, *job.impl_);
     const DomainKernels own = kernels_of(job.impl_->domain);
     for (std::uint32_t round = 0; round < rounds; ++round) {
@@ -297,7 +309,7 @@ void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
 }
 
 void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
-    complete(commands, *job.impl_);
+    record_rest(commands, *job.impl_);
     ++job.impl_->generation;
     // The batch was selected with the slots of an earlier plan, never fewer than now.
     Recorder recorder(commands, *job.impl_);
@@ -314,9 +326,10 @@ void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
 bool Sampler::record_finish(VkCommandBuffer commands, Job& job,
                             std::uint32_t dispatches) const noexcept {
     if (!job.impl_->begun.is_at_start()) {
-        complete(commands, *job.impl_);
+        record_rest(commands, *job.impl_);
     }
-    return finish(commands, *job.impl_, dispatches);
+    Budget budget{dispatches};
+    return geodisk::record_finish(commands, *job.impl_, budget);
 }
 
 void Job::Impl::record_restart(VkCommandBuffer commands) {

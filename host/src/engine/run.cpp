@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,7 +11,9 @@
 
 #include "constants.h"
 #include "engine/domain_impl.hpp"
+#include "engine/pace.hpp"
 #include "engine/plan.hpp"
+#include "engine/record.hpp"
 #include "engine/run_memory.hpp"
 
 namespace geodisk {
@@ -22,11 +25,10 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Submissions start small and grow towards this time, so that no watchdog bites and progress and
-// cancellation stay prompt.
-constexpr double kTargetSeconds = 0.1;
-constexpr std::uint32_t kMostRounds = 256;
+constexpr std::uint64_t kMostRounds = 256;
 constexpr std::uint32_t kMostPasses = 64;
+// Submissions that may leave no trace, before the device counts as stuck.
+constexpr std::uint32_t kMostIdle = 8;
 // Counts of candidates before an order until that of a number of darts is found.
 constexpr std::uint32_t kMostGuesses = 64;
 
@@ -38,7 +40,8 @@ constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
 class Run {
   public:
     Run(Runner::Impl& runner, const Domain& domain)
-        : runner_(runner), domain_(domain), of_(Domain::Impl::of(domain)), memory_(runner) {}
+        : runner_(runner), domain_(domain), of_(Domain::Impl::of(domain)), memory_(runner),
+          passes_(runner.submission_seconds()), rounds_(runner.submission_seconds()) {}
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
     ~Run() {
@@ -47,26 +50,32 @@ class Run {
         }
     }
 
-    Result<SampleSet> go(const ProgressCallback& progress, const RunPlan& plan);
+    /// The samples, or none where the run is to start over with the plan as it is then.
+    Result<std::optional<SampleSet>> go(const ProgressCallback& progress, RunPlan& plan);
 
   private:
     Result<Done> prepare(const RunPlan& plan);
     Result<Done> upload();
-    Result<Done> sample(const ProgressCallback& progress);
+    Result<Advice> sample(const ProgressCallback& progress);
+    Result<Done> follow(const Advice& advice);
     Result<Done> begin_chunk();
     Result<Done> cut_darts();
-    Result<Done> decide_chunk(const ProgressCallback& progress);
+    Result<Done> run_rounds(bool rewind);
+    Result<Done> check_progress(const gpu::ControlRec& before);
     Result<Done> gather_chunk();
-    std::uint32_t stages_left() const;
     bool has_all() const { return of_.stop_count != 0 && control_.accepted >= of_.stop_count; }
+    Job::Impl& job() { return Job::Impl::of(*job_); }
+    const Job::Impl& job() const { return Job::Impl::of(*job_); }
+    Result<Done> shorten(std::uint64_t items);
+    std::uint32_t record_rounds(VkCommandBuffer commands);
     Progress how_far() const;
-    Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
-    Result<Done> run_rounds(std::uint32_t rounds, bool rewind);
+    Result<double> submit(const std::function<void(VkCommandBuffer)>& record);
+    using Passes = bool (*)(VkCommandBuffer, Job::Impl&, Budget&);
+    Result<Done> run_passes(Passes record,
+                            const std::function<void(VkCommandBuffer, Budget&)>& in_one = {});
     Result<std::uint32_t> count_before(std::uint32_t order);
-    Result<Done> act_on_overflow();
-    Result<Done> grow();
-    Result<Done> detect_longer();
-    Result<Done> enlarge_samples();
+    Result<Done> grow(const RunPlan& grown);
+    Result<Done> enlarge_samples(std::uint32_t capacity);
     Result<std::vector<gpu::SampleRec>> read_samples();
     SampleSet to_set(const std::vector<gpu::SampleRec>& records) const;
 
@@ -75,11 +84,9 @@ class Run {
     const Domain::Impl& of_;
     RunMemory memory_;
     std::optional<Job> job_;
-    std::uint32_t slots_ = 0; ///< Of the first plan.
-    std::uint32_t lanes_ = 0;
-    std::uint32_t next_stage_ = 0;  ///< The first behind those of this chunk.
-    std::uint64_t thrown_ = 0;      ///< Candidates of the chunks before this one.
-    std::uint64_t chunk_darts_ = 0; ///< Candidates of this chunk that take part.
+    RunPlan wanted_; ///< But for dispatches that have to be shorter.
+    Pace passes_, rounds_;
+    std::uint32_t idle_ = 0; ///< Submissions of late that left no trace.
     gpu::ControlRec control_{};
     RunReport report_;
 };
@@ -97,17 +104,16 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     if (auto allocated = memory_.allocate(*needs); !allocated) {
         return allocated;
     }
-    auto job = runner_.sampler.make_job(domain_, plan, memory_.workspace());
-    if (!job) {
-        return job.error();
+    auto made = runner_.sampler.make_job(domain_, plan, memory_.workspace());
+    if (!made) {
+        return made.error();
     }
-    job_.emplace(std::move(*job));
+    job_.emplace(std::move(*made));
     if (runner_.clock) {
-        Job::Impl::of(*job_).clock = &*runner_.clock;
+        job().clock = &*runner_.clock;
         runner_.clock->reset();
     }
-    slots_ = plan.slots;
-    lanes_ = plan.lanes;
+    wanted_ = plan;
     report_.guard = of_.guard_for(plan.error_bound);
     return Done{};
 }
@@ -130,148 +136,150 @@ Result<Done> Run::upload() {
     return Done{};
 }
 
-/// Records, and reads the control record afterwards.
-Result<Done> Run::submit(const std::function<void(VkCommandBuffer)>& record) {
+/// Records, and reads the control record afterwards; the seconds it took.
+Result<double> Run::submit(const std::function<void(VkCommandBuffer)>& record) {
+    const double start = runner_.now();
     auto done = runner_.run_timed([&](VkCommandBuffer commands) {
         record(commands);
         memory_.record_control(commands);
     });
     if (!done) {
-        return done;
+        return done.error();
     }
     control_ = memory_.control();
-    if (control_.abi != gpu::kAbi) {
+    if (control_.abi != gpu::kAbi && job().begun.is_at_start()) {
         return Error{Status::internal, "the device did not write its control record"};
+    }
+    return runner_.now() - start;
+}
+
+/// Submits passes in as many parts as the time asks for; where one will do, with what `in_one`
+/// records.
+Result<Done> Run::run_passes(Passes record,
+                             const std::function<void(VkCommandBuffer, Budget&)>& in_one) {
+    bool is_last = false;
+    for (std::uint32_t part = 0; !is_last; ++part) {
+        if (auto short_enough = shorten(passes_.items()); !short_enough) {
+            return short_enough;
+        }
+        Budget budget{kAllDispatches, passes_.items()};
+        const auto seconds = submit([&](VkCommandBuffer commands) {
+            is_last = record(commands, job(), budget);
+            if (is_last && part == 0 && in_one) {
+                in_one(commands, budget);
+            }
+        });
+        if (!seconds) {
+            return seconds.error();
+        }
+        passes_.took(*seconds, passes_.items() - budget.items);
     }
     return Done{};
 }
 
-Result<Done> Run::run_rounds(std::uint32_t rounds, bool rewind) {
-    return submit([&](VkCommandBuffer commands) {
-        if (rewind) {
-            runner_.sampler.record_rewind(commands, *job_);
-        }
-        runner_.sampler.record_rounds(commands, *job_, rounds);
-    });
-}
-
 /// Candidates of the chunk that are of lower order.
 Result<std::uint32_t> Run::count_before(std::uint32_t order) {
-    auto counted = submit(
-        [&](VkCommandBuffer commands) { Job::Impl::of(*job_).record_count(commands, order); });
+    auto counted = submit([&](VkCommandBuffer commands) { job().record_count(commands, order); });
     if (!counted) {
         return counted.error();
     }
     return control_.below;
 }
 
-Result<Done> Run::grow() {
-    if ((control_.overflow & gpu::kOverflowChain) != 0) {
-        return Error{Status::internal, "a window crossed more than " +
-                                           std::to_string(gpu::kLongestChain) +
-                                           " edges; the mesh defeats single precision"};
-    }
-    // As many slots as the job was made with, if the pool may be as large as that takes.
-    RunPlan before = job_->plan();
-    before.slots = slots_;
-    before.lanes = lanes_;
-    const auto grown =
-        runner_.sampler.grow_plan(before, control_.overflow, runner_.options.pool_bytes);
-    if (!grown) {
-        return grown.error();
-    }
+Result<Done> Run::grow(const RunPlan& grown) {
     ++report_.regrown;
-    if (auto enlarged = memory_.enlarge_pool(grown->pool_bytes()); !enlarged) {
+    if (auto enlarged = memory_.enlarge_pool(grown.pool_bytes()); !enlarged) {
         return enlarged;
     }
-    return job_->set_plan(*grown, memory_.range(BufferRole::pool));
+    const RunPlan before = std::exchange(wanted_, grown);
+    wanted_.dispatch_items = before.dispatch_items;
+    wanted_.step_budget = before.step_budget;
+    wanted_.detect_passes = before.detect_passes;
+    return job_->set_plan(wanted_, memory_.range(BufferRole::pool));
 }
 
-/// Batches take more than a round: fewer of the other dispatches go idle when a round detects
-/// longer.
-Result<Done> Run::detect_longer() {
-    RunPlan plan = job_->plan();
-    plan.detect_passes = std::min(2 * plan.detect_passes, kMostPasses);
-    return job_->set_plan(plan);
-}
-
-/// Room for half as many samples again, and a batch.
-Result<Done> Run::enlarge_samples() {
-    const DeviceLimits& limits = runner_.sampler.report().limits;
-    const std::uint64_t most = limits.max_storage_buffer_range / sizeof(gpu::SampleRec);
-    const std::uint64_t least = std::uint64_t{control_.accepted} + job_->plan().slots + 1;
-    const std::uint64_t capacity = std::min(least + control_.accepted / 2, std::max(most, least));
-    if (capacity > most) {
-        return Error{Status::job_too_large,
-                     "the " + std::to_string(control_.accepted) + " samples so far take " +
-                         std::to_string(capacity * sizeof(gpu::SampleRec)) + " bytes, but " +
-                         runner_.sampler.report().name + " binds at most " +
-                         std::to_string(limits.max_storage_buffer_range) +
-                         "; raise the minimum distance"};
-    }
-    const auto room = static_cast<std::uint32_t>(capacity);
-    if (auto enlarged = memory_.enlarge_samples(job_->sample_bytes(room), control_.accepted);
+Result<Done> Run::enlarge_samples(std::uint32_t capacity) {
+    if (auto enlarged = memory_.enlarge_samples(job_->sample_bytes(capacity), control_.accepted);
         !enlarged) {
         return enlarged;
     }
-    return job_->set_samples(room, memory_.range(BufferRole::samples),
+    wanted_.sample_capacity = capacity;
+    return job_->set_samples(capacity, memory_.range(BufferRole::samples),
                              memory_.range(BufferRole::accepted),
                              memory_.range(BufferRole::buckets));
 }
 
-/// Stages to draw next.
-std::uint32_t Run::stages_left() const {
-    const Stages& stages = of_.stages;
-    if (has_all()) {
-        return 0;
+/// Until the samples are there, or the run has to start over.
+Result<Advice> Run::sample(const ProgressCallback& progress) {
+    for (;;) {
+        auto advice = job_->advance(control_, runner_.options.pool_bytes);
+        if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
+            return advice;
+        }
+        if (auto done = follow(*advice); !done) {
+            return done.error();
+        }
+        if (progress && !progress(how_far())) {
+            return Error{Status::cancelled, "cancelled"};
+        }
     }
-    if (stages.throws != 0) {
-        return thrown_ < stages.throws ? 1 : 0;
-    }
-    return std::min(stages.pool_stages() - next_stage_, job_->plan().stages);
 }
 
-Result<Done> Run::sample(const ProgressCallback& progress) {
-    for (std::uint32_t count = stages_left(); count > 0; count = stages_left()) {
-        if (auto chunk = job_->set_stages(next_stage_, count); !chunk) {
-            return chunk;
+Result<Done> Run::follow(const Advice& advice) {
+    switch (advice.next) {
+    case Next::begin:
+        return begin_chunk();
+    case Next::finish:
+        return gather_chunk();
+    case Next::larger_pool:
+        if (auto grown = grow(advice.plan); !grown) {
+            return grown;
         }
-        next_stage_ += count;
-        if (auto begun = begin_chunk(); !begun) {
-            return begun;
+        return run_rounds(true);
+    case Next::larger_samples:
+        if (auto enlarged = enlarge_samples(advice.sample_capacity); !enlarged) {
+            return enlarged;
         }
-        if (auto decided = decide_chunk(progress); !decided) {
-            return decided;
-        }
-        if (auto gathered = gather_chunk(); !gathered) {
-            return gathered;
-        }
-        thrown_ += chunk_darts_;
-        ++report_.chunks;
+        return run_rounds(true);
+    default:
+        return run_rounds(false);
     }
-    return Done{};
 }
 
+/// Dispatches within the time there is.
+Result<Done> Run::shorten(std::uint64_t items) {
+    return job_->set_plan(shortened(wanted_, runner_.options.plan, items));
+}
+
+std::uint32_t Run::record_rounds(VkCommandBuffer commands) {
+    const std::uint64_t rounds = rounds_.items() / items_of_round(job_->plan());
+    const auto count =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rounds, 1, kMostRounds));
+    runner_.sampler.record_rounds(commands, *job_, count);
+    return count;
+}
+
+/// Draws the candidates, and goes on in the same submission if they are few.
 Result<Done> Run::begin_chunk() {
-    auto begun =
-        submit([&](VkCommandBuffer commands) { runner_.sampler.record_begin(commands, *job_); });
+    ++report_.chunks;
+    auto begun = run_passes(record_begin, [&](VkCommandBuffer commands, Budget& budget) {
+        if (of_.stages.throws == 0 && budget.items >= job_->plan().sample_capacity) {
+            record_rounds(commands);
+            record_finish(commands, job(), budget);
+        }
+    });
     if (!begun) {
         return begun;
     }
-    if ((control_.overflow & gpu::kOverflowCandidates) != 0) {
-        return Error{Status::internal, "a stage has " + std::to_string(control_.drawn) +
-                                           " candidates, and there is room for " +
-                                           std::to_string(Job::Impl::of(*job_).push.capacity)};
-    }
-    chunk_darts_ = control_.drawn;
     const std::uint32_t throws = of_.stages.throws;
-    return throws != 0 && thrown_ + control_.drawn > throws ? cut_darts() : Result<Done>(Done{});
+    return throws != 0 && job().thrown + control_.drawn > throws ? cut_darts()
+                                                                 : Result<Done>(Done{});
 }
 
 /// Finds the order below which there are just as many darts as are to be thrown.
 Result<Done> Run::cut_darts() {
-    const auto wanted = static_cast<std::uint32_t>(of_.stages.throws - thrown_);
-    std::uint64_t low = 0, high = Job::Impl::of(*job_).push.end_order;
+    const auto wanted = static_cast<std::uint32_t>(of_.stages.throws - job().thrown);
+    std::uint64_t low = 0, high = job().push.end_order;
     std::uint64_t low_count = 0, high_count = control_.drawn;
     for (std::uint32_t guess = 0; high_count != wanted && low_count != wanted; ++guess) {
         // Orders are spread evenly, so a few guesses by proportion do; halves where they do not.
@@ -292,56 +300,59 @@ Result<Done> Run::cut_darts() {
         }
     }
     const bool at_low = low_count == wanted;
-    chunk_darts_ = at_low ? low_count : high_count;
-    Job::Impl::of(*job_).push.end_order = static_cast<std::uint32_t>(at_low ? low : high);
-    return submit([&](VkCommandBuffer commands) { Job::Impl::of(*job_).record_restart(commands); });
+    job().cut_darts = at_low ? low_count : high_count;
+    job().push.end_order = static_cast<std::uint32_t>(at_low ? low : high);
+    const auto restarted =
+        submit([&](VkCommandBuffer commands) { job().record_restart(commands); });
+    return restarted ? Result<Done>(Done{}) : restarted.error();
 }
 
-Result<Done> Run::decide_chunk(const ProgressCallback& progress) {
-    std::uint32_t rounds = 1;
-    while (control_.done == 0) {
-        const bool rewind = control_.overflow != 0;
+Result<Done> Run::run_rounds(bool rewind) {
+    if (auto short_enough = shorten(rounds_.items()); !short_enough) {
+        return short_enough;
+    }
+    const gpu::ControlRec before = control_;
+    std::uint32_t rounds = 0;
+    const auto seconds = submit([&](VkCommandBuffer commands) {
         if (rewind) {
-            if (auto acted = act_on_overflow(); !acted) {
-                return acted;
-            }
+            runner_.sampler.record_rewind(commands, *job_);
         }
-        const auto start = Clock::now();
-        const std::uint32_t batches = control_.iterations;
-        if (auto done = run_rounds(rounds, rewind); !done) {
-            return done;
-        }
-        if (control_.incomplete > 0 && rounds >= 2 * (control_.iterations - batches)) {
-            if (auto more = detect_longer(); !more) {
-                return more;
-            }
-        }
-        const double took = seconds_since(start);
-        rounds = took < kTargetSeconds / 2   ? std::min(2 * rounds, kMostRounds)
-                 : took > 2 * kTargetSeconds ? std::max(rounds / 2, 1u)
-                                             : rounds;
-        if (progress && !progress(how_far())) {
-            return Error{Status::cancelled, "cancelled"};
-        }
+        rounds = record_rounds(commands);
+    });
+    if (!seconds) {
+        return seconds.error();
+    }
+    rounds_.took(*seconds, rounds * items_of_round(job_->plan()), control_.steps - before.steps);
+    // Batches that take more than a round: fewer of the other dispatches go idle when a round
+    // detects longer.
+    const bool is_slow = rounds >= 2 * (control_.iterations - before.iterations);
+    if (control_.incomplete > 0 && is_slow && runner_.options.plan.detect_passes == 0) {
+        wanted_.detect_passes = std::min(2 * wanted_.detect_passes, kMostPasses);
+    }
+    return check_progress(before);
+}
+
+Result<Done> Run::check_progress(const gpu::ControlRec& before) {
+    idle_ = std::memcmp(&before, &control_, sizeof before) == 0 ? idle_ + 1 : 0;
+    if (idle_ == kMostIdle) {
+        return Error{Status::internal,
+                     "the device makes no progress: " + std::to_string(kMostIdle) +
+                         " submissions have changed nothing"};
     }
     return Done{};
 }
 
 Progress Run::how_far() const {
-    const double in_chunk = static_cast<double>(control_.first_order) /
-                            Job::Impl::of(*job_).push.end_order * static_cast<double>(chunk_darts_);
+    const double in_chunk = static_cast<double>(control_.first_order) / job().push.end_order *
+                            static_cast<double>(job().darts(control_));
     const double all = of_.stages.candidates();
-    return {static_cast<std::uint32_t>(std::min(static_cast<double>(thrown_) + in_chunk, all)),
+    const auto before = static_cast<double>(job().thrown);
+    return {static_cast<std::uint32_t>(std::min(before + in_chunk, all)),
             static_cast<std::uint32_t>(all), control_.accepted};
 }
 
-Result<Done> Run::act_on_overflow() {
-    return (control_.overflow & gpu::kOverflowSamples) != 0 ? enlarge_samples() : grow();
-}
-
 Result<Done> Run::gather_chunk() {
-    return submit(
-        [&](VkCommandBuffer commands) { runner_.sampler.record_finish(commands, *job_); });
+    return run_passes(record_finish);
 }
 
 Result<std::vector<gpu::SampleRec>> Run::read_samples() {
@@ -353,7 +364,7 @@ Result<std::vector<gpu::SampleRec>> Run::read_samples() {
     return samples;
 }
 
-Result<SampleSet> Run::go(const ProgressCallback& progress, const RunPlan& plan) {
+Result<std::optional<SampleSet>> Run::go(const ProgressCallback& progress, RunPlan& plan) {
     auto start = Clock::now();
     if (auto done = runner_.sampler.prepare(domain_); !done) {
         return done.error();
@@ -368,8 +379,13 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, const RunPlan& plan)
     }
     report_.seconds.upload = seconds_since(start);
     start = Clock::now();
-    if (auto done = sample(progress); !done) {
-        return done.error();
+    const auto advice = sample(progress);
+    if (!advice) {
+        return advice.error();
+    }
+    if (advice->next == Next::start_over) {
+        plan.error_bound = advice->plan.error_bound;
+        return std::optional<SampleSet>();
     }
     report_.seconds.sample = seconds_since(start);
     start = Clock::now();
@@ -378,18 +394,18 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, const RunPlan& plan)
         return samples.error();
     }
     report_.seconds.readback = seconds_since(start);
+    std::uint64_t darts = job().darts(control_);
     if (has_all()) {
-        thrown_ -= chunk_darts_;
         // Those up to the last sample.
-        const auto darts = count_before(samples->back().order + 1);
-        if (!darts) {
-            return darts.error();
+        const auto counted = count_before(samples->back().order + 1);
+        if (!counted) {
+            return counted.error();
         }
-        thrown_ += *darts;
+        darts = *counted;
     }
-    report_.candidates = static_cast<std::uint32_t>(thrown_);
+    report_.candidates = static_cast<std::uint32_t>(job().thrown + darts);
     report_.iterations = control_.iterations;
-    report_.dispatches = static_cast<std::uint32_t>(Job::Impl::of(*job_).dispatches);
+    report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
     report_.disks = control_.disks;
     report_.windows = wide(control_.windows_low, control_.windows_high);
     report_.tested = wide(control_.tested_low, control_.tested_high);
@@ -403,11 +419,11 @@ Result<SampleSet> Run::go(const ProgressCallback& progress, const RunPlan& plan)
               report_.calls.candidates.begin());
     report_.calls.calls = wide(control_.calls_low, control_.calls_high);
     report_.device_bytes = memory_.bytes();
-    report_.plan = job_->plan();
+    report_.plan = wanted_;
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }
-    return to_set(*samples);
+    return std::optional(to_set(*samples));
 }
 
 SampleSet Run::to_set(const std::vector<gpu::SampleRec>& records) const {
@@ -452,13 +468,11 @@ Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
         Run run(runner, domain);
         auto set = run.go(progress, *plan);
         if (!set) {
-            return set;
+            return set.error();
         }
-        const RunPlan wider = runner.sampler.widen_plan(domain, *plan, set->report.longest_chain);
-        if (wider.error_bound == plan->error_bound) {
-            return set;
+        if (*set) {
+            return std::move(**set);
         }
-        *plan = wider; // Start over.
     }
     return plan.error();
 }

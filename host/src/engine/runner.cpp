@@ -13,6 +13,12 @@
 namespace geodisk {
 namespace {
 
+// That a submission is to take, and that it may.
+constexpr double kSubmissionSeconds = 0.02;
+constexpr double kCpuSubmissionSeconds = 0.1;
+constexpr double kStallSeconds = 120;
+constexpr double kCpuStallSeconds = 600;
+
 Result<VkQueueFamilyProperties>
 check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const QueueRef& queue) {
     if (queue.queue == VK_NULL_HANDLE) {
@@ -35,6 +41,24 @@ check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const Que
 }
 
 } // namespace
+
+Runner::Impl::Impl(Sampler s)
+    : sampler(std::move(s)), now([] {
+          const auto time = std::chrono::steady_clock::now().time_since_epoch();
+          return std::chrono::duration<double>(time).count();
+      }) {}
+
+double Runner::Impl::submission_seconds() const {
+    return options.submission_seconds > 0 ? options.submission_seconds
+           : is_cpu()                     ? kCpuSubmissionSeconds
+                                          : kSubmissionSeconds;
+}
+
+std::chrono::duration<double> Runner::Impl::stall_limit() const {
+    return std::chrono::duration<double>(options.stall_seconds > 0 ? options.stall_seconds
+                                         : is_cpu()                ? kCpuStallSeconds
+                                                                   : kStallSeconds);
+}
 
 Runner::Runner(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 Runner::Runner(Runner&&) noexcept = default;
@@ -92,8 +116,7 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
         const DeviceTable& vk = impl->engine().vk;
         impl->options = options;
         instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
-        auto submitter =
-            Submitter::create(kept, vk, queue, std::chrono::seconds(options.stall_seconds));
+        auto submitter = Submitter::create(kept, vk, queue, impl->stall_limit());
         if (!submitter) {
             return submitter.error();
         }

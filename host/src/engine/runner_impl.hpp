@@ -1,7 +1,9 @@
 // What Runner holds; shared by the files that implement it.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,7 +25,10 @@ struct Runner::Impl {
     std::optional<Submitter> submitter;
     std::optional<StageClock> clock;
 
-    explicit Impl(Sampler s) : sampler(std::move(s)) {}
+    /// Seconds since some moment; of a test where it says so.
+    std::function<double()> now;
+
+    explicit Impl(Sampler s);
     ~Impl() { settle(); }
 
     /// Once a submission was given up, keeps all that it may still use from being destroyed. The
@@ -37,9 +42,14 @@ struct Runner::Impl {
         }
     }
 
+    static Impl& of(Runner& runner) { return *runner.impl_; }
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// As Submitter::run, for what a job records.
     Result<Done> run_timed(const std::function<void(VkCommandBuffer)>& record);
+    bool is_cpu() const { return engine().report.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+    std::chrono::duration<double> stall_limit() const;
+    /// That a submission is to take.
+    double submission_seconds() const;
     /// Bytes of device memory that candidates may take.
     VkDeviceSize memory_for_candidates() const;
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,

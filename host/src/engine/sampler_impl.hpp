@@ -8,7 +8,9 @@
 #include <geodisk/sampler.hpp>
 
 #include "engine/pipelines.hpp"
+#include "engine/tolerances.hpp"
 #include "push.h"
+#include "records.h"
 #include "vk/dispatch.hpp"
 
 namespace geodisk {
@@ -65,15 +67,20 @@ struct Job::Impl {
     const KernelPipelines* own_pipelines = nullptr; ///< Besides those that all jobs have.
     DomainKind domain = DomainKind::surface;
     std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
+    std::uint32_t most_lanes = 0; ///< Of the first plan.
     // As Domain::Impl has them.
     std::uint32_t most_steps = 0;
     bool has_lane_per_slot = false;
     Stages stages;
     double samples_per_measure = 0;
+    ErrorModel error;
     RunPlan plan;
     gpu::Push push{};
     Cursor begun, finished;       ///< Of record_begin and record_finish.
     std::uint32_t generation = 0; ///< See ControlRec.
+    bool is_begin_due = true;     ///< record_begin of the stages at hand.
+    std::uint64_t thrown = 0;     ///< Candidates of the stages before.
+    std::uint64_t cut_darts = 0;  ///< Of these stages, those that take part, unless all do.
     std::uint64_t dispatches = 0; ///< Recorded, empty ones included.
 
     bool has(std::size_t kernel) const {
@@ -84,6 +91,13 @@ struct Job::Impl {
         return own != VK_NULL_HANDLE ? own : sampler->pipelines.common()[kernel];
     }
     void begin_stages(std::uint32_t first, std::uint32_t count);
+    /// Candidates of the stages at hand that take part.
+    std::uint64_t darts(const gpu::ControlRec& control) const {
+        return cut_darts != 0 ? cut_darts : control.drawn;
+    }
+    /// Stages to draw next, where all of those at hand are decided.
+    std::uint32_t stages_left(const gpu::ControlRec& control) const;
+    Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes);
     static Impl& of(Job& job) { return *job.impl_; }
     static const Impl& of(const Job& job) { return *job.impl_; }
     ~Impl();

@@ -3,12 +3,14 @@
 #include <thread>
 #include <utility>
 
+#include "support/number_text.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
 
 Result<Submitter> Submitter::create(const DeviceRefs& device, const DeviceTable& vk,
-                                    const QueueRef& queue, std::chrono::seconds stall_limit) {
+                                    const QueueRef& queue,
+                                    std::chrono::duration<double> stall_limit) {
     Submitter result;
     result.device_ = &device;
     result.vk_ = &vk;
@@ -115,26 +117,29 @@ Result<Done> Submitter::run(const std::function<void(VkCommandBuffer)>& record) 
 }
 
 Result<Done> Submitter::wait() {
-    const auto deadline = std::chrono::steady_clock::now() + stall_limit_;
-    constexpr std::uint64_t kSlice = 50'000'000;
+    constexpr std::chrono::milliseconds kSlice(50);
+    // Counted in slices: the clock goes on while the process is stopped.
+    std::chrono::duration<double> waited{};
     for (;;) {
-        const VkResult status = vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE, kSlice);
+        const VkResult status = vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE,
+                                                     std::chrono::nanoseconds(kSlice).count());
         if (status == VK_SUCCESS) {
             return Done{};
         }
         if (status == VK_ERROR_DEVICE_LOST) {
             return failed("vkWaitForFences", status);
         }
-        if (std::chrono::steady_clock::now() > deadline) {
-            abandoned_ = true;
-            return Error{Status::device_lost,
-                         "the device has not answered for " + std::to_string(stall_limit_.count()) +
-                             " seconds",
-                         kNoElement, status};
-        }
         // A lack of memory ends the waiting but not the work, whose memory must not be freed yet.
         if (status != VK_TIMEOUT) {
-            std::this_thread::yield();
+            std::this_thread::sleep_for(kSlice);
+        }
+        waited += kSlice;
+        if (waited > stall_limit_) {
+            abandoned_ = true;
+            return Error{Status::device_lost,
+                         "the device has not answered for " + number_text(stall_limit_.count()) +
+                             " seconds",
+                         kNoElement, status};
         }
     }
 }

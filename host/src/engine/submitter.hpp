@@ -14,7 +14,8 @@ class Submitter {
   public:
     /// `device` and `vk` must outlive the submitter.
     static Result<Submitter> create(const DeviceRefs& device, const DeviceTable& vk,
-                                    const QueueRef& queue, std::chrono::seconds stall_limit);
+                                    const QueueRef& queue,
+                                    std::chrono::duration<double> stall_limit);
     Submitter(Submitter&& other) noexcept;
     Submitter& operator=(Submitter&&) = delete;
     ~Submitter();
@@ -39,7 +40,7 @@ class Submitter {
     const DeviceRefs* device_ = nullptr;
     const DeviceTable* vk_ = nullptr;
     QueueRef queue_;
-    std::chrono::seconds stall_limit_{};
+    std::chrono::duration<double> stall_limit_{};
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;

@@ -42,7 +42,7 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
 
 SurfaceDomain::SurfaceDomain(const PreparedMesh& mesh, const SampleParams& params,
                              std::uint32_t cells)
-    : mesh_(mesh), params_(params), error_(mesh, params), cells_(cells),
+    : mesh_(mesh), params_(params), cells_(cells),
       full_(std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance))) {
     kernels.domain = DomainKind::surface;
     kernels.adaptive = params.radii != nullptr;
@@ -53,6 +53,7 @@ SurfaceDomain::SurfaceDomain(const PreparedMesh& mesh, const SampleParams& param
     stop_count = params.stop_count;
     seed = params.seed;
     units = mesh.face_count();
+    error = ErrorModel(mesh, params);
     bytes_per_candidate = 16;
 }
 
@@ -107,7 +108,7 @@ std::string SurfaceDomain::beside_candidates() const {
 }
 
 void SurfaceDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
-    const Tolerances tolerances = error_.tolerances(plan.error_bound);
+    const Tolerances tolerances = error.tolerances(plan.error_bound);
     push.limit = tolerances.limit;
     push.margin = tolerances.margin;
     push.slack = tolerances.slack;

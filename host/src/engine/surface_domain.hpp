@@ -25,15 +25,13 @@ class SurfaceDomain : public Domain::Impl {
     std::size_t upload_size(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role,
                               std::span<std::byte> out) const override;
-    double error_of(std::uint32_t chain) const override { return error_.error_of(chain); }
-    double guard_for(double error_bound) const override { return error_.guard_for(error_bound); }
+    double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
 
   private:
     double faces_per_disk() const { return 2.0 * mesh_.face_count() / full_; }
 
     const PreparedMesh& mesh_;
     SampleParams params_;
-    ErrorModel error_;
     std::uint32_t cells_; ///< Of all faces; 0 where each has one.
     double full_;         ///< Samples that a full surface holds, at least two: no disk covers
                           ///< more than all faces.

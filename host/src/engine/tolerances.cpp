@@ -48,14 +48,15 @@ double working_distance(const PreparedMesh& mesh, const SampleParams& params) {
 }
 
 ErrorModel::ErrorModel(const PreparedMesh& mesh, double min_distance)
-    : longest_(mesh.statistics().longest_edge / working_distance(mesh, min_distance)) {}
+    : longest_(mesh.statistics().longest_edge / working_distance(mesh, min_distance)),
+      per_crossing_(kRounding) {}
 
 ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params)
     : longest_(mesh.statistics().longest_edge / working_distance(mesh, params)),
-      further_(params.radii != nullptr ? kRadiiRounding : 0) {}
+      further_(params.radii != nullptr ? kRadiiRounding : 0), per_crossing_(kRounding) {}
 
 double ErrorModel::error_of(std::uint32_t chain) const noexcept {
-    return kRounding * (chain + 4 * std::ceil(longest_)) + further_;
+    return per_crossing_ * (chain + 4 * std::ceil(longest_)) + further_;
 }
 
 double ErrorModel::guard_for(double error_bound) const noexcept {

@@ -33,6 +33,8 @@ struct Tolerances {
 /// crossing of its window chain. The largest met is one disk plus the longest edge.
 class GEODISK_API ErrorModel {
   public:
+    /// The same error whatever the chain: of straight lines.
+    explicit ErrorModel(double error = 0) : further_(error) {}
     ErrorModel(const PreparedMesh& mesh, double min_distance);
     /// Where radii vary, with a little more for their rounding.
     ErrorModel(const PreparedMesh& mesh, const SampleParams& params);
@@ -45,8 +47,9 @@ class GEODISK_API ErrorModel {
     Tolerances tolerances(double error_bound) const noexcept;
 
   private:
-    double longest_; ///< Edge.
+    double longest_ = 0; ///< Edge.
     double further_ = 0;
+    double per_crossing_ = 0;
 };
 
 /// The bound to begin with, for a guess of the longest chain by the faces that a disk covers.

@@ -1,0 +1,23 @@
+// Recording within a budget.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/sampler_impl.hpp"
+
+namespace geodisk {
+
+/// What may still be recorded; counted down.
+struct Budget {
+    std::uint32_t dispatches = kAllDispatches;
+    /// Faces, candidates, samples or words that the dispatches go through.
+    std::uint64_t items = ~std::uint64_t{0};
+
+    bool is_spent() const { return dispatches == 0 || items == 0; }
+};
+
+/// As Sampler::record_begin and record_finish.
+bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget);
+bool record_finish(VkCommandBuffer commands, Job::Impl& job, Budget& budget);
+
+} // namespace geodisk

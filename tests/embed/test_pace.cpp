@@ -1,0 +1,204 @@
+// Submissions keep to the time they are to take, on devices of any speed.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "engine/pace.hpp"
+#include "engine/runner_impl.hpp"
+#include "watched_bench.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// Time passes with what is done alone: so much for each work group of a pass, each dispatch of a
+/// round, and each step of a lane.
+class SlowDevice {
+  public:
+    SlowDevice(Bench& bench, Runner& runner, double times) : slower(times), bench_(bench) {
+        Runner::Impl::of(runner).now = [this] { return now_; };
+        bench.spy.on_dispatch = [this](std::uint32_t groups) {
+            recorded_ += groups > 0 ? groups * kPerGroup : kPerDispatch;
+            ++dispatches_;
+        };
+        bench.spy.on_done = [this](std::span<const std::span<std::byte>> mapped) {
+            if (dispatches_ == 0) {
+                return;
+            }
+            double taken = std::exchange(recorded_, 0);
+            for (const std::span<std::byte> bytes : mapped) {
+                gpu::ControlRec control{};
+                std::memcpy(&control, bytes.data(), sizeof control);
+                if (control.abi == gpu::kAbi) {
+                    taken += (control.steps - std::exchange(steps_, control.steps)) * kPerStep;
+                }
+            }
+            seconds.push_back(slower * taken);
+            now_ += slower * taken;
+            dispatches.push_back(std::exchange(dispatches_, 0));
+        };
+    }
+    ~SlowDevice() {
+        bench_.spy.on_dispatch = nullptr;
+        bench_.spy.on_done = nullptr;
+    }
+    SlowDevice(const SlowDevice&) = delete;
+    SlowDevice& operator=(const SlowDevice&) = delete;
+
+    double slower;
+    std::vector<double> seconds; ///< Of each submission.
+    std::vector<std::uint32_t> dispatches;
+
+  private:
+    // About those of lavapipe.
+    static constexpr double kPerGroup = 1e-4;
+    static constexpr double kPerDispatch = 2e-5;
+    static constexpr double kPerStep = 1e-5;
+
+    Bench& bench_;
+    double now_ = 0;
+    double recorded_ = 0;
+    std::uint32_t dispatches_ = 0;
+    std::uint32_t steps_ = 0;
+};
+
+double longest(const std::vector<double>& seconds) {
+    return *std::max_element(seconds.begin(), seconds.end());
+}
+
+} // namespace
+
+TEST_SUITE("pace") {
+    TEST_CASE("work grows by two at most, and shrinks at once") {
+        Pace pace(0.1);
+        const std::uint64_t first = pace.items();
+        const auto took = [&](double seconds) { pace.took(seconds, pace.items()); };
+        took(0.01);
+        CHECK(pace.items() == 2 * first);
+        took(0.07); // As it should be.
+        CHECK(pace.items() == 2 * first);
+        pace.took(0.01, first / 2); // Too little to tell.
+        CHECK(pace.items() == 2 * first);
+        took(0.4);
+        CHECK(pace.items() == first / 2);
+        took(1e9);
+        CHECK(pace.items() == first / 32);
+        for (int i = 0; i < 100; ++i) {
+            took(1e9);
+        }
+        CHECK(pace.items() == 1);
+        for (int i = 0; i < 100; ++i) {
+            took(0);
+        }
+        CHECK(pace.items() == std::uint64_t{1} << 40);
+    }
+
+    TEST_CASE("rounds are bounded by what they take if all lanes are busy") {
+        Pace pace(0.1);
+        for (int i = 0; i < 30; ++i) {
+            pace.took(0.001, pace.items(), 10); // 0.1 ms for each of few steps.
+        }
+        CHECK(pace.items() <= 16 * 10'000);
+        CHECK(pace.items() > 16 * 9'000);
+    }
+
+    TEST_CASE("dispatches are as short as they must be, but for what the caller gives") {
+        RunPlan plan;
+        plan.slots = 100;
+        plan.lanes = 16;
+        plan.step_budget = 50;
+        plan.detect_passes = 8;
+        plan.dispatch_items = 1u << 17;
+        const std::uint64_t whole = items_of_round(plan);
+        CHECK(shortened(plan, {}, whole).detect_passes == 8);
+        const RunPlan half = shortened(plan, {}, whole / 2);
+        CHECK(half.detect_passes < 8);
+        CHECK(half.step_budget == 50);
+        CHECK(items_of_round(half) <= whole / 2 + 16 * plan.slots);
+        const RunPlan least = shortened(plan, {}, 1);
+        CHECK(least.detect_passes == 1);
+        CHECK(least.step_budget == 1);
+        CHECK(least.dispatch_items == 1);
+        const RunPlan given = shortened(plan, plan, 1);
+        CHECK(given.detect_passes == 8);
+        CHECK(given.step_budget == 50);
+        CHECK(given.dispatch_items == 1u << 17);
+    }
+
+    TEST_CASE("no submission is longer than two seconds, on a device however slow") {
+        Bench bench;
+        bench.params = params_for(bench.mesh, 60);
+        for (const double slower : {1.0, 30.0, 300.0}) {
+            CAPTURE(slower);
+            Runner runner = expect(bench.create());
+            SlowDevice device(bench, runner, slower);
+            bench.check_run(runner);
+            CHECK(longest(device.seconds) < 2);
+            CHECK(longest(device.seconds) > 0);
+        }
+    }
+
+    TEST_CASE("submissions take about the time they are to take") {
+        Bench bench;
+        bench.params = params_for(bench.mesh, 2000);
+        RunnerOptions options;
+        options.submission_seconds = 0.05;
+        Runner runner = expect(bench.create(options));
+        SlowDevice device(bench, runner, 10);
+        bench.check_run(runner);
+        REQUIRE(device.seconds.size() > 12);
+        CHECK(longest(device.seconds) < 2);
+        std::vector<double> later(device.seconds.begin() + 7, device.seconds.end());
+        std::sort(later.begin(), later.end());
+        CHECK(later[later.size() / 2] > 0.05 / 4);
+        CHECK(later[later.size() / 2] < 0.05 * 1.5);
+    }
+
+    TEST_CASE("submissions grow again on a device that gets faster") {
+        Bench bench;
+        bench.params = params_for(bench.mesh, 2000);
+        Runner runner = expect(bench.create());
+        SlowDevice device(bench, runner, 300);
+        const auto set = runner.sample_and_wait(bench.mesh, bench.params, [&](const Progress&) {
+            device.slower = device.dispatches.size() < 20 ? 300 : 1e-3;
+            return true;
+        });
+        bench.check_set(set);
+        REQUIRE(device.dispatches.size() > 22);
+        CHECK(*std::max_element(device.dispatches.begin(), device.dispatches.end()) >
+              4 * device.dispatches[19]);
+    }
+
+    TEST_CASE("a device that does nothing is an error, not an endless loop") {
+        Bench bench;
+        RunnerOptions options;
+        options.plan.slots = kLeastSlots;
+        Runner runner = expect(bench.create(options));
+        std::vector<std::byte> first;
+        bench.spy.on_done = [&](std::span<const std::span<std::byte>> mapped) {
+            for (const std::span<std::byte> bytes : mapped) {
+                gpu::ControlRec control{};
+                std::memcpy(&control, bytes.data(), sizeof control);
+                if (control.abi != gpu::kAbi) {
+                    continue;
+                }
+                if (first.empty()) {
+                    control.done = 0; // As the device left it, but for its end.
+                    std::memcpy(bytes.data(), &control, sizeof control);
+                    first.assign(bytes.begin(), bytes.begin() + sizeof control);
+                }
+                std::copy(first.begin(), first.end(), bytes.begin());
+            }
+        };
+        const auto set = runner.sample_and_wait(bench.mesh, bench.params);
+        bench.spy.on_done = nullptr;
+        REQUIRE_FALSE(set);
+        CHECK(set.error().status == Status::internal);
+        CHECK(set.error().message.find("no progress") != std::string::npos);
+        bench.check_run(runner);
+    }
+}
+
+} // namespace geodisk::test
