@@ -1,7 +1,10 @@
-// GEODISK_API: marks what a shared build of geodisk exports. Empty in a static build.
+// GEODISK_API: marks what a shared build of geodisk exports. Empty in a static build. A build may define it
+// otherwise before.
 #pragma once
 
-#if !defined(GEODISK_SHARED)
+#if defined(GEODISK_API)
+// As the build defines it.
+#elif !defined(GEODISK_SHARED)
 #define GEODISK_API
 #elif defined(_WIN32) && defined(GEODISK_EXPORTS)
 #define GEODISK_API __declspec(dllexport)

@@ -13,10 +13,8 @@
 //                           Submit, copy gpu::ControlRec from the control buffer, and do what
 //                           Job::advance makes of it
 //   7. record_finish        at any time, and in parts as 5: gpu::SampleRec per accepted candidate,
-//   in
-//                           dart order.
-//                           ControlRec::ready of them are final: the first of all that will be
-//                           accepted
+//                           in dart order. ControlRec::ready of them are final: the first of all
+//                           that will be accepted
 #pragma once
 
 #include <array>

@@ -17,7 +17,6 @@
     X(vkEnumerateDeviceExtensionProperties)      \
     X(vkGetPhysicalDeviceProperties)             \
     X(vkGetPhysicalDeviceProperties2)            \
-    X(vkGetPhysicalDeviceFeatures)               \
     X(vkGetPhysicalDeviceMemoryProperties)       \
     X(vkGetPhysicalDeviceQueueFamilyProperties)  \
     X(vkCreateDevice)                            \
@@ -26,29 +25,20 @@
 // Core Vulkan 1.0 and 1.1 only, so that each entry exists on every device geodisk accepts.
 // There is no vkDeviceWaitIdle or vkQueueWaitIdle: a borrowed device may be busy with other work.
 #define GEODISK_DEVICE_FUNCTIONS(X)       \
-    X(vkDestroyDevice)                    \
-    X(vkGetDeviceQueue)                   \
     X(vkQueueSubmit)                      \
                                           \
     X(vkAllocateMemory)                   \
     X(vkFreeMemory)                       \
     X(vkMapMemory)                        \
-    X(vkUnmapMemory)                      \
-    X(vkFlushMappedMemoryRanges)          \
-    X(vkInvalidateMappedMemoryRanges)     \
     X(vkCreateBuffer)                     \
     X(vkDestroyBuffer)                    \
     X(vkCreateBufferView)                 \
     X(vkDestroyBufferView)                \
     X(vkGetBufferMemoryRequirements)      \
-    X(vkGetBufferMemoryRequirements2)     \
     X(vkBindBufferMemory)                 \
                                           \
     X(vkCreateShaderModule)               \
     X(vkDestroyShaderModule)              \
-    X(vkCreatePipelineCache)              \
-    X(vkDestroyPipelineCache)             \
-    X(vkGetPipelineCacheData)             \
     X(vkCreatePipelineLayout)             \
     X(vkDestroyPipelineLayout)            \
     X(vkCreateComputePipelines)           \
@@ -58,35 +48,28 @@
     X(vkDestroyDescriptorSetLayout)       \
     X(vkCreateDescriptorPool)             \
     X(vkDestroyDescriptorPool)            \
-    X(vkResetDescriptorPool)              \
     X(vkAllocateDescriptorSets)           \
-    X(vkFreeDescriptorSets)               \
     X(vkUpdateDescriptorSets)             \
                                           \
     X(vkCreateCommandPool)                \
     X(vkDestroyCommandPool)               \
     X(vkResetCommandPool)                 \
     X(vkAllocateCommandBuffers)           \
-    X(vkFreeCommandBuffers)               \
     X(vkBeginCommandBuffer)               \
     X(vkEndCommandBuffer)                 \
-    X(vkResetCommandBuffer)               \
                                           \
     X(vkCmdBindPipeline)                  \
     X(vkCmdBindDescriptorSets)            \
     X(vkCmdPushConstants)                 \
     X(vkCmdDispatch)                      \
-    X(vkCmdDispatchBase)                  \
     X(vkCmdDispatchIndirect)              \
     X(vkCmdFillBuffer)                    \
     X(vkCmdCopyBuffer)                    \
-    X(vkCmdUpdateBuffer)                  \
     X(vkCmdPipelineBarrier)               \
                                           \
     X(vkCreateFence)                      \
     X(vkDestroyFence)                     \
     X(vkResetFences)                      \
-    X(vkGetFenceStatus)                   \
     X(vkWaitForFences)                    \
                                           \
     X(vkCreateQueryPool)                  \
