@@ -158,6 +158,12 @@ struct DeviceSpy::Functions {
         return result;
     }
 
+    static VKAPI_ATTR void VKAPI_CALL free(VkDevice device, VkDeviceMemory memory,
+                                           const VkAllocationCallbacks* allocator) {
+        active->memory_left += active->gives_back ? active->sizes_[number_of(memory)] : 0;
+        Destroy<"vkFreeMemory", PFN_vkFreeMemory>::call(device, memory, allocator);
+    }
+
     static VKAPI_ATTR VkResult VKAPI_CALL map(VkDevice device, VkDeviceMemory memory,
                                               VkDeviceSize offset, VkDeviceSize size,
                                               VkMemoryMapFlags flags, void** data) {
@@ -252,8 +258,7 @@ PFN_vkVoidFunction DeviceSpy::Functions::find(std::string_view name) {
         {"vkDestroyPipeline", reinterpret_cast<PFN_vkVoidFunction>(
                                   &Destroy<"vkDestroyPipeline", PFN_vkDestroyPipeline>::call)},
         {"vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(&allocate)},
-        {"vkFreeMemory",
-         reinterpret_cast<PFN_vkVoidFunction>(&Destroy<"vkFreeMemory", PFN_vkFreeMemory>::call)},
+        {"vkFreeMemory", reinterpret_cast<PFN_vkVoidFunction>(&free)},
         {"vkMapMemory", reinterpret_cast<PFN_vkVoidFunction>(&map)},
         {"vkWaitForFences", reinterpret_cast<PFN_vkVoidFunction>(&wait)},
         {"vkCmdDispatch", reinterpret_cast<PFN_vkVoidFunction>(&dispatch)},

@@ -91,7 +91,7 @@ Reads reads_from(const std::string& name) {
 
 void add_tuning(CLI::App& app, RunnerOptions& runner, bool& tune) {
     constexpr const char* kGroup = "Tuning, does not change the samples";
-    const auto add = [&app, kGroup](const char* name, std::uint32_t& value, const char* what) {
+    const auto add = [&app](const char* name, std::uint32_t& value, const char* what) {
         add_option(app, name, value, "K", what, kGroup);
     };
     app.add_flag("--tune", tune,

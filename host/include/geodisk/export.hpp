@@ -1,5 +1,5 @@
-// GEODISK_API: marks what a shared build of geodisk exports. Empty in a static build. A build may define it
-// otherwise before.
+// GEODISK_API: marks what a shared build of geodisk exports. Empty in a static build. A build may
+// define it otherwise before.
 #pragma once
 
 #if defined(GEODISK_API)

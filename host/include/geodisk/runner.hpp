@@ -134,6 +134,9 @@ class GEODISK_API Runner {
     Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;
 
+    /// Frees the device memory that runs keep for those to come, of which an error frees it too.
+    void release_memory() noexcept;
+
     const Sampler& sampler() const noexcept;
 
     struct Impl; ///< Internal.

@@ -130,6 +130,8 @@ struct BufferRange {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     VkDeviceSize size = 0;
+
+    friend bool operator==(const BufferRange&, const BufferRange&) = default;
 };
 
 /// The memory of one job. Owned by the caller; ranges must not overlap while the job runs. Create
@@ -319,6 +321,13 @@ class GEODISK_API Job {
     ~Job();
 
     const RunPlan& plan() const noexcept;
+    /// Makes it one of another domain, in the same workspace, whose buffers must still be what they
+    /// were; nothing is allocated if it is of the same kind. What write_upload() gives for that
+    /// domain is to be uploaded. No command buffer of the job may be pending. Errors: as
+    /// make_job(); after one it can only be renewed again.
+    Result<Done> renew(const Domain& domain, const RunPlan& plan) noexcept;
+    /// Begins anew with another seed; what was uploaded stays.
+    void set_seed(std::uint64_t seed) noexcept;
     /// Tells what comes next, by a copy of the control record that the host has read. Copies of
     /// before the last record_begin or record_rewind say nothing, so that several frames may be in
     /// flight; the same copy may be given twice. Sets the job to its next stages where Next::begin

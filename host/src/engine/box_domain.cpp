@@ -75,13 +75,16 @@ void GridDomain::plan_disks(RunPlan& plan, std::uint32_t candidates, const Devic
     plan.error_bound = guard_;
 }
 
-double GridDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {
+double GridDomain::disk_steps(const RunPlan& plan, std::uint32_t candidates) const {
     // Rows of cells along the first axis that a ball of two cells' radius meets, by measurement.
     const double n = kernels.dimension;
     const double rows = ball_volume(n - 1) * std::pow(2.5, n - 1);
     const double per_row = 2.5 * in_disk(plan, candidates) / rows;
-    const double trips = rows * (0.4 + std::ceil(per_row / gpu::kScanPerGridTrip));
-    return std::ceil(trips / plan.step_budget);
+    return rows * (0.4 + std::ceil(per_row / gpu::kScanPerGridTrip));
+}
+
+double GridDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {
+    return std::ceil(disk_steps(plan, candidates) / plan.step_budget);
 }
 
 std::uint32_t GridDomain::most_steps(const DeviceReport& report, const KernelVariant&) const {

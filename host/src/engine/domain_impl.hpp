@@ -47,6 +47,8 @@ struct Domain::Impl {
     /// window_capacity, table_capacity, list_capacity and error_bound.
     virtual void plan_disks(RunPlan& plan, std::uint32_t candidates,
                             const DeviceReport& report) const = 0;
+    /// Steps that a disk takes, where so many candidates are drawn at once.
+    virtual double disk_steps(const RunPlan& plan, std::uint32_t candidates) const = 0;
     /// Dispatches of detect in which a batch should be done, most of all batches.
     virtual double detect_passes(const RunPlan& plan, std::uint32_t candidates) const = 0;
     /// Most steps that one dispatch of detect may safely take.

@@ -312,61 +312,94 @@ Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples
 Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
                               const Workspace& workspace) const noexcept {
     return guarded([&]() -> Result<Job> {
-        if (auto checked = check_plan(plan, tuning()); !checked) {
-            return checked.error();
-        }
-        const auto needs = workspace_needs(domain, plan);
-        if (!needs) {
-            return needs.error();
-        }
-        const Domain::Impl& of = Domain::Impl::of(domain);
-        if (auto checked = check_workspace(workspace, *needs, of, impl_->report.limits); !checked) {
-            return checked.error();
-        }
-        const KernelVariant variant = impl_->variant_for(domain);
-        const auto pipelines = impl_->pipelines.of(variant);
-        if (!pipelines) {
-            return pipelines.error();
-        }
         auto job = std::make_unique<Job::Impl>();
         job->sampler = impl_.get();
-        job->own_pipelines = *pipelines;
-        job->domain = variant.domain;
-        job->workspace = workspace;
-        job->most_slots = plan.slots;
-        job->most_lanes = plan.lanes;
-        job->most_steps = of.most_steps(impl_->report, variant);
-        job->has_lane_per_slot = of.has_lane_per_slot;
-        job->stages = of.stages;
-        job->samples_per_measure = of.samples_per_measure;
-        job->error = of.error;
-        gpu::Push& push = job->push;
-        push.capacity = capacity_for(of.stages, plan.stages);
-        push.buckets = bucket_count(push.capacity);
-        push.faces = static_cast<std::uint32_t>(of.units);
-        push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, plan.error_bound));
-        push.seed_low = static_cast<std::uint32_t>(of.seed);
-        push.seed_high = static_cast<std::uint32_t>(of.seed >> 32);
-        push.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
-        of.set_push(push, plan);
-        job->apply_plan(plan);
-        const std::uint32_t all = of.stages.throws != 0 ? plan.stages : of.stages.pool_stages();
-        job->begin_stages(0, std::min(plan.stages, all));
-        for (std::size_t i = 0; i < kBufferRoles; ++i) {
-            const auto view = job->create_view(i, workspace[i]);
-            if (!view) {
-                return view.error();
-            }
-            job->views[i] = *view;
-        }
-        if (auto written = job->write_sets(); !written) {
-            return written.error();
+        if (auto made = job->set_out(domain, plan, workspace); !made) {
+            return made.error();
         }
         return Job(std::move(job));
     });
 }
 
-Result<Done> Job::Impl::write_sets() {
+Result<Done> Job::renew(const Domain& domain, const RunPlan& plan) noexcept {
+    return guarded([&] { return impl_->set_out(domain, plan, impl_->workspace); });
+}
+
+void Job::set_seed(std::uint64_t seed) noexcept {
+    impl_->push.seed_low = static_cast<std::uint32_t>(seed);
+    impl_->push.seed_high = static_cast<std::uint32_t>(seed >> 32);
+    impl_->begin_first_stages();
+}
+
+Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan,
+                                const Workspace& ranges) {
+    if (auto checked = check_plan(new_plan, sampler->choices.tuning); !checked) {
+        return checked;
+    }
+    const auto needs = needs_of(of_domain, new_plan, sampler->report);
+    if (!needs) {
+        return needs.error();
+    }
+    const Domain::Impl& of = Domain::Impl::of(of_domain);
+    if (auto checked = check_workspace(ranges, *needs, of, sampler->report.limits); !checked) {
+        return checked;
+    }
+    const KernelVariant variant = sampler->variant_for(of_domain);
+    const auto pipelines = sampler->pipelines.of(variant);
+    if (!pipelines) {
+        return pipelines.error();
+    }
+    const bool has_sets = descriptor_pool != VK_NULL_HANDLE && domain == variant.domain;
+    const bool had_single = push.all_single != 0;
+    own_pipelines = *pipelines;
+    domain = variant.domain;
+    most_slots = new_plan.slots;
+    most_lanes = new_plan.lanes;
+    most_steps = of.most_steps(sampler->report, variant);
+    has_lane_per_slot = of.has_lane_per_slot;
+    stages = of.stages;
+    samples_per_measure = of.samples_per_measure;
+    error = of.error;
+    dispatches = 0;
+    push = {};
+    push.capacity = capacity_for(of.stages, new_plan.stages);
+    push.buckets = bucket_count(push.capacity);
+    push.faces = static_cast<std::uint32_t>(of.units);
+    push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, new_plan.error_bound));
+    push.seed_low = static_cast<std::uint32_t>(of.seed);
+    push.seed_high = static_cast<std::uint32_t>(of.seed >> 32);
+    push.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
+    of.set_push(push, new_plan);
+    apply_plan(new_plan);
+    begin_first_stages();
+    if (!has_sets) {
+        if (auto allocated = allocate_sets(); !allocated) {
+            return allocated;
+        }
+    }
+    return bind(ranges, !has_sets || had_single != (push.all_single != 0));
+}
+
+/// Binds what has changed, or all.
+Result<Done> Job::Impl::bind(const Workspace& ranges, bool all) {
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (ranges[i] != workspace[i]) {
+            if (auto replaced = replace_buffer(i, ranges[i]); !replaced) {
+                return replaced;
+            }
+        } else if (all && ranges[i].buffer != VK_NULL_HANDLE) {
+            write_buffer(i);
+        }
+    }
+    return Done{};
+}
+
+void Job::Impl::begin_first_stages() {
+    const std::uint32_t all = stages.throws != 0 ? plan.stages : stages.pool_stages();
+    begin_stages(0, std::min(plan.stages, all));
+}
+
+Result<Done> Job::Impl::allocate_sets() {
     const DeviceTable& vk = sampler->vk;
     const VkDevice device = sampler->device.device;
     constexpr std::uint32_t kSets = kSetRoles * kKernels;
@@ -376,6 +409,11 @@ Result<Done> Job::Impl::write_sets() {
         {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 8 * kSets},
         {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, kSets},
     }};
+    if (descriptor_pool != VK_NULL_HANDLE) {
+        vk.vkDestroyDescriptorPool(device, std::exchange(descriptor_pool, VK_NULL_HANDLE),
+                                   sampler->device.host_allocator);
+        sets = {};
+    }
     VkDescriptorPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool_info.maxSets = kSets;
@@ -409,11 +447,6 @@ Result<Done> Job::Impl::write_sets() {
         }
         for (std::size_t i = 0; i < kernels.size(); ++i) {
             sets[role][kernels[i]] = allocated[i];
-        }
-    }
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        if (workspace[i].buffer != VK_NULL_HANDLE) {
-            write_buffer(i);
         }
     }
     return Done{};
@@ -451,8 +484,12 @@ Result<Done> Job::Impl::replace_buffer(std::size_t buffer, const BufferRange& ra
     }
     workspace[buffer] = range;
     const VkBufferView before = std::exchange(views[buffer], *view);
-    write_buffer(buffer);
-    destroy_view(before);
+    if (range.buffer != VK_NULL_HANDLE) {
+        write_buffer(buffer);
+    }
+    if (before != VK_NULL_HANDLE) {
+        destroy_view(before);
+    }
     return Done{};
 }
 

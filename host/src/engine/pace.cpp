@@ -21,8 +21,8 @@ std::uint64_t items_of_step(const RunPlan& plan) {
 } // namespace
 
 std::uint64_t Pace::items() const {
-    const double most = per_step_ > 0 ? kMostSeconds / per_step_ * kItemsPerStep
-                                      : static_cast<double>(kMostItems);
+    const double most =
+        per_step_ > 0 ? kMostSeconds / per_step_ * kItemsPerStep : static_cast<double>(kMostItems);
     return std::min(items_, static_cast<std::uint64_t>(std::max(most, 1.0)));
 }
 

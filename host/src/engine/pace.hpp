@@ -8,8 +8,8 @@
 
 namespace geodisk {
 
-/// Counts work of one kind in items: faces, candidates or samples gone through, or a part of a disk.
-/// Starts tiny; grows and shrinks by what submissions took.
+/// Counts work of one kind in items: faces, candidates or samples gone through, or a part of a
+/// disk. Starts tiny; grows and shrinks by what submissions took.
 class GEODISK_API Pace {
   public:
     /// Seconds that a submission is to take.
@@ -18,9 +18,9 @@ class GEODISK_API Pace {
     /// That the next submission may go through.
     std::uint64_t items() const;
 
-    /// A submission that might have gone through so many items took so long. Rounds mostly do little
-    /// of what they might: where lanes took `steps` in them, no more items come than would still be
-    /// a short time if all lanes were busy in all dispatches.
+    /// A submission that might have gone through so many items took so long. Rounds mostly do
+    /// little of what they might: where lanes took `steps` in them, no more items come than would
+    /// still be a short time if all lanes were busy in all dispatches.
     void took(double seconds, std::uint64_t items, std::uint64_t steps = 0);
 
   private:

@@ -291,36 +291,39 @@ RunPlan Sampler::widen_plan(const Domain& domain, RunPlan plan,
     return widened(plan, Domain::Impl::of(domain).error, longest_chain);
 }
 
+Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
+                                const DeviceReport& report) {
+    const Domain::Impl& of = Domain::Impl::of(domain);
+    const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
+    const std::uint32_t buckets = bucket_count(candidates);
+    const std::uint64_t starts = of.units * plan.stages + 1;
+    const std::uint64_t cells = of.cells(candidates, plan.error_bound);
+    const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
+    WorkspaceNeeds needs;
+    needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
+    needs.bytes[gpu::kBindStates] = std::uint64_t{candidates} * 4;
+    needs.bytes[gpu::kBindOrders] = std::uint64_t{candidates} * 4;
+    needs.bytes[gpu::kBindStarts] = starts * 4;
+    needs.bytes[gpu::kBindPool] = plan.pool_bytes();
+    needs.bytes[gpu::kBindControl] =
+        sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
+    needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
+    needs.bytes[gpu::kBindSums] =
+        blocks_of(std::max({starts, cells + 2, std::uint64_t{buckets} + 2})) * 4;
+    const auto samples = sample_bytes(plan.sample_capacity, buckets);
+    needs.bytes[gpu::kBindSamples] = samples[0];
+    needs.bytes[gpu::kBindAccepted] = samples[1];
+    needs.bytes[gpu::kBindBuckets] = samples[2];
+    of.add_needs(needs, candidates, plan);
+    if (auto checked = check_needs(needs, of, candidates, report); !checked) {
+        return checked.error();
+    }
+    return needs;
+}
+
 Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain,
                                                 const RunPlan& plan) const noexcept {
-    return guarded([&]() -> Result<WorkspaceNeeds> {
-        const Domain::Impl& of = Domain::Impl::of(domain);
-        const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
-        const std::uint32_t buckets = bucket_count(candidates);
-        const std::uint64_t starts = of.units * plan.stages + 1;
-        const std::uint64_t cells = of.cells(candidates, plan.error_bound);
-        const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
-        WorkspaceNeeds needs;
-        needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
-        needs.bytes[gpu::kBindStates] = std::uint64_t{candidates} * 4;
-        needs.bytes[gpu::kBindOrders] = std::uint64_t{candidates} * 4;
-        needs.bytes[gpu::kBindStarts] = starts * 4;
-        needs.bytes[gpu::kBindPool] = plan.pool_bytes();
-        needs.bytes[gpu::kBindControl] =
-            sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
-        needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
-        needs.bytes[gpu::kBindSums] =
-            blocks_of(std::max({starts, cells + 2, std::uint64_t{buckets} + 2})) * 4;
-        const auto samples = sample_bytes(plan.sample_capacity, buckets);
-        needs.bytes[gpu::kBindSamples] = samples[0];
-        needs.bytes[gpu::kBindAccepted] = samples[1];
-        needs.bytes[gpu::kBindBuckets] = samples[2];
-        of.add_needs(needs, candidates, plan);
-        if (auto checked = check_needs(needs, of, candidates, impl_->report); !checked) {
-            return checked.error();
-        }
-        return needs;
-    });
+    return guarded([&] { return needs_of(domain, plan, impl_->report); });
 }
 
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept {

@@ -16,6 +16,10 @@ GEODISK_API RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept;
 Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
                            const DeviceReport& report);
 
+/// As Sampler::workspace_needs.
+Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
+                                const DeviceReport& report);
+
 /// As Sampler::widen_plan.
 RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain);
 

@@ -26,6 +26,11 @@ double seconds_since(Clock::time_point start) {
 }
 
 constexpr std::uint64_t kMostRounds = 256;
+// About those of a run that recomputes few; and that are so few that one submission does for them.
+constexpr double kDisksPerSample = 1.5;
+constexpr double kFewSteps = 1024;
+// Rounds that list candidates, or end a batch.
+constexpr std::uint64_t kRoundsBeside = 6;
 constexpr std::uint32_t kMostPasses = 64;
 // Submissions that may leave no trace, before the device counts as stuck.
 constexpr std::uint32_t kMostIdle = 8;
@@ -40,16 +45,11 @@ constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
 class Run {
   public:
     Run(Runner::Impl& runner, const Domain& domain)
-        : runner_(runner), domain_(domain), of_(Domain::Impl::of(domain)), memory_(runner),
-          passes_(runner.submission_seconds()), rounds_(runner.submission_seconds()) {}
+        : runner_(runner), domain_(domain), of_(Domain::Impl::of(domain)),
+          memory_(*runner.workspace), job_(runner.job), passes_(runner.submission_seconds()),
+          rounds_(runner.submission_seconds()) {}
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
-    ~Run() {
-        if (runner_.submitter->abandoned()) {
-            runner_.settle(); // For the job.
-        }
-    }
-
     /// The samples, or none where the run is to start over with the plan as it is then.
     Result<std::optional<SampleSet>> go(const ProgressCallback& progress, RunPlan& plan);
 
@@ -76,14 +76,15 @@ class Run {
     Result<std::uint32_t> count_before(std::uint32_t order);
     Result<Done> grow(const RunPlan& grown);
     Result<Done> enlarge_samples(std::uint32_t capacity);
+    void record_samples(VkCommandBuffer commands);
     Result<std::vector<gpu::SampleRec>> read_samples();
     SampleSet to_set(const std::vector<gpu::SampleRec>& records) const;
 
     Runner::Impl& runner_;
     const Domain& domain_;
     const Domain::Impl& of_;
-    RunMemory memory_;
-    std::optional<Job> job_;
+    RunMemory& memory_;
+    std::optional<Job>& job_;
     RunPlan wanted_; ///< But for dispatches that have to be shorter.
     Pace passes_, rounds_;
     std::uint32_t idle_ = 0; ///< Submissions of late that left no trace.
@@ -101,14 +102,26 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     if (!needs) {
         return needs.error();
     }
-    if (auto allocated = memory_.allocate(*needs); !allocated) {
+    std::uint64_t upload_bytes = 0;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        upload_bytes += runner_.sampler.upload_size(domain_, static_cast<BufferRole>(i));
+    }
+    const std::uint32_t made = memory_.made();
+    if (auto allocated = memory_.allocate(*needs, upload_bytes); !allocated) {
         return allocated;
     }
-    auto made = runner_.sampler.make_job(domain_, plan, memory_.workspace());
-    if (!made) {
-        return made.error();
+    if (job_ && memory_.made() == made) {
+        if (auto renewed = job_->renew(domain_, plan); !renewed) {
+            return renewed;
+        }
+    } else {
+        job_.reset();
+        auto job = runner_.sampler.make_job(domain_, plan, memory_.workspace());
+        if (!job) {
+            return job.error();
+        }
+        job_.emplace(std::move(*job));
     }
-    job_.emplace(std::move(*made));
     if (runner_.clock) {
         job().clock = &*runner_.clock;
         runner_.clock->reset();
@@ -118,18 +131,28 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     return Done{};
 }
 
+/// With the first submission where there is room in the staging, else in some of their own.
 Result<Done> Run::upload() {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         const auto role = static_cast<BufferRole>(i);
-        std::vector<std::byte> bytes(runner_.sampler.upload_size(domain_, role));
-        if (bytes.empty()) {
-            continue;
+        const std::size_t size = runner_.sampler.upload_size(domain_, role);
+        std::span<std::byte> staged = memory_.stage(role, size);
+        if (staged.empty() && size > 0) {
+            auto before = runner_.submitter->run(
+                [&](VkCommandBuffer commands) { memory_.record_uploads(commands); });
+            if (!before) {
+                return before;
+            }
+            staged = memory_.stage(role, size);
         }
-        auto written = runner_.sampler.write_upload(domain_, job_->plan(), role, bytes);
+        std::vector<std::byte> large(staged.empty() ? size : 0);
+        auto written = size > 0 ? runner_.sampler.write_upload(domain_, job_->plan(), role,
+                                                               staged.empty() ? large : staged)
+                                : Result<Done>(Done{});
         if (!written) {
             return written;
         }
-        if (auto uploaded = memory_.upload(role, bytes); !uploaded) {
+        if (auto uploaded = memory_.upload(role, large); !uploaded) {
             return uploaded;
         }
     }
@@ -140,6 +163,7 @@ Result<Done> Run::upload() {
 Result<double> Run::submit(const std::function<void(VkCommandBuffer)>& record) {
     const double start = runner_.now();
     auto done = runner_.run_timed([&](VkCommandBuffer commands) {
+        memory_.record_uploads(commands);
         record(commands);
         memory_.record_control(commands);
     });
@@ -251,8 +275,15 @@ Result<Done> Run::shorten(std::uint64_t items) {
     return job_->set_plan(shortened(wanted_, runner_.options.plan, items));
 }
 
+/// As many as the time allows, or as are expected to do where all disks together are little work.
 std::uint32_t Run::record_rounds(VkCommandBuffer commands) {
-    const std::uint64_t rounds = rounds_.items() / items_of_round(job_->plan());
+    const RunPlan& plan = job_->plan();
+    std::uint64_t rounds = rounds_.items() / items_of_round(plan);
+    const double disks = kDisksPerSample * of_.samples;
+    if (disks * std::max(of_.disk_steps(plan, job().push.capacity), 1.0) <= kFewSteps) {
+        rounds =
+            std::max(rounds, kRoundsBeside + 2 * static_cast<std::uint64_t>(disks) / plan.slots);
+    }
     const auto count =
         static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rounds, 1, kMostRounds));
     runner_.sampler.record_rounds(commands, *job_, count);
@@ -266,6 +297,7 @@ Result<Done> Run::begin_chunk() {
         if (of_.stages.throws == 0 && budget.items >= job_->plan().sample_capacity) {
             record_rounds(commands);
             record_finish(commands, job(), budget);
+            record_samples(commands);
         }
     });
     if (!begun) {
@@ -352,13 +384,24 @@ Progress Run::how_far() const {
 }
 
 Result<Done> Run::gather_chunk() {
-    return run_passes(record_finish);
+    return run_passes(record_finish,
+                      [&](VkCommandBuffer commands, Budget&) { record_samples(commands); });
+}
+
+/// All that there may be, so that they come with the control record.
+void Run::record_samples(VkCommandBuffer commands) {
+    memory_.record_samples(commands,
+                           VkDeviceSize{wanted_.sample_capacity} * sizeof(gpu::SampleRec));
 }
 
 Result<std::vector<gpu::SampleRec>> Run::read_samples() {
     std::vector<gpu::SampleRec> samples(control_.ready);
-    if (auto read = memory_.read(BufferRole::samples, std::as_writable_bytes(std::span(samples)));
-        !read) {
+    const auto bytes = std::as_writable_bytes(std::span(samples));
+    if (const auto there = memory_.samples(); there.size() >= bytes.size()) {
+        std::copy_n(there.begin(), bytes.size(), bytes.begin());
+        return samples;
+    }
+    if (auto read = memory_.read(BufferRole::samples, bytes); !read) {
         return read.error();
     }
     return samples;
@@ -465,9 +508,11 @@ Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
     }
     auto plan = first_plan(runner, domain);
     while (plan) {
+        runner.keep();
         Run run(runner, domain);
         auto set = run.go(progress, *plan);
         if (!set) {
+            runner.release();
             return set.error();
         }
         if (*set) {

@@ -9,12 +9,18 @@
 namespace geodisk {
 namespace {
 
-constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
+constexpr VkDeviceSize kLeastStaging = VkDeviceSize{64} << 10;
+constexpr VkDeviceSize kMostStaging = VkDeviceSize{16} << 20;
+// Of the control record.
+constexpr VkDeviceSize kHeadBytes = 512;
+static_assert(sizeof(gpu::ControlRec) <= kHeadBytes);
+// Of samples that are read before it is known how many there are.
+constexpr VkDeviceSize kMostReadAhead = VkDeviceSize{1} << 20;
 
 } // namespace
 
 RunMemory::~RunMemory() {
-    if (runner_.submitter->abandoned()) {
+    if (submitter_.abandoned()) {
         staging_.abandon();
         for (DeviceBuffer& buffer : buffers_) {
             buffer.abandon();
@@ -22,25 +28,56 @@ RunMemory::~RunMemory() {
     }
 }
 
-Result<Done> RunMemory::allocate(const WorkspaceNeeds& needs) {
+Result<DeviceBuffer> RunMemory::create(VkDeviceSize bytes) {
+    ++made_;
+    return DeviceBuffer::create(sampler_.device, sampler_.vk, memory_, bytes, kWorkspaceUsage,
+                                MemoryKind::device);
+}
+
+Result<Done> RunMemory::reserve_staging(VkDeviceSize bytes) {
+    if (staging_.size() >= bytes) {
+        return Done{};
+    }
+    staging_ = {};
+    auto made = DeviceBuffer::create(
+        sampler_.device, sampler_.vk, memory_, bytes,
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::host);
+    if (!made) {
+        return made.error();
+    }
+    staging_ = std::move(*made);
+    return Done{};
+}
+
+Result<Done> RunMemory::reserve(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes) {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        if (needs.bytes[i] == 0) {
+        if (buffers_[i].size() >= needs.bytes[i]) {
             continue;
         }
-        auto buffer = runner_.allocate(needs.bytes[i], kWorkspaceUsage, MemoryKind::device);
-        if (!buffer) {
-            return buffer.error();
+        buffers_[i] = {};
+        auto made = create(needs.bytes[i]);
+        if (!made) {
+            return made.error();
         }
-        buffers_[i] = std::move(*buffer);
+        buffers_[i] = std::move(*made);
     }
-    auto staging = runner_.allocate(
-        kStagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-        MemoryKind::host);
-    if (!staging) {
-        return staging.error();
+    return reserve_staging(staging_bytes);
+}
+
+Result<Done> RunMemory::allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes) {
+    uploads_.clear();
+    staged_ = 0;
+    const VkDeviceSize staging = std::clamp(kHeadBytes + upload_bytes, kLeastStaging, kMostStaging);
+    const bool had_any = bytes() > 0;
+    auto reserved = reserve(needs, staging);
+    if (!reserved && reserved.error().status == Status::out_of_device_memory && had_any) {
+        for (DeviceBuffer& buffer : buffers_) {
+            buffer = {};
+        }
+        staging_ = {};
+        reserved = reserve(needs, staging);
     }
-    staging_ = std::move(*staging);
-    return Done{};
+    return reserved;
 }
 
 BufferRange RunMemory::range(BufferRole role) const {
@@ -63,12 +100,36 @@ std::uint64_t RunMemory::bytes() const {
     return sum;
 }
 
+std::span<std::byte> RunMemory::stage(BufferRole role, std::size_t size) {
+    const VkDeviceSize from = kHeadBytes + staged_;
+    if (size == 0 || from + size > staging_.size()) {
+        return {};
+    }
+    uploads_.push_back({role, from, size});
+    staged_ += size;
+    return staging_.bytes().subspan(from, size);
+}
+
+void RunMemory::record_uploads(VkCommandBuffer commands) {
+    samples_ = 0;
+    for (const Upload& upload : uploads_) {
+        const VkBufferCopy copy{upload.from, 0, upload.size};
+        sampler_.vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer(upload.role).handle(), 1,
+                                    &copy);
+    }
+    if (!uploads_.empty()) {
+        barrier_transfer_to_compute(sampler_.vk, commands);
+    }
+    uploads_.clear();
+    staged_ = 0;
+}
+
 Result<Done> RunMemory::upload(BufferRole role, std::span<const std::byte> bytes) {
-    const DeviceTable& vk = runner_.engine().vk;
+    const DeviceTable& vk = sampler_.vk;
     for (std::size_t done = 0; done < bytes.size();) {
         const std::size_t part = std::min(bytes.size() - done, staging_.bytes().size());
         std::memcpy(staging_.bytes().data(), bytes.data() + done, part);
-        auto copied = runner_.submitter->run([&](VkCommandBuffer commands) {
+        auto copied = submitter_.run([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{0, done, part};
             vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer(role).handle(), 1, &copy);
             barrier_transfer_to_compute(vk, commands);
@@ -82,10 +143,10 @@ Result<Done> RunMemory::upload(BufferRole role, std::span<const std::byte> bytes
 }
 
 Result<Done> RunMemory::read(BufferRole role, std::span<std::byte> bytes) {
-    const DeviceTable& vk = runner_.engine().vk;
+    const DeviceTable& vk = sampler_.vk;
     for (std::size_t done = 0; done < bytes.size();) {
         const std::size_t part = std::min(bytes.size() - done, staging_.bytes().size());
-        auto copied = runner_.submitter->run([&](VkCommandBuffer commands) {
+        auto copied = submitter_.run([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{done, 0, part};
             vk.vkCmdCopyBuffer(commands, buffer(role).handle(), staging_.handle(), 1, &copy);
             barrier_transfer_to_host(vk, commands);
@@ -99,8 +160,23 @@ Result<Done> RunMemory::read(BufferRole role, std::span<std::byte> bytes) {
     return Done{};
 }
 
+void RunMemory::record_samples(VkCommandBuffer commands, VkDeviceSize bytes) {
+    if (bytes > std::min(staging_.size() - kHeadBytes, kMostReadAhead)) {
+        return;
+    }
+    barrier_compute_to_transfer(sampler_.vk, commands);
+    const VkBufferCopy copy{0, kHeadBytes, bytes};
+    sampler_.vk.vkCmdCopyBuffer(commands, buffer(BufferRole::samples).handle(), staging_.handle(),
+                                1, &copy);
+    samples_ = bytes;
+}
+
+std::span<const std::byte> RunMemory::samples() const {
+    return staging_.bytes().subspan(kHeadBytes, samples_);
+}
+
 void RunMemory::record_control(VkCommandBuffer commands) const {
-    const DeviceTable& vk = runner_.engine().vk;
+    const DeviceTable& vk = sampler_.vk;
     barrier_compute_to_transfer(vk, commands);
     const VkBufferCopy copy{0, 0, sizeof(gpu::ControlRec)};
     vk.vkCmdCopyBuffer(commands, buffer(BufferRole::control).handle(), staging_.handle(), 1, &copy);
@@ -115,7 +191,7 @@ gpu::ControlRec RunMemory::control() const {
 
 Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
     if (bytes > buffer(BufferRole::pool).size()) {
-        auto larger = runner_.allocate(bytes, kWorkspaceUsage, MemoryKind::device);
+        auto larger = create(bytes);
         if (!larger) {
             return larger.error();
         }
@@ -129,15 +205,15 @@ Result<Done> RunMemory::enlarge_samples(const std::array<VkDeviceSize, 3>& bytes
     constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
     std::array<DeviceBuffer, kRoles.size()> larger;
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
-        auto allocated = runner_.allocate(bytes[i], kWorkspaceUsage, MemoryKind::device);
+        auto allocated = create(bytes[i]);
         if (!allocated) {
             return allocated.error();
         }
         larger[i] = std::move(*allocated);
     }
     if (kept > 0) {
-        const DeviceTable& vk = runner_.engine().vk;
-        auto copied = runner_.submitter->run([&](VkCommandBuffer commands) {
+        const DeviceTable& vk = sampler_.vk;
+        auto copied = submitter_.run([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{0, 0, VkDeviceSize{kept} * sizeof(gpu::SampleRec)};
             for (std::size_t i = 0; i < 2; ++i) { // What the buckets held is of no use any more.
                 vk.vkCmdCopyBuffer(commands, buffer(kRoles[i]).handle(), larger[i].handle(), 1,
@@ -146,7 +222,7 @@ Result<Done> RunMemory::enlarge_samples(const std::array<VkDeviceSize, 3>& bytes
             barrier_transfer_to_compute(vk, commands);
         });
         if (!copied) {
-            if (runner_.submitter->abandoned()) {
+            if (submitter_.abandoned()) {
                 for (DeviceBuffer& buffer : larger) {
                     buffer.abandon();
                 }

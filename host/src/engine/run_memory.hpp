@@ -1,34 +1,57 @@
-// The memory of one run: its buffers, and the staging buffer through which the host reaches them.
+// The memory of runs: their buffers, and the staging buffer through which the host reaches them. It
+// is kept from run to run.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "engine/runner_impl.hpp"
+#include "engine/sampler_impl.hpp"
+#include "engine/submitter.hpp"
+#include "records.h"
+#include "vk/buffer.hpp"
 
 namespace geodisk {
 
-/// Once a submission was given up, what it may still use is never freed.
+/// Once a submission was given up, what it may still use is never freed. All that it is made of
+/// must outlive it.
 class RunMemory {
   public:
-    explicit RunMemory(Runner::Impl& runner) : runner_(runner) {}
+    RunMemory(const Sampler::Impl& sampler, Submitter& submitter,
+              const VkPhysicalDeviceMemoryProperties& memory)
+        : sampler_(sampler), submitter_(submitter), memory_(memory) {}
     RunMemory(const RunMemory&) = delete;
     RunMemory& operator=(const RunMemory&) = delete;
     ~RunMemory();
 
-    Result<Done> allocate(const WorkspaceNeeds& needs);
+    /// Buffers for the needs, those there are where they are large enough, and for uploads of so
+    /// many bytes at once, if that is not too much. Where memory is short, all others are freed
+    /// before.
+    Result<Done> allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes);
     Workspace workspace() const;
     BufferRange range(BufferRole role) const;
     /// Of all buffers and the staging.
     std::uint64_t bytes() const;
+    /// Counts the buffers made so far: descriptors of before are stale where it has changed.
+    std::uint32_t made() const { return made_; }
 
+    /// Where to write what is to be uploaded; empty where there is no room. It is up to the next
+    /// record_uploads to do so.
+    std::span<std::byte> stage(BufferRole role, std::size_t size);
+    void record_uploads(VkCommandBuffer commands);
+    /// In as many parts as it takes, at once.
     Result<Done> upload(BufferRole role, std::span<const std::byte> bytes);
-    Result<Done> read(BufferRole role, std::span<std::byte> bytes);
-    /// Records that the staging gets the control record, for once the submission is done.
+
+    /// Records that the host gets the control record.
     void record_control(VkCommandBuffer commands) const;
     gpu::ControlRec control() const;
+    /// Records that it gets so many bytes of the samples, unless they are too many.
+    void record_samples(VkCommandBuffer commands, VkDeviceSize bytes);
+    /// What it got since the last record_uploads.
+    std::span<const std::byte> samples() const;
+    Result<Done> read(BufferRole role, std::span<std::byte> bytes);
 
     /// A pool of at least so many bytes; it loses what it held.
     Result<Done> enlarge_pool(VkDeviceSize bytes);
@@ -36,14 +59,28 @@ class RunMemory {
     Result<Done> enlarge_samples(const std::array<VkDeviceSize, 3>& bytes, std::uint32_t kept);
 
   private:
+    struct Upload {
+        BufferRole role;
+        VkDeviceSize from, size;
+    };
+
+    Result<DeviceBuffer> create(VkDeviceSize bytes);
+    Result<Done> reserve(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes);
+    Result<Done> reserve_staging(VkDeviceSize bytes);
     DeviceBuffer& buffer(BufferRole role) { return buffers_[static_cast<std::size_t>(role)]; }
     const DeviceBuffer& buffer(BufferRole role) const {
         return buffers_[static_cast<std::size_t>(role)];
     }
 
-    Runner::Impl& runner_;
+    const Sampler::Impl& sampler_;
+    Submitter& submitter_;
+    const VkPhysicalDeviceMemoryProperties& memory_;
     std::array<DeviceBuffer, kBufferRoles> buffers_;
-    DeviceBuffer staging_;
+    DeviceBuffer staging_; ///< The control record, then whatever comes or goes.
+    std::vector<Upload> uploads_;
+    VkDeviceSize staged_ = 0;
+    VkDeviceSize samples_ = 0; ///< Bytes of them that were read.
+    std::uint32_t made_ = 0;
 };
 
 } // namespace geodisk

@@ -65,6 +65,10 @@ Runner::Runner(Runner&&) noexcept = default;
 Runner& Runner::operator=(Runner&&) noexcept = default;
 Runner::~Runner() = default;
 
+void Runner::release_memory() noexcept {
+    impl_->release();
+}
+
 const Sampler& Runner::sampler() const noexcept {
     return impl_->sampler;
 }

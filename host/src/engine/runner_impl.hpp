@@ -10,6 +10,7 @@
 
 #include <geodisk/runner.hpp>
 
+#include "engine/run_memory.hpp"
 #include "engine/sampler_impl.hpp"
 #include "engine/stage_clock.hpp"
 #include "engine/submitter.hpp"
@@ -24,6 +25,9 @@ struct Runner::Impl {
     VkPhysicalDeviceMemoryProperties memory{};
     std::optional<Submitter> submitter;
     std::optional<StageClock> clock;
+    // Kept from run to run.
+    std::optional<RunMemory> workspace;
+    std::optional<Job> job;
 
     /// Seconds since some moment; of a test where it says so.
     std::function<double()> now;
@@ -43,6 +47,18 @@ struct Runner::Impl {
     }
 
     static Impl& of(Runner& runner) { return *runner.impl_; }
+    /// Makes room for what is kept.
+    void keep() {
+        if (!workspace) {
+            workspace.emplace(engine(), *submitter, memory);
+        }
+    }
+    /// Frees what is kept.
+    void release() noexcept {
+        settle();
+        job.reset();
+        workspace.reset();
+    }
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// As Submitter::run, for what a job records.
     Result<Done> run_timed(const std::function<void(VkCommandBuffer)>& record);

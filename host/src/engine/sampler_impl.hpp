@@ -91,6 +91,7 @@ struct Job::Impl {
         return own != VK_NULL_HANDLE ? own : sampler->pipelines.common()[kernel];
     }
     void begin_stages(std::uint32_t first, std::uint32_t count);
+    void begin_first_stages();
     /// Candidates of the stages at hand that take part.
     std::uint64_t darts(const gpu::ControlRec& control) const {
         return cut_darts != 0 ? cut_darts : control.drawn;
@@ -101,7 +102,11 @@ struct Job::Impl {
     static Impl& of(Job& job) { return *job.impl_; }
     static const Impl& of(const Job& job) { return *job.impl_; }
     ~Impl();
-    Result<Done> write_sets();
+    /// Sets it out for a domain in a workspace. Of buffers that are as they were, and kernels of
+    /// the same kind of domain, nothing is written anew.
+    Result<Done> set_out(const Domain& of, const RunPlan& new_plan, const Workspace& ranges);
+    Result<Done> allocate_sets();
+    Result<Done> bind(const Workspace& ranges, bool all);
     Result<VkBufferView> create_view(std::size_t buffer, const BufferRange& range) const;
     void destroy_view(VkBufferView view) const;
     /// Binds a buffer wherever kernels use it.

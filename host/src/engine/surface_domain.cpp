@@ -74,12 +74,15 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
     plan.error_bound = first_error(mesh_, params_);
 }
 
-double SurfaceDomain::detect_passes(const RunPlan& plan, std::uint32_t) const {
-    // What a disk takes, by measurement.
+double SurfaceDomain::disk_steps(const RunPlan&, std::uint32_t) const {
+    // By measurement.
     const double faces = faces_per_disk();
-    const double trips = 12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces);
-    const double per_lane = std::ceil(static_cast<double>(plan.slots) / plan.lanes) * trips;
-    return per_lane / (plan.step_budget * gpu::kTripsPerStep) + 2;
+    return (12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces)) / gpu::kTripsPerStep;
+}
+
+double SurfaceDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {
+    const double disks = std::ceil(static_cast<double>(plan.slots) / plan.lanes);
+    return disks * disk_steps(plan, candidates) / plan.step_budget + 2;
 }
 
 std::uint32_t SurfaceDomain::most_steps(const DeviceReport& report,

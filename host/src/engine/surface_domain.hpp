@@ -14,6 +14,7 @@ class SurfaceDomain : public Domain::Impl {
     std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
                     const DeviceReport& report) const override;
+    double disk_steps(const RunPlan& plan, std::uint32_t candidates) const override;
     double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
     std::uint32_t most_steps(const DeviceReport& report,
                              const KernelVariant& variant) const override;

@@ -1,0 +1,176 @@
+// What a runner keeps from run to run, and what a job does.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "gpu/device_run.hpp"
+#include "support/radius_fields.hpp"
+#include "watched_bench.hpp"
+
+namespace geodisk::test {
+namespace {
+
+// What makes or allocates something.
+constexpr const char* kMaking[] = {
+    "vkAllocateMemory",       "vkCreateBuffer",           "vkCreateBufferView",
+    "vkCreateDescriptorPool", "vkAllocateDescriptorSets", "vkCreateComputePipelines",
+    "vkCreateFence",          "vkCreateCommandPool",      "vkAllocateCommandBuffers"};
+
+std::uint32_t made(const Bench& bench) {
+    std::uint32_t calls = 0;
+    for (const char* function : kMaking) {
+        calls += bench.spy.calls(function);
+    }
+    return calls;
+}
+
+Points reference(const PreparedMesh& mesh, const SampleParams& params, const SampleSet& set) {
+    return float_set(mesh, params, set.report.plan.error_bound);
+}
+
+} // namespace
+
+TEST_SUITE("reuse") {
+    TEST_CASE("a second run makes nothing and takes two submissions") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        bench.check_run(runner);
+        for (const std::uint64_t seed : {0u, 7u, 8u}) {
+            bench.params.seed = seed;
+            const std::uint32_t before = made(bench);
+            const std::uint32_t submitted = bench.spy.calls("vkQueueSubmit");
+            const SampleSet set = expect(runner.sample_and_wait(bench.mesh, bench.params));
+            CHECK(points_of(set) == reference(bench.mesh, bench.params, set));
+            CHECK(made(bench) == before);
+            CHECK(bench.spy.calls("vkQueueSubmit") - submitted <= 2);
+        }
+    }
+
+    TEST_CASE("memory grows with a larger job, serves smaller ones, and can be released") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        const auto check = [&](double count) {
+            const SampleParams params = params_for(bench.mesh, count);
+            const SampleSet set = expect(runner.sample_and_wait(bench.mesh, params));
+            CHECK(points_of(set) == reference(bench.mesh, params, set));
+        };
+        check(30);
+        const std::uint32_t small = made(bench);
+        check(3000);
+        const std::uint32_t large = made(bench);
+        CHECK(large > small);
+        check(30);
+        check(30);
+        check(3000);
+        CHECK(made(bench) == large);
+        runner.release_memory();
+        CHECK(bench.spy.calls("vkFreeMemory") == bench.spy.calls("vkAllocateMemory"));
+        runner.release_memory();
+        check(30);
+    }
+
+    TEST_CASE("domains of all kinds follow each other") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        const TestMesh shape = builtin("torus-knot", 8);
+        const PreparedMesh mesh = prepared(shape);
+        const RadiusField radii = radius_field(mesh, wavy_factors(shape, 0.5));
+        BoxParams box{{1, 1}, true};
+        box.min_distance = distance_for_count(box, 60);
+        std::vector<Domain> domains;
+        domains.push_back(expect(Domain::surface(mesh, params_for(mesh, 200))));
+        domains.push_back(expect(Domain::surface(mesh, params_for(mesh, 100, 1, &radii))));
+        domains.push_back(expect(Domain::box(box)));
+        domains.push_back(expect(Domain::surface_in_space(
+            shape.view(), mesh, params_for(mesh, 100), Metric::euclidean)));
+        domains.push_back(expect(Domain::surface(mesh, params_for(mesh, 5000))));
+        std::vector<SampleSet> alone;
+        for (const Domain& domain : domains) {
+            Runner other = expect(bench.create());
+            alone.push_back(expect(other.sample_and_wait(domain)));
+        }
+        for (int turn = 0; turn < 2; ++turn) {
+            for (std::size_t i = 0; i < domains.size(); ++i) {
+                for (std::size_t k = 0; k < domains.size(); ++k) {
+                    CAPTURE(i);
+                    CAPTURE(k);
+                    expect(runner.sample_and_wait(domains[i]));
+                    const SampleSet set = expect(runner.sample_and_wait(domains[k]));
+                    CHECK(points_of(set) == points_of(alone[k]));
+                    CHECK(set.points == alone[k].points);
+                }
+            }
+        }
+    }
+
+    TEST_CASE("a run that fails, or is cancelled, leaves nothing to the next") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        bench.check_run(runner);
+        const auto cancelled = runner.sample_and_wait(bench.mesh, bench.params,
+                                                      [](const Progress&) { return false; });
+        REQUIRE_FALSE(cancelled);
+        CHECK(cancelled.error().status == Status::cancelled);
+        CHECK(bench.spy.calls("vkFreeMemory") == bench.spy.calls("vkAllocateMemory"));
+        bench.check_run(runner);
+    }
+
+    TEST_CASE("memory short beside what is kept is freed before it is an error") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        bench.params = params_for(bench.mesh, 3000);
+        bench.check_run(runner);
+        const std::uint64_t kept =
+            expect(runner.sample_and_wait(bench.mesh, bench.params)).report.device_bytes;
+        // Room for the next job alone.
+        bench.spy.memory_left = kept;
+        bench.spy.gives_back = true;
+        const SampleParams larger = params_for(bench.mesh, 4000);
+        const SampleSet set = expect(runner.sample_and_wait(bench.mesh, larger));
+        CHECK(points_of(set) == reference(bench.mesh, larger, set));
+    }
+
+    TEST_CASE("a job with another seed, and one renewed, in the same workspace") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        SampleParams params = params_for(mesh, 100);
+        DeviceRun run(mesh, params);
+        const auto check = [&] {
+            while (run.control().done == 0) {
+                run.rounds(1);
+                REQUIRE(run.control().overflow == 0);
+            }
+            run.finish();
+            Points points;
+            for (const gpu::SampleRec& s :
+                 run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready)) {
+                points.push_back({s.face, s.weight1, s.weight2});
+            }
+            CHECK(points == float_set(mesh, params, run.plan().error_bound));
+        };
+        run.begin();
+        check();
+        for (const std::uint64_t seed : {std::uint64_t{5}, std::uint64_t{1} << 40}) {
+            params.seed = seed;
+            run.job().set_seed(seed);
+            CHECK(expect(run.job().advance(run.control())).next == Next::begin);
+            run.begin();
+            check();
+        }
+        params.seed = 3;
+        params.stop_count = 20;
+        expect(run.job().renew(expect(Domain::surface(mesh, params)), run.plan()));
+        run.begin();
+        check();
+        // A larger domain does not fit, and the job can still be renewed.
+        const SampleParams large = params_for(mesh, 1000);
+        const auto refused = run.job().renew(expect(Domain::surface(mesh, large)), run.plan());
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().status == Status::workspace_too_small);
+        expect(run.job().renew(expect(Domain::surface(mesh, params)), run.plan()));
+        run.begin();
+        check();
+    }
+}
+
+} // namespace geodisk::test
