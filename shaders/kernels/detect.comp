@@ -315,13 +315,16 @@ void work_on(uint index) {
     save_lane();
 }
 
-shared uint most_trips[gl_WorkGroupSize.x]; // of the lanes of each subgroup
+// Of the lanes of each subgroup. Metal wants a size that no specialization changes.
+shared uint most_trips[kMostCountedSubgroups];
 
 // The lanes of a subgroup go on together until the last has done its trips.
 void count_trips() {
     uint invocation = gl_LocalInvocationID.x;
-    uint subgroup = invocation / kCountedLanes;
-    most_trips[invocation] = 0u;
+    uint subgroup = min(invocation / kCountedLanes, kMostCountedSubgroups - 1u);
+    if (invocation < kMostCountedSubgroups) {
+        most_trips[invocation] = 0u;
+    }
     barrier();
     atomicMax(most_trips[subgroup], trips);
     GEODISK_ADD_WIDE(control.trips_low, control.trips_high, trips)

@@ -198,6 +198,8 @@ GEODISK_CONST uint kMostListed = 0x800000u;
 GEODISK_CONST uint kScanLanes = 128u;
 GEODISK_CONST uint kScanPerLane = 16u;
 GEODISK_CONST uint kScanBlock = 2048u;
+// Subgroups of a work group whose trips are counted one by one.
+GEODISK_CONST uint kMostCountedSubgroups = 256u;
 // Sums that a step of the scan over the lanes of a work group adds up.
 GEODISK_CONST uint kScanTerms = 8u;
 

@@ -1,7 +1,11 @@
 // What a runner keeps from run to run, and what a job does.
 #include <doctest/doctest.h>
 
+#include <array>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "gpu/device_run.hpp"
@@ -82,8 +86,8 @@ TEST_SUITE("reuse") {
         domains.push_back(expect(Domain::surface(mesh, params_for(mesh, 200))));
         domains.push_back(expect(Domain::surface(mesh, params_for(mesh, 100, 1, &radii))));
         domains.push_back(expect(Domain::box(box)));
-        domains.push_back(expect(Domain::surface_in_space(
-            shape.view(), mesh, params_for(mesh, 100), Metric::euclidean)));
+        domains.push_back(expect(Domain::surface_in_space(shape.view(), mesh, params_for(mesh, 100),
+                                                          Metric::euclidean)));
         domains.push_back(expect(Domain::surface(mesh, params_for(mesh, 5000))));
         std::vector<SampleSet> alone;
         for (const Domain& domain : domains) {
@@ -108,8 +112,8 @@ TEST_SUITE("reuse") {
         Bench bench;
         Runner runner = expect(bench.create());
         bench.check_run(runner);
-        const auto cancelled = runner.sample_and_wait(bench.mesh, bench.params,
-                                                      [](const Progress&) { return false; });
+        const auto cancelled =
+            runner.sample_and_wait(bench.mesh, bench.params, [](const Progress&) { return false; });
         REQUIRE_FALSE(cancelled);
         CHECK(cancelled.error().status == Status::cancelled);
         CHECK(bench.spy.calls("vkFreeMemory") == bench.spy.calls("vkAllocateMemory"));
@@ -129,6 +133,65 @@ TEST_SUITE("reuse") {
         const SampleParams larger = params_for(bench.mesh, 4000);
         const SampleSet set = expect(runner.sample_and_wait(bench.mesh, larger));
         CHECK(points_of(set) == reference(bench.mesh, larger, set));
+    }
+
+    TEST_CASE("runners share a sampler, each on a thread of its own") {
+        Bench bench;
+        DeviceRefs refs = bench.context.device();
+        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        const auto sampler = std::make_shared<const Sampler>(expect(Sampler::create(refs)));
+        const QueueRef queue = bench.context.queue();
+        Runner first = expect(Runner::create(sampler, queue));
+        bench.check_run(first);
+        const std::uint32_t pipelines = bench.spy.calls("vkCreateComputePipelines");
+        const std::uint32_t submitted = bench.spy.calls("vkQueueSubmit");
+        {
+            Runner second = expect(Runner::create(sampler, queue));
+            CHECK(bench.spy.calls("vkQueueSubmit") == submitted);
+            bench.check_run(second);
+        }
+        bench.check_run(first);
+        CHECK(bench.spy.calls("vkCreateComputePipelines") == pipelines);
+        const auto none = Runner::create(nullptr, queue);
+        REQUIRE_FALSE(none);
+        CHECK(none.error().status == Status::invalid_argument);
+    }
+
+    TEST_CASE("threads sample with one sampler at a time") {
+        const Context context = expect(Context::create());
+        const auto sampler =
+            std::make_shared<const Sampler>(expect(Sampler::create(context.device())));
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        std::mutex mutex;
+        QueueRef queue = context.queue();
+        queue.lock_user = &mutex;
+        queue.lock = [](void* user) { static_cast<std::mutex*>(user)->lock(); };
+        queue.unlock = [](void* user) { static_cast<std::mutex*>(user)->unlock(); };
+        std::array<std::vector<Points>, 3> found;
+        {
+            std::vector<std::jthread> threads;
+            for (std::size_t t = 0; t < found.size(); ++t) {
+                threads.emplace_back([&, t] {
+                    auto runner = Runner::create(sampler, queue);
+                    for (double count : {50.0, 400.0, 60.0}) {
+                        const auto set =
+                            runner
+                                ? runner->sample_and_wait(
+                                      mesh, params_for(mesh, count + 10 * static_cast<double>(t)))
+                                : Result<SampleSet>(runner.error());
+                        found[t].push_back(set ? points_of(*set) : Points());
+                    }
+                });
+            }
+        }
+        Runner alone = expect(Runner::create(sampler, queue));
+        for (std::size_t t = 0; t < found.size(); ++t) {
+            std::size_t i = 0;
+            for (double count : {50.0, 400.0, 60.0}) {
+                const SampleParams params = params_for(mesh, count + 10 * static_cast<double>(t));
+                CHECK(found[t][i++] == points_of(expect(alone.sample_and_wait(mesh, params))));
+            }
+        }
     }
 
     TEST_CASE("a job with another seed, and one renewed, in the same workspace") {

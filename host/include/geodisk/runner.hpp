@@ -115,6 +115,11 @@ class GEODISK_API Runner {
     /// Errors: as Sampler::create; `device_lacks` when the check fails.
     static Result<Runner> create(const DeviceRefs& device, const QueueRef& queue,
                                  const RunnerOptions& options = {}) noexcept;
+    /// The same with a Sampler that other runners may share, which has compiled its pipelines, and
+    /// on whose device arithmetic is checked once; RunnerOptions::sampler is not looked at. A
+    /// runner per thread costs a command pool and memory of its own.
+    static Result<Runner> create(std::shared_ptr<const Sampler> sampler, const QueueRef& queue,
+                                 const RunnerOptions& options = {}) noexcept;
     Runner(Runner&&) noexcept;
     Runner& operator=(Runner&&) noexcept;
     ~Runner();

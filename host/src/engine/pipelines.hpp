@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -63,7 +64,7 @@ class Pipelines {
     KernelPipelines common_{};
     std::mutex mutex_; ///< Of what follows.
     std::map<KernelVariant, KernelPipelines> own_;
-    bool abandoned_ = false;
+    std::atomic<bool> abandoned_ = false;
 };
 
 } // namespace geodisk

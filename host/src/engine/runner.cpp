@@ -42,8 +42,8 @@ check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const Que
 
 } // namespace
 
-Runner::Impl::Impl(Sampler s)
-    : sampler(std::move(s)), now([] {
+Runner::Impl::Impl(std::shared_ptr<const Sampler> s)
+    : shared_sampler(std::move(s)), now([] {
           const auto time = std::chrono::steady_clock::now().time_since_epoch();
           return std::chrono::duration<double>(time).count();
       }) {}
@@ -107,6 +107,19 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
         if (!sampler) {
             return sampler.error();
         }
+        return create(std::make_shared<const Sampler>(std::move(*sampler)), queue, options);
+    });
+}
+
+Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const QueueRef& queue,
+                              const RunnerOptions& options) noexcept {
+    return guarded([&]() -> Result<Runner> {
+        if (!sampler) {
+            return Error{Status::invalid_argument, "the sampler is null"};
+        }
+        auto impl = std::make_unique<Impl>(std::move(sampler));
+        const DeviceRefs& device = impl->engine().device;
+        const DeviceTable& vk = impl->engine().vk;
         const auto instance = load_instance_table(device.get_instance_proc_addr, device.instance);
         if (!instance) {
             return instance.error();
@@ -115,27 +128,27 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
         if (!family) {
             return family.error();
         }
-        auto impl = std::make_unique<Impl>(std::move(*sampler));
-        const DeviceRefs& kept = impl->engine().device; // The caller's need not last.
-        const DeviceTable& vk = impl->engine().vk;
         impl->options = options;
         instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
-        auto submitter = Submitter::create(kept, vk, queue, impl->stall_limit());
+        auto submitter = Submitter::create(device, vk, queue, impl->stall_limit());
         if (!submitter) {
             return submitter.error();
         }
         impl->submitter.emplace(std::move(*submitter));
         if (options.time_stages && family->timestampValidBits != 0) {
             auto clock =
-                StageClock::create(kept, vk, impl->sampler.report().limits.timestamp_period,
+                StageClock::create(device, vk, impl->sampler.report().limits.timestamp_period,
                                    family->timestampValidBits);
             if (!clock) {
                 return clock.error();
             }
             impl->clock.emplace(std::move(*clock));
         }
-        if (auto checked = impl->check_rounding(); !checked) {
-            return checked.error();
+        if (!impl->engine().rounds_well) {
+            if (auto checked = impl->check_rounding(); !checked) {
+                return checked.error();
+            }
+            impl->engine().rounds_well = true;
         }
         return Runner(std::move(impl));
     });

@@ -20,7 +20,8 @@
 namespace geodisk {
 
 struct Runner::Impl {
-    Sampler sampler;
+    std::shared_ptr<const Sampler> shared_sampler;
+    const Sampler& sampler = *shared_sampler;
     RunnerOptions options;
     VkPhysicalDeviceMemoryProperties memory{};
     std::optional<Submitter> submitter;
@@ -32,7 +33,7 @@ struct Runner::Impl {
     /// Seconds since some moment; of a test where it says so.
     std::function<double()> now;
 
-    explicit Impl(Sampler s);
+    explicit Impl(std::shared_ptr<const Sampler> s);
     ~Impl() { settle(); }
 
     /// Once a submission was given up, keeps all that it may still use from being destroyed. The

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <utility>
 
@@ -23,7 +24,9 @@ struct Sampler::Impl {
     Events events;
     mutable Pipelines pipelines; ///< Compiled on first use.
     /// The device may be using the pipelines and what jobs hold for ever: destroy none.
-    bool abandoned = false;
+    std::atomic<bool> abandoned = false;
+    /// Whether its arithmetic was found to be as decisions need.
+    mutable std::atomic<bool> rounds_well = false;
 
     Impl(const DeviceRefs& refs, DeviceReport of_device, const DeviceTable& table,
          const KernelChoices& chosen, Events order)

@@ -83,6 +83,7 @@ BoxJob parse_job(const BoxOptions& options) {
     }
     box.throws = job.method.throws_for(expected_count(box));
     job.runner.pool_bytes = options.run.pool_bytes();
+    job.runner.stall_seconds = options.run.stall_timeout;
     job.runner.sampler.count_calls = job.method.counts_calls;
     return job;
 }

@@ -37,6 +37,10 @@ void add_run_options(CLI::App& command, RunOptions& options) {
                "Most bytes on the device for disks in progress, with\n"
                "K, M or G; does not change the samples")
         ->capture_default_str();
+    add_option(command, "--stall-timeout", options.stall_timeout, "SECONDS",
+               "Give the device up when it has not answered for so long\n"
+               "(120 s, and 600 s on a CPU)")
+        ->check(CLI::PositiveNumber);
     command
         .add_flag("--validate", options.validate,
                   "Run with the Vulkan validation layer, fail on any message")

@@ -39,6 +39,7 @@ void add_output_options(CLI::App& command, OutputOptions& options);
 /// How to sample on a device, as given on the command line.
 struct RunOptions {
     std::string seed = "0", device, memory = "256M";
+    double stall_timeout = 0; ///< Seconds; 0 for the device's own.
     bool validate = false;
 
     /// Throw UserError(usage) naming the option whose value will not do.
