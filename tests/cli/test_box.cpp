@@ -185,7 +185,7 @@ TEST_CASE("box: the count is about what was asked for, the seed repeats it") {
     CHECK(std::abs(static_cast<double>(rows_of(first).size()) - 1000) < 50);
     CHECK(boxed(folder, "b.csv", options) == first);
     Arguments small = options;
-    small.insert(small.end(), {"--memory", "64K"});
+    small.insert(small.end(), {"--memory", "1M"});
     CHECK(boxed(folder, "b.csv", small) == first);
     CHECK(boxed(folder, "b.csv", {"--dim", "3", "--count", "1000", "--seed", "4"}) != first);
 }

@@ -194,6 +194,43 @@ TEST_SUITE("reuse") {
         }
     }
 
+    TEST_CASE("a run makes do with the bytes it may take") {
+        Bench bench;
+        bench.params = params_for(bench.mesh, 2000);
+        Runner roomy = expect(bench.create());
+        const SampleSet whole = expect(roomy.sample_and_wait(bench.mesh, bench.params));
+        for (const double part : {1.0, 0.8, 0.6}) {
+            CAPTURE(part);
+            RunnerOptions options;
+            options.device_bytes =
+                static_cast<std::uint64_t>(part * static_cast<double>(whole.report.device_bytes));
+            Runner runner = expect(bench.create(options));
+            const SampleSet set = expect(runner.sample_and_wait(bench.mesh, bench.params));
+            CHECK(points_of(set) == points_of(whole));
+            CHECK(set.report.device_bytes <= options.device_bytes);
+        }
+        RunnerOptions options;
+        options.device_bytes = 100'000;
+        Runner tight = expect(bench.create(options));
+        const auto refused = tight.sample_and_wait(bench.mesh, bench.params);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().status == Status::out_of_device_memory);
+        CHECK(refused.error().message.find("may take only 100000") != std::string::npos);
+    }
+
+    TEST_CASE("where memory is short, half as much is tried") {
+        Bench bench;
+        bench.params = params_for(bench.mesh, 2000);
+        Runner runner = expect(bench.create());
+        bench.spy.gives_back = true;
+        const SampleSet whole = expect(runner.sample_and_wait(bench.mesh, bench.params));
+        runner.release_memory();
+        bench.spy.memory_left = whole.report.device_bytes * 3 / 4;
+        const SampleSet set = expect(runner.sample_and_wait(bench.mesh, bench.params));
+        CHECK(points_of(set) == points_of(whole));
+        CHECK(set.report.device_bytes <= whole.report.device_bytes * 3 / 4);
+    }
+
     TEST_CASE("a job with another seed, and one renewed, in the same workspace") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         SampleParams params = params_for(mesh, 100);

@@ -38,8 +38,9 @@ ProgressCallback show_progress(ProgressLine& progress, double expected) {
 }
 
 /// Throws UserError for an error of a run that --memory can help with.
-void check_run(const Error& error) {
-    if (error.status == Status::workspace_too_small) {
+void check_run(const Error& error, bool bounded) {
+    if (error.status == Status::workspace_too_small ||
+        (error.status == Status::out_of_device_memory && bounded)) {
         throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
     }
 }
@@ -80,7 +81,7 @@ std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
     progress.clear();
     check_interrupted();
     if (!result) {
-        check_run(result.error());
+        check_run(result.error(), runner_options.device_bytes != 0);
     }
     SampleSet set = take(std::move(result));
     check_validation(context);

@@ -33,6 +33,8 @@ struct DeviceRefs {
     /// Used, if set, for every pipeline geodisk creates. Access to it is as Vulkan defines:
     /// internally synchronized unless created otherwise.
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    /// Whether VK_EXT_memory_budget is enabled: Runner then keeps to the memory that is free.
+    bool memory_budget = false;
     /// Passed, if set, to each create and destroy call; must outlive the objects as well.
     const VkAllocationCallbacks* host_allocator = nullptr;
 };

@@ -88,6 +88,11 @@ struct Progress {
 
 struct RunnerOptions {
     SamplerOptions sampler;
+    /// Most bytes that a run takes on the device, staging included; 0 for no bound of the caller's.
+    /// Fewer stages at once and a smaller pool make do with less; no choice changes the samples.
+    /// Where memory is short without a bound, the run is tried with half as much before it is an
+    /// error.
+    std::uint64_t device_bytes = 0;
     /// Most bytes of the pool, which holds disks in progress and lists of conflicts; bounded by one
     /// binding of the device.
     std::uint64_t pool_bytes = std::uint64_t{256} << 20;

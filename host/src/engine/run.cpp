@@ -11,6 +11,7 @@
 
 #include "constants.h"
 #include "engine/domain_impl.hpp"
+#include "engine/memory_budget.hpp"
 #include "engine/pace.hpp"
 #include "engine/plan.hpp"
 #include "engine/record.hpp"
@@ -68,6 +69,8 @@ class Run {
     const Job::Impl& job() const { return Job::Impl::of(*job_); }
     Result<Done> shorten(std::uint64_t items);
     std::uint32_t record_rounds(VkCommandBuffer commands);
+    /// That the pool may take.
+    std::uint64_t pool_bytes() const;
     Progress how_far() const;
     Result<double> submit(const std::function<void(VkCommandBuffer)>& record);
     using Passes = bool (*)(VkCommandBuffer, Job::Impl&, Budget&);
@@ -236,7 +239,7 @@ Result<Done> Run::enlarge_samples(std::uint32_t capacity) {
 /// Until the samples are there, or the run has to start over.
 Result<Advice> Run::sample(const ProgressCallback& progress) {
     for (;;) {
-        auto advice = job_->advance(control_, runner_.options.pool_bytes);
+        auto advice = job_->advance(control_, pool_bytes());
         if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
             return advice;
         }
@@ -247,6 +250,15 @@ Result<Advice> Run::sample(const ProgressCallback& progress) {
             return Error{Status::cancelled, "cancelled"};
         }
     }
+}
+
+std::uint64_t Run::pool_bytes() const {
+    const std::uint64_t others = memory_.bytes() - memory_.range(BufferRole::pool).size;
+    const std::uint64_t allowed = runner_.bytes_allowed();
+    const std::uint64_t left = allowed > others ? allowed - others : 0;
+    // It has what it has.
+    return std::max(std::min(left, runner_.options.pool_bytes),
+                    memory_.range(BufferRole::pool).size);
 }
 
 Result<Done> Run::follow(const Advice& advice) {
@@ -487,18 +499,6 @@ SampleSet Run::to_set(const std::vector<gpu::SampleRec>& records) const {
     return set;
 }
 
-/// What Sampler plans, with fewer stages where memory asks for that, and what the caller wants.
-Result<RunPlan> first_plan(const Runner::Impl& runner, const Domain& domain) {
-    auto plan = runner.sampler.plan_run(domain, runner.options.pool_bytes);
-    if (!plan) {
-        return plan;
-    }
-    const Domain::Impl& of = Domain::Impl::of(domain);
-    const std::uint64_t in_memory = runner.memory_for_candidates() / of.bytes_per_candidate;
-    plan->stages = std::min(plan->stages, stages_at_once(of.stages, in_memory));
-    return overridden(*plan, runner.options.plan);
-}
-
 } // namespace
 
 Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
@@ -506,18 +506,26 @@ Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
     if (auto usable = runner.submitter->ready(); !usable) {
         return usable.error();
     }
-    auto plan = first_plan(runner, domain);
+    auto plan = plan_within(runner, domain, runner.bytes_allowed());
     while (plan) {
         runner.keep();
         Run run(runner, domain);
         auto set = run.go(progress, *plan);
-        if (!set) {
-            runner.release();
-            return set.error();
-        }
-        if (*set) {
+        if (set && *set) {
             return std::move(**set);
         }
+        if (set) {
+            continue; // With a wider guard.
+        }
+        const bool is_short = runner.workspace->was_short();
+        runner.release();
+        const auto tried = is_short ? bytes_of(runner, domain, *plan) : set.error();
+        auto smaller = tried ? plan_within(runner, domain, *tried / 2) : tried.error();
+        if (!smaller) {
+            return set.error();
+        }
+        smaller->error_bound = plan->error_bound;
+        plan = std::move(smaller);
     }
     return plan.error();
 }

@@ -28,10 +28,16 @@ RunMemory::~RunMemory() {
     }
 }
 
-Result<DeviceBuffer> RunMemory::create(VkDeviceSize bytes) {
+Result<DeviceBuffer> RunMemory::create(VkDeviceSize bytes, VkBufferUsageFlags usage,
+                                       MemoryKind kind) {
     ++made_;
-    return DeviceBuffer::create(sampler_.device, sampler_.vk, memory_, bytes, kWorkspaceUsage,
-                                MemoryKind::device);
+    auto made = DeviceBuffer::create(sampler_.device, sampler_.vk, memory_, bytes, usage, kind);
+    was_short_ = !made && made.error().vk_result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    return made;
+}
+
+std::uint64_t RunMemory::staging_bytes(std::uint64_t upload_bytes) {
+    return std::clamp(kHeadBytes + upload_bytes, kLeastStaging, kMostStaging);
 }
 
 Result<Done> RunMemory::reserve_staging(VkDeviceSize bytes) {
@@ -39,9 +45,8 @@ Result<Done> RunMemory::reserve_staging(VkDeviceSize bytes) {
         return Done{};
     }
     staging_ = {};
-    auto made = DeviceBuffer::create(
-        sampler_.device, sampler_.vk, memory_, bytes,
-        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::host);
+    auto made = create(bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                       MemoryKind::host);
     if (!made) {
         return made.error();
     }

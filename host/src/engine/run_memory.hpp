@@ -26,6 +26,9 @@ class RunMemory {
     RunMemory& operator=(const RunMemory&) = delete;
     ~RunMemory();
 
+    /// Of the staging, for uploads of so many bytes.
+    static std::uint64_t staging_bytes(std::uint64_t upload_bytes);
+
     /// Buffers for the needs, those there are where they are large enough, and for uploads of so
     /// many bytes at once, if that is not too much. Where memory is short, all others are freed
     /// before.
@@ -36,6 +39,8 @@ class RunMemory {
     std::uint64_t bytes() const;
     /// Counts the buffers made so far: descriptors of before are stale where it has changed.
     std::uint32_t made() const { return made_; }
+    /// Whether memory was short for one.
+    bool was_short() const { return was_short_; }
 
     /// Where to write what is to be uploaded; empty where there is no room. It is up to the next
     /// record_uploads to do so.
@@ -64,7 +69,8 @@ class RunMemory {
         VkDeviceSize from, size;
     };
 
-    Result<DeviceBuffer> create(VkDeviceSize bytes);
+    Result<DeviceBuffer> create(VkDeviceSize bytes, VkBufferUsageFlags usage = kWorkspaceUsage,
+                                MemoryKind kind = MemoryKind::device);
     Result<Done> reserve(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes);
     Result<Done> reserve_staging(VkDeviceSize bytes);
     DeviceBuffer& buffer(BufferRole role) { return buffers_[static_cast<std::size_t>(role)]; }
@@ -81,6 +87,7 @@ class RunMemory {
     VkDeviceSize staged_ = 0;
     VkDeviceSize samples_ = 0; ///< Bytes of them that were read.
     std::uint32_t made_ = 0;
+    bool was_short_ = false;
 };
 
 } // namespace geodisk

@@ -78,15 +78,27 @@ Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFla
     return DeviceBuffer::create(engine().device, engine().vk, memory, bytes, usage, kind);
 }
 
-VkDeviceSize Runner::Impl::memory_for_candidates() const {
-    VkDeviceSize largest = 0;
-    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
-        const VkMemoryHeap& heap = memory.memoryHeaps[i];
-        if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) {
-            largest = std::max(largest, heap.size);
-        }
+std::uint64_t Runner::Impl::bytes_allowed() const {
+    std::uint64_t bytes = options.device_bytes != 0 ? options.device_bytes : ~std::uint64_t{0};
+    const DeviceRefs& refs = engine().device;
+    if (!refs.memory_budget) {
+        return bytes;
     }
-    return largest / 4 * 3; // A quarter is left for all else.
+    VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{};
+    budget.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
+    VkPhysicalDeviceMemoryProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2;
+    properties.pNext = &budget;
+    instance.vkGetPhysicalDeviceMemoryProperties2(refs.physical_device, &properties);
+    std::uint64_t most_free = 0;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        const bool is_local = (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0;
+        const VkDeviceSize used = std::min(budget.heapUsage[i], budget.heapBudget[i]);
+        most_free = is_local ? std::max(most_free, budget.heapBudget[i] - used) : most_free;
+    }
+    // What is kept serves as well.
+    const std::uint64_t kept = workspace ? workspace->bytes() : 0;
+    return most_free > 0 ? std::min(bytes, most_free + kept) : bytes;
 }
 
 Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>& record) {
@@ -129,6 +141,7 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
             return family.error();
         }
         impl->options = options;
+        impl->instance = *instance;
         instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
         auto submitter = Submitter::create(device, vk, queue, impl->stall_limit());
         if (!submitter) {

@@ -23,6 +23,7 @@ struct Runner::Impl {
     std::shared_ptr<const Sampler> shared_sampler;
     const Sampler& sampler = *shared_sampler;
     RunnerOptions options;
+    InstanceTable instance;
     VkPhysicalDeviceMemoryProperties memory{};
     std::optional<Submitter> submitter;
     std::optional<StageClock> clock;
@@ -67,8 +68,8 @@ struct Runner::Impl {
     std::chrono::duration<double> stall_limit() const;
     /// That a submission is to take.
     double submission_seconds() const;
-    /// Bytes of device memory that candidates may take.
-    VkDeviceSize memory_for_candidates() const;
+    /// Bytes of device memory that a run may take: as the caller says, and as there are free.
+    std::uint64_t bytes_allowed() const;
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind) const;
 

@@ -2,6 +2,7 @@
 
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "owned/context_access.hpp"
 #include "owned/instance.hpp"
@@ -26,7 +27,7 @@ std::vector<DeviceReport> take_reports(std::vector<FoundDevice>&& found) {
 /// A device with one queue of `family` and no optional feature, robustBufferAccess included: the
 /// kernels check their indices themselves.
 Result<VkDevice> create_device(const InstanceTable& vk, VkPhysicalDevice physical_device,
-                               std::uint32_t family) {
+                               std::uint32_t family, bool memory_budget) {
     const Result<bool> portability = has_device_extension(vk, physical_device, kPortabilitySubset);
     if (!portability)
         return portability.error();
@@ -43,10 +44,15 @@ Result<VkDevice> create_device(const InstanceTable& vk, VkPhysicalDevice physica
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.pEnabledFeatures = &no_features;
+    std::vector<const char*> extensions;
     if (*portability) { // Where it is listed, Vulkan demands that it be enabled.
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &kPortabilitySubset;
+        extensions.push_back(kPortabilitySubset);
     }
+    if (memory_budget) {
+        extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;
     const VkResult result = vk.vkCreateDevice(physical_device, &info, nullptr, &device);
     if (result != VK_SUCCESS)
@@ -60,6 +66,7 @@ struct Context::Impl {
     std::unique_ptr<Instance> instance;
     DeviceReport report;
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+    bool memory_budget = false; ///< Whether the extension is enabled.
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     PFN_vkDestroyDevice vkDestroyDevice = nullptr;
@@ -80,9 +87,14 @@ struct Context::Impl {
 Result<Done> Context::Impl::open_device() {
     const InstanceTable& vk = instance->functions();
     const std::uint32_t family = report.compute_queue_family.value_or(0);
-    const Result<VkDevice> created = create_device(vk, physical_device, family);
+    const Result<bool> budget =
+        has_device_extension(vk, physical_device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    if (!budget)
+        return budget.error();
+    const Result<VkDevice> created = create_device(vk, physical_device, family, *budget);
     if (!created)
         return created.error();
+    memory_budget = *budget;
     device = *created;
     vkDestroyDevice =
         reinterpret_cast<PFN_vkDestroyDevice>(vk.vkGetDeviceProcAddr(device, "vkDestroyDevice"));
@@ -161,6 +173,7 @@ DeviceRefs Context::device() const noexcept {
     refs.device = impl_->device;
     refs.get_instance_proc_addr = impl_->instance->get_instance_proc_addr();
     refs.api_version = Instance::kApiVersion;
+    refs.memory_budget = impl_->memory_budget;
     return refs;
 }
 

@@ -18,6 +18,7 @@
     X(vkGetPhysicalDeviceProperties)             \
     X(vkGetPhysicalDeviceProperties2)            \
     X(vkGetPhysicalDeviceMemoryProperties)       \
+    X(vkGetPhysicalDeviceMemoryProperties2)      \
     X(vkGetPhysicalDeviceQueueFamilyProperties)  \
     X(vkCreateDevice)                            \
     X(vkGetDeviceProcAddr)

@@ -82,7 +82,7 @@ BoxJob parse_job(const BoxOptions& options) {
         box.min_distance = distance_for_count(box, job.wanted_count);
     }
     box.throws = job.method.throws_for(expected_count(box));
-    job.runner.pool_bytes = options.run.pool_bytes();
+    job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_timeout;
     job.runner.sampler.count_calls = job.method.counts_calls;
     return job;

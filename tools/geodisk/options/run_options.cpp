@@ -24,8 +24,8 @@ std::uint64_t RunOptions::parsed_seed() const {
     return parse_seed("--seed", seed);
 }
 
-std::uint64_t RunOptions::pool_bytes() const {
-    return parse_bytes("--memory", memory);
+std::uint64_t RunOptions::device_bytes() const {
+    return memory.empty() ? 0 : parse_bytes("--memory", memory);
 }
 
 void add_run_options(CLI::App& command, RunOptions& options) {
@@ -34,9 +34,8 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     add_option(command, "--device", options.device, "NAME|INDEX",
                "Device by name, index or UUID (geodisk info)");
     add_option(command, "--memory", options.memory, "BYTES",
-               "Most bytes on the device for disks in progress, with\n"
-               "K, M or G; does not change the samples")
-        ->capture_default_str();
+               "Most bytes to take on the device, with K, M or G;\n"
+               "does not change the samples");
     add_option(command, "--stall-timeout", options.stall_timeout, "SECONDS",
                "Give the device up when it has not answered for so long\n"
                "(120 s, and 600 s on a CPU)")
