@@ -87,6 +87,7 @@ bool count(uint slot) {
         slots[slot].turn = last;
         slots[slot].scan_place = nearest;
         atomicExchange(slots[slot].calls, calls);
+        atomicAdd(control.steps, 1u);
     }
     return is_known;
 }

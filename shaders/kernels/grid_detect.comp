@@ -242,6 +242,7 @@ void find_conflicts(uint slot) {
         trip();
         ++own_disks.steps;
     }
+    own_disks.steps = max(own_disks.steps, 1u);
     slots[slot].idle_conflicts = idle_conflicts;
     slots[slot].active_conflicts = active_conflicts;
     slots[slot].turn = turn;
@@ -252,7 +253,7 @@ void find_conflicts(uint slot) {
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
     } else if (!running() && block_conflicts(slot)) {
-        own_disks = DiskTotals(max(own_disks.steps, 1u), 1u, rows_visited, tested, 0u, 0u,
+        own_disks = DiskTotals(own_disks.steps, 1u, rows_visited, tested, 0u, 0u,
                                idle_conflicts + active_conflicts);
         complete(slot);
     }

@@ -135,6 +135,7 @@ uint decide(uint slot, uint cursor, uint budget) {
         finish(slot, is_rejected);
     } else {
         atomicExchange(slots[slot].cursor, cursor | kSuspended);
+        atomicAdd(control.steps, 1u);
     }
     return left;
 }

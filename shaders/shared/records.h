@@ -124,7 +124,7 @@ struct ControlRec {
     uint ordered;          // accepted ones that need not be put in order any more
     uint next_ordered;     // what that will be the next time
     uint iterations;       // batches selected
-    uint steps;            // of lanes, modulo 2^32
+    uint steps;            // of lanes, and slots gone on with later, modulo 2^32
     uint disks;            // disks completed
     uint windows_low;      // windows pushed in completed disks, 64 bits
     uint windows_high;

@@ -58,15 +58,6 @@ bool has(const std::vector<Next>& steps, Next next) {
     return std::find(steps.begin(), steps.end(), next) != steps.end();
 }
 
-Points ready_points(const DeviceRun& run) {
-    Points points;
-    for (const gpu::SampleRec& s :
-         run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready)) {
-        points.push_back({s.face, s.weight1, s.weight2});
-    }
-    return points;
-}
-
 struct Knot {
     PreparedMesh mesh = prepared(builtin("torus-knot", 12));
     SampleParams params = params_for(mesh, 60);

@@ -171,6 +171,27 @@ TEST_SUITE("pace") {
               4 * device.dispatches[19]);
     }
 
+    TEST_CASE("a step at a time, in disks and lists however long, is progress") {
+        const Context context = expect(Context::create());
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        SampleParams params = params_for(mesh, 6);
+        params.pool_ratio = 1000;
+        BoxParams box{{1, 1, 1}, true};
+        box.pool_ratio = 10000;
+        box.min_distance = distance_for_count(box, 20);
+        RunnerOptions options;
+        Runner fast = expect(Runner::create(context.device(), context.queue(), options));
+        options.submission_seconds = 1e-9;
+        options.sampler.count_calls = true;
+        Runner slow = expect(Runner::create(context.device(), context.queue(), options));
+        const SampleSet set = expect(slow.sample_and_wait(mesh, params));
+        CHECK(points_of(set) == points_of(expect(fast.sample_and_wait(mesh, params))));
+        const Domain domain = expect(Domain::box(box));
+        const SampleSet points = expect(slow.sample_and_wait(domain));
+        CHECK(points.report.most_conflicts > 5 * gpu::kListPerDispatch);
+        CHECK(points.points == expect(fast.sample_and_wait(domain)).points);
+    }
+
     TEST_CASE("a device that does nothing is an error, not an endless loop") {
         Bench bench;
         RunnerOptions options;

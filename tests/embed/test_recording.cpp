@@ -91,15 +91,6 @@ void decide(DeviceRun& run) {
     }
 }
 
-Points ready_points(const DeviceRun& run) {
-    Points points;
-    for (const gpu::SampleRec& s :
-         run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready)) {
-        points.push_back({s.face, s.weight1, s.weight2});
-    }
-    return points;
-}
-
 void check_finishes_in_box(const RunPlan& plan, bool is_tight = false) {
     BoxParams box{{1, 1, 1}, true};
     box.min_distance = distance_for_count(box, 60);

@@ -241,12 +241,7 @@ TEST_SUITE("reuse") {
                 REQUIRE(run.control().overflow == 0);
             }
             run.finish();
-            Points points;
-            for (const gpu::SampleRec& s :
-                 run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready)) {
-                points.push_back({s.face, s.weight1, s.weight2});
-            }
-            CHECK(points == float_set(mesh, params, run.plan().error_bound));
+            CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
         };
         run.begin();
         check();

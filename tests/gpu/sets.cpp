@@ -58,4 +58,13 @@ SampleParams params_for(const PreparedMesh& mesh, double count, std::uint64_t se
     return params;
 }
 
+Points ready_points(const DeviceRun& run) {
+    Points points;
+    for (const gpu::SampleRec& s :
+         run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready)) {
+        points.push_back({s.face, s.weight1, s.weight2});
+    }
+    return points;
+}
+
 } // namespace geodisk::test

@@ -7,6 +7,8 @@
 
 #include <geodisk/runner.hpp>
 
+#include "device_run.hpp"
+
 namespace geodisk::test {
 
 /// Where a sample lies.
@@ -32,5 +34,8 @@ SampleSet sample(const PreparedMesh& mesh, const SampleParams& params, RunnerOpt
 /// Parameters for about `count` samples, of these radii.
 SampleParams params_for(const PreparedMesh& mesh, double count, std::uint64_t seed = 1,
                         const RadiusField* radii = nullptr);
+
+/// The samples that a run has put in order so far.
+Points ready_points(const DeviceRun& run);
 
 } // namespace geodisk::test

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "engine/box_grid.hpp"
@@ -89,13 +90,15 @@ double distance_for_count(const BoxParams& box, double count) noexcept {
         return 0;
     }
     const auto [shortest, longest] = std::minmax_element(box.extents.begin(), box.extents.end());
-    // The more samples the shorter: halve the exponents in between.
-    double low = std::log(*shortest) - 30, high = std::log(*longest) + 3;
-    for (int i = 0; i < 100; ++i) {
-        const double middle = 0.5 * (low + high);
-        (count_at(box, std::exp(middle)) > count ? low : high) = middle;
+    // The more samples the shorter. The bits of positive numbers compare as these do, so halving
+    // what is between them finds the same last bit everywhere, whatever the mathematical library.
+    auto low = std::bit_cast<std::uint64_t>(std::ldexp(*shortest, -44));
+    auto high = std::bit_cast<std::uint64_t>(std::ldexp(*longest, 5));
+    while (low + 1 < high) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        (count_at(box, std::bit_cast<double>(middle)) > count ? low : high) = middle;
     }
-    return std::exp(high);
+    return std::bit_cast<double>(high);
 }
 
 Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {

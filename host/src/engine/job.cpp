@@ -349,7 +349,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     if (!pipelines) {
         return pipelines.error();
     }
-    const bool has_sets = descriptor_pool != VK_NULL_HANDLE && domain == variant.domain;
+    const bool has_sets = sets_for == variant.domain;
     const bool had_single = push.all_single != 0;
     own_pipelines = *pipelines;
     domain = variant.domain;
@@ -372,12 +372,20 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     of.set_push(push, new_plan);
     apply_plan(new_plan);
     begin_first_stages();
+    const bool is_bound = has_sets && had_single == (push.all_single != 0);
+    if (!is_bound) {
+        sets_for.reset(); // Until all is bound.
+    }
     if (!has_sets) {
         if (auto allocated = allocate_sets(); !allocated) {
             return allocated;
         }
     }
-    return bind(ranges, !has_sets || had_single != (push.all_single != 0));
+    if (auto bound = bind(ranges, !is_bound); !bound) {
+        return bound;
+    }
+    sets_for = variant.domain;
+    return Done{};
 }
 
 /// Binds what has changed, or all.

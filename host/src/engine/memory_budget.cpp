@@ -41,8 +41,7 @@ Result<std::uint64_t> bytes_of(const Runner::Impl& runner, const Domain& domain,
     return needs->total() + RunMemory::staging_bytes(upload_bytes(runner.sampler, domain));
 }
 
-Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain,
-                            std::uint64_t bytes) {
+Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes) {
     const Sampler& sampler = runner.sampler;
     const std::uint64_t one = sampler.report().limits.max_memory_allocation_size;
     std::uint64_t pool = std::min(runner.options.pool_bytes, one);
@@ -74,13 +73,12 @@ Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain,
             stages = plan->stages - 1;
         } else {
             return Error{Status::out_of_device_memory,
-                         largest > one
-                             ? "a buffer of the run takes " + std::to_string(largest) +
-                                   " bytes, but the device allocates at most " +
-                                   std::to_string(one) + " at once"
-                             : "the run takes " + std::to_string(*total) +
-                                   " bytes on the device at least, but may take only " +
-                                   std::to_string(bytes)};
+                         largest > one ? "a buffer of the run takes " + std::to_string(largest) +
+                                             " bytes, but the device allocates at most " +
+                                             std::to_string(one) + " at once"
+                                       : "the run takes " + std::to_string(*total) +
+                                             " bytes on the device at least, but may take only " +
+                                             std::to_string(bytes)};
         }
     }
 }

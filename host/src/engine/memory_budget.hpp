@@ -7,8 +7,8 @@
 
 namespace geodisk {
 
-/// The plan for a run of at most so many bytes on the device, staging included: with fewer stages at
-/// once and a smaller pool where they are too large otherwise, and with what the caller wants.
+/// The plan for a run of at most so many bytes on the device, staging included: with fewer stages
+/// at once and a smaller pool where they are too large otherwise, and with what the caller wants.
 /// Errors: `out_of_device_memory` naming the least bytes, as plan_run and workspace_needs.
 Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes);
 

@@ -499,6 +499,17 @@ SampleSet Run::to_set(const std::vector<gpu::SampleRec>& records) const {
     return set;
 }
 
+/// A run that fails, whether by an error or an exception, leaves nothing to those to come.
+struct Releaser {
+    Runner::Impl& runner;
+    bool has_succeeded = false;
+    ~Releaser() {
+        if (!has_succeeded) {
+            runner.release();
+        }
+    }
+};
+
 } // namespace
 
 Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
@@ -506,20 +517,24 @@ Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
     if (auto usable = runner.submitter->ready(); !usable) {
         return usable.error();
     }
+    Releaser releaser{runner};
     auto plan = plan_within(runner, domain, runner.bytes_allowed());
     while (plan) {
         runner.keep();
         Run run(runner, domain);
         auto set = run.go(progress, *plan);
         if (set && *set) {
+            releaser.has_succeeded = true;
             return std::move(**set);
         }
         if (set) {
             continue; // With a wider guard.
         }
-        const bool is_short = runner.workspace->was_short();
+        if (!runner.workspace->was_short()) {
+            return set.error();
+        }
         runner.release();
-        const auto tried = is_short ? bytes_of(runner, domain, *plan) : set.error();
+        const auto tried = bytes_of(runner, domain, *plan);
         auto smaller = tried ? plan_within(runner, domain, *tried / 2) : tried.error();
         if (!smaller) {
             return set.error();

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <geodisk/sampler.hpp>
@@ -64,6 +65,7 @@ struct Job::Impl {
     StageClock* clock = nullptr; ///< Where recording marks the stages, if anywhere.
     VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
     std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
+    std::optional<DomainKind> sets_for; ///< Once they are allocated and bound.
     Workspace workspace{};
     /// Of the workspace's buffers that some kernel reads as texels.
     std::array<VkBufferView, kBufferRoles> views{};
