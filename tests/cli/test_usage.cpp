@@ -111,6 +111,9 @@ TEST_CASE("other values out of range are named") {
     for (const char* const size : {"0", "-1M", "1T", "all", "M"}) {
         check_fails(folder, 2, "--memory", sample({"-n", "9", "--memory", size}));
     }
+    for (const char* const seconds : {"0", "-3", "soon", "1e9"}) {
+        check_fails(folder, 2, "--stall-timeout", sample({"-n", "9", "--stall-timeout", seconds}));
+    }
     check_fails(folder, 2, "unknown built-in shape 'kube'",
                 {"sample", "builtin:kube", "-o", "a.ply", "-n", "9"});
     check_fails(folder, 2, "resolution", {"sample", "builtin:cube:0", "-o", "a.ply", "-n", "9"});

@@ -28,6 +28,11 @@ std::uint64_t RunOptions::device_bytes() const {
     return memory.empty() ? 0 : parse_bytes("--memory", memory);
 }
 
+double RunOptions::stall_seconds() const {
+    constexpr double kWeek = 604800;
+    return stall_timeout.empty() ? 0 : parse_ratio("--stall-timeout", stall_timeout, 0.1, kWeek);
+}
+
 void add_run_options(CLI::App& command, RunOptions& options) {
     add_option(command, "--seed", options.seed, "S", "64-bit seed; equal seeds give equal samples")
         ->capture_default_str();
@@ -38,8 +43,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
                "does not change the samples");
     add_option(command, "--stall-timeout", options.stall_timeout, "SECONDS",
                "Give the device up when it has not answered for so long\n"
-               "(120 s, and 600 s on a CPU)")
-        ->check(CLI::PositiveNumber);
+               "(120 s, and 600 s on a CPU)");
     command
         .add_flag("--validate", options.validate,
                   "Run with the Vulkan validation layer, fail on any message")

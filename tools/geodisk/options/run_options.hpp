@@ -38,13 +38,13 @@ void add_output_options(CLI::App& command, OutputOptions& options);
 
 /// How to sample on a device, as given on the command line.
 struct RunOptions {
-    std::string seed = "0", device, memory;
-    double stall_timeout = 0; ///< Seconds; 0 for the device's own.
+    std::string seed = "0", device, memory, stall_timeout;
     bool validate = false;
 
     /// Throw UserError(usage) naming the option whose value will not do.
     std::uint64_t parsed_seed() const;
     std::uint64_t device_bytes() const; ///< 0 for no bound.
+    double stall_seconds() const;       ///< 0 for what suits the device.
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);

@@ -62,7 +62,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.params.pool_ratio = job.method.pool_ratio;
     job.params.stop_count = job.method.stop_count;
     job.runner.device_bytes = options.run.device_bytes();
-    job.runner.stall_seconds = options.run.stall_timeout;
+    job.runner.stall_seconds = options.run.stall_seconds();
     job.runner.sampler.count_calls = job.method.counts_calls;
     check_metric(options);
     return job;
