@@ -90,11 +90,7 @@ TEST_SUITE("advance") {
         plan.slots = kLeastSlots;
         plan.sample_capacity = 20;
         DeviceRun run(knot.mesh, knot.params, plan);
-        RunPlan tight = run.plan();
-        tight.window_capacity = 2;
-        tight.table_capacity = 4;
-        tight.list_capacity = 4;
-        run.set_plan(tight);
+        run.set_plan(tightened(run.plan()));
         Advice last;
         const std::vector<Next> steps = follow(run, last);
         CHECK(last.next == Next::complete);
@@ -128,7 +124,7 @@ TEST_SUITE("advance") {
             return expect(run.job().advance(control)).next;
         };
         CHECK(next({}) == Next::begin);
-        run.begin_partly(1);
+        run.begin(1);
         CHECK(next({}) == Next::go_on);
         CHECK(next(run.control()) == Next::go_on);
         gpu::ControlRec garbage;

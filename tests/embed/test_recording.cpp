@@ -57,22 +57,13 @@ std::vector<gpu::SampleRec> finish_often(DeviceRun& run, std::uint32_t stages) {
     return ready;
 }
 
-/// Slices and lists of a few entries, in a pool where they may grow.
-void tighten(DeviceRun& run) {
-    RunPlan tight = run.plan();
-    tight.window_capacity = 2;
-    tight.table_capacity = 4;
-    tight.list_capacity = 4;
-    run.set_plan(tight);
-}
-
 void check_finishes(const RunPlan& plan, bool is_tight = false) {
     const PreparedMesh mesh = prepared(builtin("torus-knot", 12));
     CHECK(mesh.face_count() == 2880);
     const SampleParams params = params_for(mesh, 60);
     DeviceRun run(mesh, params, plan);
     if (is_tight) {
-        tighten(run);
+        run.set_plan(tightened(run.plan()));
     }
     Points points;
     for (const gpu::SampleRec& s : finish_often(run, stages_of(mesh, params).pool_stages())) {
@@ -82,13 +73,14 @@ void check_finishes(const RunPlan& plan, bool is_tight = false) {
     CHECK((!is_tight || run.plan().window_capacity > 2));
 }
 
-/// All of a chunk's candidates decided.
-void decide(DeviceRun& run) {
-    for (std::uint32_t round = 0; run.control().done == 0; ++round) {
-        REQUIRE(round < 100'000);
-        REQUIRE(run.control().overflow == 0);
-        run.rounds(1);
+/// How often `part` is recorded until it says that it was the last.
+template <class Part>
+std::uint32_t parts_of(const Part& part) {
+    std::uint32_t parts = 1;
+    while (!part()) {
+        ++parts;
     }
+    return parts;
 }
 
 void check_finishes_in_box(const RunPlan& plan, bool is_tight = false) {
@@ -96,7 +88,7 @@ void check_finishes_in_box(const RunPlan& plan, bool is_tight = false) {
     box.min_distance = distance_for_count(box, 60);
     DeviceRun run(box, plan);
     if (is_tight) {
-        tighten(run);
+        run.set_plan(tightened(run.plan()));
     }
     std::vector<std::array<double, 3>> points;
     for (const gpu::SampleRec& s : finish_often(run, ref::stages_in(box).pool_stages())) {
@@ -143,10 +135,7 @@ TEST_SUITE("recording") {
             for (const std::size_t lag : {1u, 2u, 5u}) {
                 workshop.start_over();
                 EngineJob job(workshop, sampler, knot, 1);
-                RunPlan tight = job.plan();
-                tight.window_capacity = 2;
-                tight.table_capacity = 4;
-                tight.list_capacity = 4;
+                const RunPlan tight = tightened(job.plan());
                 expect(job.job().set_plan(tight));
                 job.run(lag);
                 CHECK(job.job().plan().window_capacity > tight.window_capacity);
@@ -269,11 +258,13 @@ TEST_SUITE("recording") {
         for (std::uint32_t stage = 0; stage < stages; ++stage) {
             run.set_stages(stage, 1);
             const std::uint64_t before = run.dispatches();
-            const std::uint32_t parts = run.begin_in_parts(1);
+            const std::uint32_t parts = parts_of([&] { return run.begin(1); });
             CHECK(parts > 2880 / 500);
             CHECK(run.dispatches() - before == parts);
-            decide(run);
-            CHECK(run.finish_in_parts(1) > 60 / 500);
+            for (std::uint32_t batch = 0; decide_batch(run); ++batch) {
+                REQUIRE(batch < 100'000);
+            }
+            CHECK(parts_of([&] { return run.finish(1); }) > 60 / 500);
         }
         CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
     }
@@ -288,7 +279,7 @@ TEST_SUITE("recording") {
         for (const std::uint32_t dispatches : {0u, 1u, 2u, 5u, 11u}) {
             CAPTURE(dispatches);
             run.set_stages(0, stages_of(mesh, params).pool_stages());
-            run.begin_partly(dispatches);
+            run.begin(dispatches);
             if (dispatches == 0) {
                 run.begin();
             } else if (dispatches == 1) {
@@ -298,13 +289,13 @@ TEST_SUITE("recording") {
             }
             for (std::uint32_t round = 0; run.control().done == 0; ++round) {
                 REQUIRE(round < 10'000);
-                run.finish_partly(dispatches);
+                run.finish(dispatches);
                 run.rounds(1);
             }
-            run.finish_in_parts(3);
+            parts_of([&] { return run.finish(3); });
             CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
         }
-        run.finish_partly(1);
+        run.finish(1);
         Job::Impl& job = Job::Impl::of(run.job());
         CHECK_FALSE(job.finished.is_at_start());
         const auto early = run.job().set_stages(1, 1);
@@ -351,10 +342,7 @@ TEST_SUITE("recording") {
             const Task knot = task(sampler, "torus-knot", 8, 100);
             Workshop workshop(context);
             EngineJob job(workshop, sampler, knot);
-            RunPlan tight = job.plan();
-            tight.window_capacity = 2;
-            tight.table_capacity = 4;
-            tight.list_capacity = 4;
+            const RunPlan tight = tightened(job.plan());
             expect(job.job().set_plan(tight));
             job.run();
             CHECK(job.job().plan().window_capacity > tight.window_capacity);

@@ -236,9 +236,7 @@ TEST_SUITE("reuse") {
         SampleParams params = params_for(mesh, 100);
         DeviceRun run(mesh, params);
         const auto check = [&] {
-            while (run.control().done == 0) {
-                run.rounds(1);
-                REQUIRE(run.control().overflow == 0);
+            while (decide_batch(run)) {
             }
             run.finish();
             CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));

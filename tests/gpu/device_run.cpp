@@ -58,40 +58,20 @@ void DeviceRun::submit(const std::function<void(VkCommandBuffer)>& record) {
     }));
 }
 
-void DeviceRun::begin() {
-    submit([&](VkCommandBuffer commands) { sampler_.record_begin(commands, *job_); });
+bool DeviceRun::begin(std::uint32_t dispatches) {
+    bool is_last = false;
+    submit([&](VkCommandBuffer commands) {
+        is_last = sampler_.record_begin(commands, *job_, dispatches);
+    });
+    return is_last;
 }
 
-void DeviceRun::begin_partly(std::uint32_t dispatches) {
-    submit([&](VkCommandBuffer commands) { sampler_.record_begin(commands, *job_, dispatches); });
-}
-
-std::uint32_t DeviceRun::begin_in_parts(std::uint32_t dispatches) {
-    std::uint32_t parts = 0;
-    for (bool is_last = false; !is_last; ++parts) {
-        submit([&](VkCommandBuffer commands) {
-            is_last = sampler_.record_begin(commands, *job_, dispatches);
-        });
-    }
-    return parts;
-}
-
-void DeviceRun::finish() {
-    submit([&](VkCommandBuffer commands) { sampler_.record_finish(commands, *job_); });
-}
-
-void DeviceRun::finish_partly(std::uint32_t dispatches) {
-    submit([&](VkCommandBuffer commands) { sampler_.record_finish(commands, *job_, dispatches); });
-}
-
-std::uint32_t DeviceRun::finish_in_parts(std::uint32_t dispatches) {
-    std::uint32_t parts = 0;
-    for (bool is_last = false; !is_last; ++parts) {
-        submit([&](VkCommandBuffer commands) {
-            is_last = sampler_.record_finish(commands, *job_, dispatches);
-        });
-    }
-    return parts;
+bool DeviceRun::finish(std::uint32_t dispatches) {
+    bool is_last = false;
+    submit([&](VkCommandBuffer commands) {
+        is_last = sampler_.record_finish(commands, *job_, dispatches);
+    });
+    return is_last;
 }
 
 void DeviceRun::rounds(std::uint32_t count) {
@@ -146,6 +126,13 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, std::size_t index, std::
     }
     std::sort(ranks.begin(), ranks.end());
     return ranks;
+}
+
+RunPlan tightened(RunPlan plan) {
+    plan.window_capacity = 2;
+    plan.table_capacity = 4;
+    plan.list_capacity = 4;
+    return plan;
 }
 
 bool decide_batch(DeviceRun& run) {

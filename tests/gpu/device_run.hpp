@@ -47,16 +47,11 @@ class DeviceRun {
     }
     /// Within the pool there is.
     void set_plan(const RunPlan& plan) { expect(job_->set_plan(plan)); }
-    void begin();
-    /// So many dispatches to a submission; returns how many submissions that takes.
-    std::uint32_t begin_in_parts(std::uint32_t dispatches);
-    std::uint32_t finish_in_parts(std::uint32_t dispatches);
-    /// Records some dispatches of a begin or a finish, and then what else there is.
-    void begin_partly(std::uint32_t dispatches);
-    void finish_partly(std::uint32_t dispatches);
+    /// At most so many dispatches; whether those were the last.
+    bool begin(std::uint32_t dispatches = kAllDispatches);
+    bool finish(std::uint32_t dispatches = kAllDispatches);
     void rounds(std::uint32_t count);
     void grow(std::uint32_t overflow);
-    void finish();
     /// Room for so many, and what there is copied.
     void enlarge_samples(std::uint32_t capacity);
     void rewind();
@@ -94,6 +89,9 @@ class DeviceRun {
     std::array<DeviceBuffer, kBufferRoles> buffers_;
     std::optional<Job> job_;
 };
+
+/// `plan` with slices and lists of a few entries, which overflow.
+RunPlan tightened(RunPlan plan);
 
 /// Selects the next batch, or lists those that come next, and goes on until it is decided; false if
 /// no candidate is left. Requires that nothing overflows.

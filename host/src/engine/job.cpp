@@ -104,8 +104,7 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
                      "the plan's error_bound of " + number_text(plan.error_bound) +
                          " is not above 0 and at most half of the minimum distance"};
     }
-    // Vulkan promises no more work groups.
-    const std::uint64_t most_slots = std::uint64_t{65535} * tuning.slot_local_size;
+    const std::uint64_t most_slots = std::uint64_t{kMostGroups} * tuning.slot_local_size;
     if (plan.slots > most_slots) {
         return Error{Status::invalid_argument,
                      "the plan's " + std::to_string(plan.slots) + " slots are more than the " +
@@ -214,7 +213,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.step_budget = std::min(plan.step_budget, most_steps);
     push.sample_capacity = plan.sample_capacity;
     push.idle_capacity = plan.idle_capacity;
-    push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, 65535u);
+    push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, kMostGroups);
 }
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
@@ -326,9 +325,13 @@ Result<Done> Job::renew(const Domain& domain, const RunPlan& plan) noexcept {
 }
 
 void Job::set_seed(std::uint64_t seed) noexcept {
-    impl_->push.seed_low = static_cast<std::uint32_t>(seed);
-    impl_->push.seed_high = static_cast<std::uint32_t>(seed >> 32);
+    impl_->set_seed(seed);
     impl_->begin_first_stages();
+}
+
+void Job::Impl::set_seed(std::uint64_t seed) {
+    push.seed_low = static_cast<std::uint32_t>(seed);
+    push.seed_high = static_cast<std::uint32_t>(seed >> 32);
 }
 
 Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan,
@@ -366,8 +369,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     push.buckets = bucket_count(push.capacity);
     push.faces = static_cast<std::uint32_t>(of.units);
     push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, new_plan.error_bound));
-    push.seed_low = static_cast<std::uint32_t>(of.seed);
-    push.seed_high = static_cast<std::uint32_t>(of.seed >> 32);
+    set_seed(of.seed);
     push.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
     of.set_push(push, new_plan);
     apply_plan(new_plan);

@@ -9,14 +9,6 @@
 namespace geodisk {
 namespace {
 
-std::uint64_t upload_bytes(const Sampler& sampler, const Domain& domain) {
-    std::uint64_t bytes = 0;
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        bytes += sampler.upload_size(domain, static_cast<BufferRole>(i));
-    }
-    return bytes;
-}
-
 /// By what the device's heaps hold, a quarter of which is left for all else.
 std::uint64_t candidates_in(const VkPhysicalDeviceMemoryProperties& memory,
                             const Domain::Impl& of) {
@@ -32,13 +24,16 @@ std::uint64_t candidates_in(const VkPhysicalDeviceMemoryProperties& memory,
 
 } // namespace
 
-Result<std::uint64_t> bytes_of(const Runner::Impl& runner, const Domain& domain,
-                               const RunPlan& plan) {
-    const auto needs = runner.sampler.workspace_needs(domain, plan);
-    if (!needs) {
-        return needs.error();
+std::uint64_t upload_bytes(const Sampler& sampler, const Domain& domain) {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        bytes += sampler.upload_size(domain, static_cast<BufferRole>(i));
     }
-    return needs->total() + RunMemory::staging_bytes(upload_bytes(runner.sampler, domain));
+    return bytes;
+}
+
+std::uint64_t bytes_of(const Sampler& sampler, const Domain& domain, const WorkspaceNeeds& needs) {
+    return needs.total() + RunMemory::staging_bytes(upload_bytes(sampler, domain));
 }
 
 Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes) {
@@ -55,19 +50,19 @@ Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain, st
         plan->stages = std::min(plan->stages, stages);
         *plan = overridden(*plan, runner.options.plan);
         const auto needs = sampler.workspace_needs(domain, *plan);
-        const auto total = bytes_of(runner, domain, *plan);
-        if (!needs || !total) {
-            return needs ? total.error() : needs.error();
+        if (!needs) {
+            return needs.error();
         }
+        const std::uint64_t total = bytes_of(sampler, domain, *needs);
         const auto largest = *std::max_element(needs->bytes.begin(), needs->bytes.end());
-        if (*total <= bytes && largest <= one) {
+        if (total <= bytes && largest <= one) {
             return plan;
         }
         const std::uint64_t half = plan->pool_bytes() / 2;
         const bool is_fixed = runner.options.plan.stages != 0 || plan->stages == 1;
         // The larger part first.
         const bool may_halve = half < pool && sampler.plan_run(domain, half);
-        if (may_halve && (is_fixed || half >= *total / 4)) {
+        if (may_halve && (is_fixed || half >= total / 4)) {
             pool = half;
         } else if (!is_fixed) {
             stages = plan->stages - 1;
@@ -76,7 +71,7 @@ Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain, st
                          largest > one ? "a buffer of the run takes " + std::to_string(largest) +
                                              " bytes, but the device allocates at most " +
                                              std::to_string(one) + " at once"
-                                       : "the run takes " + std::to_string(*total) +
+                                       : "the run takes " + std::to_string(total) +
                                              " bytes on the device at least, but may take only " +
                                              std::to_string(bytes)};
         }

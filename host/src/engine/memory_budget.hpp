@@ -12,8 +12,10 @@ namespace geodisk {
 /// Errors: `out_of_device_memory` naming the least bytes, as plan_run and workspace_needs.
 Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes);
 
-/// Bytes of a run with the plan.
-Result<std::uint64_t> bytes_of(const Runner::Impl& runner, const Domain& domain,
-                               const RunPlan& plan);
+/// Bytes that a domain uploads.
+std::uint64_t upload_bytes(const Sampler& sampler, const Domain& domain);
+
+/// Bytes of a run with such needs, staging included.
+std::uint64_t bytes_of(const Sampler& sampler, const Domain& domain, const WorkspaceNeeds& needs);
 
 } // namespace geodisk

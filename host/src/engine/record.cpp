@@ -17,8 +17,6 @@ namespace {
 
 // Of memory that is cleared, to an item.
 constexpr VkDeviceSize kClearBytes = 64;
-// Vulkan promises no more work groups.
-constexpr std::uint32_t kMostGroups = 65535;
 
 /// Records dispatches, and clears of memory, one after the other. Sequences of them may be cut
 /// anywhere: a cursor tells where the next recording goes on.

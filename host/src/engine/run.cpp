@@ -1,7 +1,6 @@
 #include "engine/run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -19,12 +18,6 @@
 
 namespace geodisk {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr std::uint64_t kMostRounds = 256;
 // About those of a run that recomputes few; and that are so few that one submission does for them.
@@ -105,12 +98,9 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     if (!needs) {
         return needs.error();
     }
-    std::uint64_t upload_bytes = 0;
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        upload_bytes += runner_.sampler.upload_size(domain_, static_cast<BufferRole>(i));
-    }
     const std::uint32_t made = memory_.made();
-    if (auto allocated = memory_.allocate(*needs, upload_bytes); !allocated) {
+    const std::uint64_t uploaded = upload_bytes(runner_.sampler, domain_);
+    if (auto allocated = memory_.allocate(*needs, uploaded); !allocated) {
         return allocated;
     }
     if (job_ && memory_.made() == made) {
@@ -239,7 +229,8 @@ Result<Done> Run::enlarge_samples(std::uint32_t capacity) {
 /// Until the samples are there, or the run has to start over.
 Result<Advice> Run::sample(const ProgressCallback& progress) {
     for (;;) {
-        auto advice = job_->advance(control_, pool_bytes());
+        // What is free is asked for only where it matters.
+        auto advice = job_->advance(control_, control_.overflow != 0 ? pool_bytes() : 0);
         if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
             return advice;
         }
@@ -420,20 +411,20 @@ Result<std::vector<gpu::SampleRec>> Run::read_samples() {
 }
 
 Result<std::optional<SampleSet>> Run::go(const ProgressCallback& progress, RunPlan& plan) {
-    auto start = Clock::now();
+    double start = runner_.now();
     if (auto done = runner_.sampler.prepare(domain_); !done) {
         return done.error();
     }
-    report_.seconds.compile = seconds_since(start);
-    start = Clock::now();
+    report_.seconds.compile = runner_.now() - start;
+    start = runner_.now();
     if (auto done = prepare(plan); !done) {
         return done.error();
     }
     if (auto done = upload(); !done) {
         return done.error();
     }
-    report_.seconds.upload = seconds_since(start);
-    start = Clock::now();
+    report_.seconds.upload = runner_.now() - start;
+    start = runner_.now();
     const auto advice = sample(progress);
     if (!advice) {
         return advice.error();
@@ -442,13 +433,13 @@ Result<std::optional<SampleSet>> Run::go(const ProgressCallback& progress, RunPl
         plan.error_bound = advice->plan.error_bound;
         return std::optional<SampleSet>();
     }
-    report_.seconds.sample = seconds_since(start);
-    start = Clock::now();
+    report_.seconds.sample = runner_.now() - start;
+    start = runner_.now();
     auto samples = read_samples();
     if (!samples) {
         return samples.error();
     }
-    report_.seconds.readback = seconds_since(start);
+    report_.seconds.readback = runner_.now() - start;
     std::uint64_t darts = job().darts(control_);
     if (has_all()) {
         // Those up to the last sample.
@@ -534,8 +525,11 @@ Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
             return set.error();
         }
         runner.release();
-        const auto tried = bytes_of(runner, domain, *plan);
-        auto smaller = tried ? plan_within(runner, domain, *tried / 2) : tried.error();
+        const auto needs = runner.sampler.workspace_needs(domain, *plan);
+        if (!needs) {
+            return set.error();
+        }
+        auto smaller = plan_within(runner, domain, bytes_of(runner.sampler, domain, *needs) / 2);
         if (!smaller) {
             return set.error();
         }

@@ -47,6 +47,9 @@ struct Sampler::Impl {
     std::uint32_t count_passes() const { return choices.count_calls ? 2 : 0; }
 };
 
+/// Work groups of a dispatch: Vulkan promises no more.
+inline constexpr std::uint32_t kMostGroups = 65535;
+
 /// A descriptor set of a job: a kernel over the workspace, or a scan kernel over another buffer.
 enum class SetRole : std::uint32_t { workspace, cell_scan, start_scan, bucket_scan };
 inline constexpr std::size_t kSetRoles = 4;
@@ -97,6 +100,7 @@ struct Job::Impl {
     }
     void begin_stages(std::uint32_t first, std::uint32_t count);
     void begin_first_stages();
+    void set_seed(std::uint64_t seed);
     /// Candidates of the stages at hand that take part.
     std::uint64_t darts(const gpu::ControlRec& control) const {
         return cut_darts != 0 ? cut_darts : control.drawn;
