@@ -13,7 +13,7 @@ GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 
 void visit(uint unit, uint number) {
     uint face = unit / push.stages;
-    uint word = load_links(face).w;
+    uint word = load_cells(face);
     if (!single_cell(word)) {
         Candidate c = draw_candidate(face, unit - face * push.stages, number - word_at(starts, unit));
         atomicAdd(cells[cell_of(c, word) + 1u], 1u);

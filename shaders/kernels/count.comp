@@ -12,13 +12,14 @@
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 
 float mean_count(uint face) {
-    Edge edge = load_edge(face, 0u);
-    precise float area = 0.5 * (edge.len * apex_of(edge, load_edge(face, 2u)).y);
+    uvec4 lengths = load_lengths(face);
+    Edge edge = load_edge(face, 0u, lengths);
+    precise float area = 0.5 * (edge.len * apex_of(edge, load_edge(face, 2u, lengths)).y);
     return mean_in(face, area);
 }
 
 void counted(uint face, uint number) {
-    uint word = load_links(face).w;
+    uint word = load_cells(face);
     if (push.all_single == 0u && single_cell(word)) {
         atomicAdd(cells[(word & kFirstCellMask) + 1u], number);
     }

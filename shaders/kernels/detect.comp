@@ -199,9 +199,9 @@ uint next_lit_corner() {
 // Chooses the face of the next operation; false if there is none in this trip.
 bool next_operation() {
     if (lane.phase == kPhaseCross) {
-        bool same_way = (lane.mode == kModeSameWay) == ((edge_around & 1u) != 0u);
+        bool same_way = (lane.mode == kModeSameWay) == ((edge.around & 1u) != 0u);
         lane.mode = same_way ? kModeSameWay : kModeOpposite;
-        lane.half_edge = edge_around >> 1;
+        lane.half_edge = edge.around >> 1;
     }
     if (lane.phase == kPhasePop) {
         if (lane.windows > 0u) {
@@ -255,7 +255,7 @@ void follow_up() {
         lane.phase = is_last ? kPhasePop : kPhaseFan;
     } else if (lane.phase == kPhaseCross) {
         // On to the next face of the edge, if that is not the one the window came from.
-        bool more = (edge.origin & kManyFaces) != 0u && edge_around >> 1 != lane.known;
+        bool more = (edge.origin & kManyFaces) != 0u && edge.around >> 1 != lane.known;
         lane.phase = more ? kPhaseCross : kPhasePop;
     }
 }

@@ -16,7 +16,7 @@ GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 void visit(uint unit, uint number) {
     uint face = unit / push.stages;
     Candidate c = draw_candidate(face, unit - face * push.stages, number - word_at(starts, unit));
-    uint word = load_links(face).w;
+    uint word = load_cells(face);
     uint place = number;
     if (!single_cell(word)) {
         place = atomicAdd(cells[cell_of(c, word) + 1u], 1u);

@@ -48,6 +48,7 @@ float mean_count(uint cell) {
     return mean;
 }
 
+uint stages_of(uint cell) { return kAllStages; }
 uvec3 count_key(uint cell) { return uvec3(load_draw_cell(cell).seed, kCountNumber); }
 
 // Of its count in a stage of the job.

@@ -6,9 +6,32 @@
 #include "face_candidate.glsl"
 #include "radii.glsl"
 
+layout(constant_id = kSpecSeveral) const bool kSeveral = false;
+
 GEODISK_WORDS(kBindKeys, keys);
 
-uint key_of(uint face) { return push.has_keys != 0u ? word_at(keys, face) : face; }
+// A word of PartRec, of the surface that a face is of.
+uint part_word(uint face, uint word) {
+    uint part = word_at(keys, push.faces + face);
+    return word_at(keys, 2u * push.faces + kPartWords * part + word);
+}
+
+uint key_of(uint face) {
+    return kSeveral || push.has_keys != 0u ? word_at(keys, face) : face;
+}
+
+// That of the job changes those of several surfaces alike.
+uvec2 seed_of(uint face) {
+    uvec2 seed = uvec2(push.seed_low, push.seed_high);
+    return kSeveral ? seed ^ uvec2(part_word(face, 0u), part_word(face, 1u)) : seed;
+}
+
+float intensity_of(uint face) {
+    return kSeveral ? uintBitsToFloat(part_word(face, 2u)) : push.intensity;
+}
+
+// Those of the job that the face has candidates in.
+uint stages_of(uint face) { return kSeveral ? part_word(face, 3u) : kAllStages; }
 
 // Where radii vary, candidates are as dense as 1 / r^2, so that every disk holds as many. Uniform
 // weights u of the corners are turned into u_k / s_k over their sum, which makes points as dense as
@@ -54,7 +77,7 @@ Candidate draw_candidate(uint face, uint stage, uint number) {
 
 // How many candidates a face of this area expects in each stage.
 float mean_in(uint face, float area) {
-    precise float mean = push.intensity * area;
+    precise float mean = intensity_of(face) * area;
     if (kAdaptive) {
         precise float denser = mean * face_spreads(face).w;
         mean = denser;

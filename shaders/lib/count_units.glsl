@@ -1,6 +1,6 @@
 // How many candidates each face or box cell has in each stage, by the Poisson law (paper
 // GenerateDensePoints, sections 3.3 and 4.2). One invocation per face or cell. Needs mean_count(cell),
-// what one stage expects, count_key(cell) and with that count_words(key, stage), random ones; tells
+// what one stage expects, stages_of(cell), how many stages of the job it has, count_key(cell) and with that count_words(key, stage), random ones; tells
 // counted(cell, number in all).
 #ifndef GEODISK_COUNT_UNITS_GLSL
 #define GEODISK_COUNT_UNITS_GLSL
@@ -19,10 +19,12 @@ void main() {
     // What the stages share is not left to the compiler: lavapipe's would do it for each.
     PoissonLaw law = poisson_law(mean);
     uvec3 key = count_key(cell);
+    uint stages = stages_of(cell);
     uint sum = 0u;
     for (uint stage = 0u; stage < push.stages; ++stage) {
         uvec4 random = count_words(key, push.first_stage + stage);
-        uint count = has_any ? poisson(law, random.x, random.y) : 0u;
+        bool has_stage = push.first_stage + stage < stages;
+        uint count = has_any && has_stage ? poisson(law, random.x, random.y) : 0u;
         starts[cell * push.stages + stage] = count;
         sum += count;
     }

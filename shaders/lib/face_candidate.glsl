@@ -1,6 +1,6 @@
 // Candidates on a surface (paper section 3.3), uniform in each face, each a pure function of the seed, the
 // key of its face, its stage and its number there; in integers but for one correctly rounded root.
-// Stages count from the first of the chunk. Needs key_of(face).
+// Stages count from the first of the chunk. Needs key_of(face) and seed_of(face).
 #ifndef GEODISK_FACE_CANDIDATE_GLSL
 #define GEODISK_FACE_CANDIDATE_GLSL
 
@@ -16,10 +16,10 @@ struct Candidate {
 };
 
 uint key_of(uint face);
+uvec2 seed_of(uint face);
 
 uvec4 random_of(uint face, uint number, uint stage, uint proposal) {
-    return philox(uvec2(push.seed_low, push.seed_high),
-                  uvec4(key_of(face), number, push.first_stage + stage, proposal));
+    return philox(seed_of(face), uvec4(key_of(face), number, push.first_stage + stage, proposal));
 }
 
 void weigh_evenly(inout Candidate c, uvec4 random) {
@@ -43,7 +43,7 @@ Candidate draw_evenly(uint face, uint stage, uint number) {
     return c;
 }
 
-uvec3 count_key(uint face) { return uvec3(push.seed_low, push.seed_high, key_of(face)); }
+uvec3 count_key(uint face) { return uvec3(seed_of(face), key_of(face)); }
 
 // Of its count in a stage of the job.
 uvec4 count_words(uvec3 key, uint stage) {

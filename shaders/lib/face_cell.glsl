@@ -9,8 +9,9 @@
 // `word` is the face's word of cells, of a face with more than one.
 uint cell_of(Candidate c, uint word) {
     uint corner = grid_corner(word);
-    Edge edge = load_edge(c.face, corner);
-    vec2 apex = apex_of(edge, load_edge(c.face, previous_corner(corner)));
+    uvec4 lengths = load_lengths(c.face);
+    Edge edge = load_edge(c.face, corner, lengths);
+    vec2 apex = apex_of(edge, load_edge(c.face, previous_corner(corner), lengths));
     vec4 radii = kAdaptive ? face_radii(c.face) : vec4(0.5);
     Grid grid = face_grid(word, edge.len, apex.y, cells_per_unit(radii));
     vec2 at = position_in(corner, edge.len, apex, weight_of(c.weight1), weight_of(c.weight2));

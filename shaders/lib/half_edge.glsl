@@ -10,14 +10,18 @@ struct Edge {
     float cosine; // of the face's angle at the origin
     float sine;
     uint origin;  // vertex and flags
+    uint around;  // the next half-edge of the edge, and whether it runs the same way
 };
 
-Edge load_edge(uint face, uint corner) {
-    uvec4 row = row_at(faces, kFaceRows * face + corner);
-    return Edge(uintBitsToFloat(row.x), uintBitsToFloat(row.y), uintBitsToFloat(row.z), row.w);
-}
+// The lengths of a face's edges, and its word of cells.
+uvec4 load_lengths(uint face) { return row_at(faces, kFaceRows * push.faces + face); }
+uint load_cells(uint face) { return load_lengths(face).w; }
 
-uvec4 load_links(uint face) { return row_at(faces, kFaceRows * face + 3u); }
+Edge load_edge(uint face, uint corner, uvec4 lengths) {
+    uvec4 row = row_at(faces, kFaceRows * face + corner);
+    uint len = corner == 0u ? lengths.x : (corner == 1u ? lengths.y : lengths.z);
+    return Edge(uintBitsToFloat(len), uintBitsToFloat(row.x), uintBitsToFloat(row.y), row.z, row.w);
+}
 
 uint next_corner(uint corner) { return corner == 2u ? 0u : corner + 1u; }
 uint previous_corner(uint corner) { return corner == 0u ? 2u : corner - 1u; }

@@ -7,9 +7,6 @@ Edge edge;
 Edge right;         // starts where edge ends
 Edge left;          // ends where edge starts
 vec2 apex;          // in the frame of edge
-uint edge_around;
-uint right_around;
-uint left_around;
 uint cell_word;
 
 // Where radii vary.
@@ -31,15 +28,12 @@ float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : P.
 void load_face() {
     uint face = lane.half_edge / 3u;
     uint corner = lane.half_edge - 3u * face;
-    edge = load_edge(face, corner);
-    right = load_edge(face, next_corner(corner));
-    left = load_edge(face, previous_corner(corner));
+    uvec4 lengths = load_lengths(face);
+    edge = load_edge(face, corner, lengths);
+    right = load_edge(face, next_corner(corner), lengths);
+    left = load_edge(face, previous_corner(corner), lengths);
     apex = apex_of(edge, left);
-    uvec4 links = load_links(face);
-    edge_around = corner == 0u ? links.x : (corner == 1u ? links.y : links.z);
-    right_around = corner == 0u ? links.y : (corner == 1u ? links.z : links.x);
-    left_around = corner == 0u ? links.z : (corner == 1u ? links.x : links.y);
-    cell_word = P.all_single != 0u ? kSingleCell << kFaceCornerShift | face * P.stages : links.w;
+    cell_word = P.all_single != 0u ? kSingleCell << kFaceCornerShift | face * P.stages : lengths.w;
     if (kAdaptive) {
         radii = face_radii(face);
     }

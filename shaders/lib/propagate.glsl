@@ -179,7 +179,7 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     precise float turned_high = child.len - low;
 
     uint out_edge = lane.half_edge;
-    uint around = edge_around;
+    uint around = edge.around;
     uint origin = edge.origin;
     float len = edge.len;
     vec2 ends = distances.xy; // known of the edge's start and end
@@ -191,7 +191,7 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     if (!inside) {
         uint next = next_in_face(lane.half_edge);
         out_edge = is_left ? next_in_face(next) : next;
-        around = is_left ? left_around : right_around;
+        around = child.around;
         origin = child.origin;
         len = child.len;
         ends = is_left ? vec2(distances.z, distances.x) : vec2(distances.y, distances.z);

@@ -12,6 +12,8 @@
 GEODISK_ROWS(kBindFaces, corners);
 
 uint key_of(uint face) { return row_at(corners, kSpaceRows * face + 1u).w; }
+uvec2 seed_of(uint face) { return uvec2(push.seed_low, push.seed_high); }
+uint stages_of(uint face) { return kAllStages; }
 
 layout(constant_id = kSpecCurved) const bool kCurved = false;
 

@@ -16,7 +16,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 9u;
+GEODISK_CONST uint kAbi = 10u;
 
 GEODISK_END_SHARED
 

@@ -7,7 +7,7 @@
 
 GEODISK_BEGIN_SHARED
 
-GEODISK_CONST uint kBindFaces = 0u;      // per face three rows of HalfEdgeRec and one of FaceLinksRec
+GEODISK_CONST uint kBindFaces = 0u;      // per face three rows of HalfEdgeRec; then one of FaceLengthsRec each;
                                          // where distances go through space, a row per corner with
                                          // its coordinates in multiples of 2^-32 of the bounding
                                          // box, then one with its normal; behind the coordinates of
@@ -16,7 +16,9 @@ GEODISK_CONST uint kBindFans = 1u;       // a row of FanRec per vertex; then the
                                          // half-edge and angles; then the angles by half-edge;
                                          // where radii vary, RadiiRec per face
 GEODISK_CONST uint kBindAxes = kBindFans; // of grids in space: two rows of AxisRec per axis
-GEODISK_CONST uint kBindKeys = 2u;       // a word per face, where the caller gives keys
+GEODISK_CONST uint kBindKeys = 2u;       // a word per face, where the caller gives keys; of several
+                                         // surfaces always, then a word per face, which of them it
+                                         // is of, and PartRec each
 GEODISK_CONST uint kBindCells = 3u;      // the place where each cell's candidates start, and one past
                                          // the last. Of a mesh whose faces are all of one cell that
                                          // is kBindStarts.

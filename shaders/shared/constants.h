@@ -55,6 +55,7 @@ GEODISK_CONST uint kOverflowCandidates = 32u;
 GEODISK_CONST uint kPriorityBits = 28u;
 GEODISK_CONST uint kMostStages = 15u;     // of a chunk
 GEODISK_CONST uint kMostDartStages = 4096u; // of a run that throws darts
+GEODISK_CONST uint kAllStages = 0xffffffffu; // where nothing else ends them
 GEODISK_CONST uint kNoOrder = 0xffffffffu; // above all orders
 
 // Philox counters of a face: its key, the number of a candidate, the stage, and the proposal. How many
@@ -158,11 +159,12 @@ GEODISK_CONST uint kIterationsPerGridTrip =
 // Candidates that cause 1, 2, ... calls of the paper's CheckStatus, the last for that many and more.
 GEODISK_CONST uint kCallBins = 10u;
 
-// Rows of a face and of its radii, of a lane record and of a window.
-GEODISK_CONST uint kFaceRows = 4u;
+// Rows of a face but its lengths, and of its radii, of a lane record and of a window.
+GEODISK_CONST uint kFaceRows = 3u;
 GEODISK_CONST uint kSpaceRows = 6u; // of a face, where distances go through space
 GEODISK_CONST uint kRadiiRows = 2u;
 GEODISK_CONST uint kAxisRows = 2u;
+GEODISK_CONST uint kPartWords = 4u; // of a surface among several
 GEODISK_CONST uint kLaneRows = 9u;
 GEODISK_CONST uint kWindowRows = 2u;
 
@@ -176,6 +178,7 @@ GEODISK_CONST uint kSpecDimension = 5u;
 GEODISK_CONST uint kSpecCurved = 6u;
 GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
 GEODISK_CONST uint kSpecEventHeap = 8u; // vertex events wait in a heap, else in a ring
+GEODISK_CONST uint kSpecSeveral = 9u; // surfaces, each with a seed, a density and stages of its own
 
 // Candidates that a work group of the kernels per candidate draws or looks at: so many lanes, so
 // many each, side by side.

@@ -8,14 +8,15 @@
 
 GEODISK_BEGIN_SHARED
 
-// A half-edge in units of the minimum distance, with the angle of its face at its origin.
+// A half-edge: the angle of its face at its origin, that vertex, and what it is linked to.
 struct HalfEdgeRec {
-    float length; float cosine; float sine; uint origin;
+    float cosine; float sine; uint origin; uint around;
 };
 
-// Follows the three half-edges of a face: what they are linked to, and the face's word of cells.
-struct FaceLinksRec {
-    uint around0; uint around1; uint around2; uint cells;
+// What the distance tells of a face: the lengths of its half-edges, in units of the minimum distance,
+// and its word of cells.
+struct FaceLengthsRec {
+    float length0; float length1; float length2; uint cells;
 };
 
 // The radii at the corners of a face, how far disks reach into it (RadiusField::reach_bounds), what
@@ -24,6 +25,12 @@ struct FaceLinksRec {
 struct RadiiRec {
     float radius0; float radius1; float radius2; float bound;
     float spread0; float spread1; float spread2; float density;
+};
+
+// A surface among several: its seed, candidates that one of its stages expects per unit of area, and how
+// many stages it has.
+struct PartRec {
+    uint seed_low; uint seed_high; float intensity; uint stages;
 };
 
 struct FanRec {
@@ -148,9 +155,10 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, origin) == 12);
-static_assert(sizeof(FaceLinksRec) == 16 && offsetof(FaceLinksRec, cells) == 12);
+static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, around) == 12);
+static_assert(sizeof(FaceLengthsRec) == 16 && offsetof(FaceLengthsRec, cells) == 12);
 static_assert(sizeof(RadiiRec) == 32 && offsetof(RadiiRec, density) == 28);
+static_assert(sizeof(PartRec) == 16 && offsetof(PartRec, stages) == 12);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);

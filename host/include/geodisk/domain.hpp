@@ -25,6 +25,15 @@ enum class Metric : std::uint32_t {
                  ///< cosines a and b of its angles with both normals. Exact on planes and spheres.
 };
 
+/// One of several surfaces that are sampled as one job: an instance of a mesh.
+struct SurfacePart {
+    const PreparedMesh* mesh = nullptr;
+    /// Of this surface alone, seed and distance included.
+    SampleParams params;
+    /// Of the instance: its lengths are those of the mesh so many times.
+    double scale = 1;
+};
+
 /// A sampling job, checked, with what follows from it alone. Immutable, so any number of threads
 /// may use one. It needs no device.
 class GEODISK_API Domain {
@@ -35,6 +44,17 @@ class GEODISK_API Domain {
     /// Errors: `invalid_argument` as pool_size(), and for more than 2^30 grid cells, naming the
     /// face.
     static Result<Domain> surface(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+    /// Surfaces by geodesic distance, in one job; what they refer to must outlive the domain and
+    /// its runs. Each gets the samples that it would get by itself, whatever the others are; but
+    /// where one alone takes a larger guard than 2^-13 (RunReport::guard), that holds for all of
+    /// them. Faces and vertices of each follow those of the ones before. The order of samples is
+    /// that of the job, and of each surface its own.
+    ///
+    /// Errors: `invalid_argument` as surface(), naming the part; for none, for a null mesh, for a
+    /// scale that is not positive and finite, for throws or a stop count, for radii of some parts
+    /// only, and where all together are too large to index with 32 bits.
+    static Result<Domain> surfaces(std::span<const SurfacePart> parts) noexcept;
 
     /// A surface by distances through space, as other methods take them, for comparison. It is not
     /// what geodesic distance gives: sheets that come near each other in space keep each other's
@@ -59,6 +79,9 @@ class GEODISK_API Domain {
     Domain& operator=(Domain&&) noexcept;
     ~Domain();
 
+    /// The first face of each surface, in the numbering of the job, and one past the last; empty of
+    /// a box.
+    std::span<const std::uint32_t> first_faces() const noexcept;
     /// Those in which the candidates come.
     const Stages& stages() const noexcept;
     /// Coordinates of a sample of a box: 1 to 6, in its units. 0 of a surface, whose samples have a

@@ -118,8 +118,11 @@ class PreparedMesh {
     }
     std::uint32_t vertex_count() const noexcept { return static_cast<std::uint32_t>(fans_.size()); }
     const MeshStatistics& statistics() const noexcept { return statistics_; }
+    /// A number that no other mesh prepared by this process has, but for copies of this one.
+    std::uint64_t identity() const noexcept { return identity_; }
 
   private:
+    static std::uint64_t next_identity() noexcept;
     template <class View>
     static Result<PreparedMesh> prepare_any(const View& mesh);
 
@@ -127,6 +130,7 @@ class PreparedMesh {
     std::vector<VertexFan> fans_;
     std::vector<std::uint32_t> corners_;
     MeshStatistics statistics_;
+    std::uint64_t identity_ = next_identity();
 };
 
 } // namespace geodisk

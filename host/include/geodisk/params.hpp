@@ -51,6 +51,10 @@ struct Stages {
     double samples = 0;       ///< Expected of the job.
     double ratio = 0;         ///< Candidates of a pool for each.
     std::uint32_t throws = 0; ///< Darts to throw instead, if not 0: stages until there are so many.
+    /// Of several surfaces, each of which has stages of its own: the most that one has, and what
+    /// their first ones expect together; else 0.
+    std::uint32_t most_stages = 0;
+    double most_expected = 0;
 
     /// Of a pool: its ratio over kStageRatio, rounded up, but at most kMostPoolStages.
     GEODISK_API std::uint32_t pool_stages() const noexcept;
@@ -59,8 +63,10 @@ struct Stages {
     /// nor 2^23 in all; and no fewer than 64 in all.
     GEODISK_API double per_sample(std::uint32_t stage) const noexcept;
 
-    /// Candidates that a stage expects, and all of a pool.
-    double expected(std::uint32_t stage) const noexcept { return per_sample(stage) * samples; }
+    /// Candidates that a stage expects (of several surfaces, at most), and all of a pool.
+    double expected(std::uint32_t stage) const noexcept {
+        return most_expected > 0 ? most_expected : per_sample(stage) * samples;
+    }
     double pool() const noexcept { return ratio * samples; }
     /// That take part in the job: its darts, or else its pool.
     double candidates() const noexcept { return throws != 0 ? throws : pool(); }

@@ -260,12 +260,16 @@ class GEODISK_API Sampler {
     Result<WorkspaceNeeds> workspace_needs(const Domain& domain,
                                            const RunPlan& plan) const noexcept;
 
-    /// Writes the bytes that the caller is to upload into a buffer. `out` must hold exactly as many
-    /// as `upload_size` tells, which is 0 for buffers that need none. Errors: `invalid_argument`
-    /// for such a buffer or another size; `out_of_host_memory`.
-    Result<Done> write_upload(const Domain& domain, const RunPlan& plan, BufferRole role,
-                              std::span<std::byte> out) const noexcept;
+    /// Bytes that the caller is to upload into a buffer; 0 for buffers that need none.
     std::size_t upload_size(const Domain& domain, BufferRole role) const noexcept;
+    /// The first of them, which follow from the meshes alone: where they were uploaded for other
+    /// distances, seeds or radii on the same meshes, they stay as they are.
+    std::size_t mesh_bytes(const Domain& domain, BufferRole role) const noexcept;
+    /// Writes them, or those behind mesh_bytes() where `from` is that: `out` must hold exactly as
+    /// many. Errors: `invalid_argument` for a buffer that needs none, or for another size;
+    /// `out_of_host_memory`.
+    Result<Done> write_upload(const Domain& domain, const RunPlan& plan, BufferRole role,
+                              std::span<std::byte> out, std::size_t from = 0) const noexcept;
 
     /// Writes descriptor sets for a workspace. The job keeps no reference to the domain; the
     /// Sampler must outlive it. Errors: `invalid_argument` for a plan that is not as RunPlan asks,

@@ -116,7 +116,7 @@ std::size_t GridDomain::upload_size(BufferRole role) const {
     return role == BufferRole::axes ? box_.extents.size() * sizeof(gpu::AxisRec) : 0;
 }
 
-Result<Done> GridDomain::write_upload(const RunPlan& plan, BufferRole,
+Result<Done> GridDomain::write_upload(const RunPlan& plan, BufferRole, std::size_t,
                                       std::span<std::byte> out) const {
     const BoxGrid drawn = grid(capacity_for(stages, plan.stages), plan.error_bound);
     std::memcpy(out.data(), drawn.axes.data(), out.size());

@@ -22,7 +22,7 @@ class GridDomain : public Domain::Impl {
     const char* name_of(BufferRole role) const override;
     void set_push(gpu::Push& push, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
-    Result<Done> write_upload(const RunPlan& plan, BufferRole role,
+    Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
                               std::span<std::byte> out) const override;
     double guard_for(double error_bound) const override { return error_bound; }
 

@@ -5,11 +5,10 @@
 #include <cstring>
 #include <string>
 
-#include <geodisk/params.hpp>
+#include <geodisk/radius_field.hpp>
 
 #include "constants.h"
 #include "engine/stages.hpp"
-#include "engine/tolerances.hpp"
 #include "records.h"
 
 namespace geodisk {
@@ -26,6 +25,7 @@ float direction(double cosine_or_sine) {
     return scaled(cosine_or_sine, 1);
 }
 
+constexpr std::size_t kRowBytes = 16;
 constexpr std::uint64_t kTooMany = std::uint64_t{1} << 31;
 
 struct Grid {
@@ -75,14 +75,13 @@ Grid face_grid(const PreparedMesh& mesh, const SampleParams& params, std::uint32
             corner};
 }
 
-/// Rows of the fans buffer: fans, pairs of corner and angles, angles by half-edge, radii by face.
+/// Rows of the fans buffer: fans, pairs of corner and angles, angles by half-edge.
 struct FanRows {
-    std::size_t fans, corners, angles, radii;
-    FanRows(const PreparedMesh& mesh, bool adaptive)
-        : fans(mesh.fans().size()), corners((mesh.half_edges().size() + 1) / 2),
-          angles((mesh.half_edges().size() + 3) / 4),
-          radii(adaptive ? gpu::kRadiiRows * std::size_t{mesh.face_count()} : 0) {}
-    std::size_t bytes() const { return (fans + corners + angles + radii) * 16; }
+    std::size_t fans, corners, angles;
+    explicit FanRows(PlacedSurfaces surfaces)
+        : fans(vertex_count(surfaces)), corners((std::size_t{3} * face_count(surfaces) + 1) / 2),
+          angles((std::size_t{3} * face_count(surfaces) + 3) / 4) {}
+    std::size_t bytes() const { return (fans + corners + angles) * kRowBytes; }
 };
 
 bool shared_by_many(const PreparedMesh& mesh, std::uint32_t h) {
@@ -95,25 +94,55 @@ void store(std::span<std::byte> out, std::size_t index, const Record& record) {
     std::memcpy(out.data() + index * sizeof(Record), &record, sizeof record);
 }
 
+/// A link to a half-edge, of those of all surfaces.
+std::uint32_t placed_around(const PlacedSurface& surface, std::uint32_t around) {
+    return around + (3 * surface.first_face << 1);
+}
+
+/// The keys of several surfaces, which of them each face is of, and a record of each.
+void write_parts(PlacedSurfaces surfaces, std::span<std::byte> out) {
+    const auto parts = out.subspan(face_count(surfaces) * sizeof(std::uint32_t));
+    const auto records = parts.subspan(face_count(surfaces) * sizeof(std::uint32_t));
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+        const PlacedSurface& surface = surfaces[i];
+        const SampleParams& params = surface.params;
+        for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
+            store(out, surface.first_face + f,
+                  params.face_keys.empty() ? f : params.face_keys[f]);
+            store(parts, surface.first_face + f, i);
+        }
+        store(records, i,
+              gpu::PartRec{static_cast<std::uint32_t>(params.seed),
+                           static_cast<std::uint32_t>(params.seed >> 32),
+                           stage_intensity(*surface.mesh, params, 0),
+                           stages_of(*surface.mesh, params).pool_stages()});
+    }
+}
+
 } // namespace
 
-Result<std::uint32_t> count_cells(const PreparedMesh& mesh, const SampleParams& params) {
-    if (has_small_faces(mesh, params)) {
+Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
+    FaceCrowding crowding;
+    for (const PlacedSurface& surface : surfaces) {
+        crowding.add(*surface.mesh, surface.params);
+    }
+    if (crowding.is_small()) {
         return 0u;
     }
-    const double unit = working_distance(mesh, params);
     std::uint64_t cells = 0;
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const Grid grid = face_grid(mesh, params, f, unit);
-        cells += grid.columns * grid.rows; // At most 2^62, and 2^30 before.
-        if (cells > gpu::kFirstCellMask) {
-            return Error{Status::invalid_argument,
-                         "the minimum distance is too small: face " + std::to_string(f) +
-                             " alone or with those before it takes more than 2^30 grid cells",
-                         f};
+    for (const PlacedSurface& surface : surfaces) {
+        for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
+            const Grid grid = face_grid(*surface.mesh, surface.params, f, surface.unit);
+            cells += grid.columns * grid.rows; // At most 2^62, and 2^30 before.
+            if (cells > gpu::kFirstCellMask) {
+                return Error{Status::invalid_argument,
+                             "the minimum distance is too small: face " + std::to_string(f) +
+                                 " alone or with those before it takes more than 2^30 grid cells",
+                             f};
+            }
         }
     }
-    return cells == mesh.face_count() ? 0 : static_cast<std::uint32_t>(cells);
+    return cells == face_count(surfaces) ? 0 : static_cast<std::uint32_t>(cells);
 }
 
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
@@ -122,83 +151,121 @@ float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     return 0.5f * (scaled(edge.length, unit) * height);
 }
 
-std::size_t face_bytes(const PreparedMesh& mesh) {
-    return mesh.face_count() * (3 * sizeof(gpu::HalfEdgeRec) + sizeof(gpu::FaceLinksRec));
+std::size_t half_edge_bytes(PlacedSurfaces surfaces) {
+    return face_count(surfaces) * (gpu::kFaceRows * sizeof(gpu::HalfEdgeRec));
 }
 
-std::size_t fan_bytes(const PreparedMesh& mesh, bool adaptive) {
-    return FanRows(mesh, adaptive).bytes();
+std::size_t length_bytes(PlacedSurfaces surfaces) {
+    return face_count(surfaces) * sizeof(gpu::FaceLengthsRec);
 }
 
-std::size_t key_bytes(const SampleParams& params) {
-    return std::max<std::size_t>(params.face_keys.size_bytes(), sizeof(std::uint32_t));
+std::size_t fan_bytes(PlacedSurfaces surfaces) {
+    return FanRows(surfaces).bytes();
 }
 
-void write_faces(const PreparedMesh& mesh, const SampleParams& params, bool one_cell_each,
-                 std::span<std::byte> out) {
-    const double unit = working_distance(mesh, params);
-    std::uint32_t first_cell = 0;
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t h = 3 * f + k;
+std::size_t radii_bytes(PlacedSurfaces surfaces) {
+    return has_radii(surfaces) ? face_count(surfaces) * sizeof(gpu::RadiiRec) : 0;
+}
+
+std::size_t key_bytes(PlacedSurfaces surfaces) {
+    if (surfaces.size() > 1) {
+        return 2 * face_count(surfaces) * sizeof(std::uint32_t) +
+               surfaces.size() * sizeof(gpu::PartRec);
+    }
+    return std::max<std::size_t>(surfaces[0].params.face_keys.size_bytes(), sizeof(std::uint32_t));
+}
+
+void write_half_edges(PlacedSurfaces surfaces, std::span<std::byte> out) {
+    for (const PlacedSurface& surface : surfaces) {
+        const PreparedMesh& mesh = *surface.mesh;
+        const auto own = out.subspan(surface.first_face * gpu::kFaceRows * kRowBytes);
+        for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
             const HalfEdge& e = mesh.half_edges()[h];
             const bool bends = (mesh.fans()[e.origin].flags & gpu::kFanBends) != 0;
-            store(out, gpu::kFaceRows * f + k,
-                  gpu::HalfEdgeRec{scaled(e.length, unit), direction(e.cosine), direction(e.sine),
-                                   e.origin | (bends ? gpu::kOriginBends : 0u) |
-                                       (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u)});
+            store(own, h,
+                  gpu::HalfEdgeRec{direction(e.cosine), direction(e.sine),
+                                   (e.origin + surface.first_vertex) |
+                                       (bends ? gpu::kOriginBends : 0u) |
+                                       (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u),
+                                   placed_around(surface, e.around)});
         }
-        const Grid grid = one_cell_each ? Grid{1, 1, 0} : face_grid(mesh, params, f, unit);
-        const bool single = grid.columns * grid.rows == 1;
-        const auto edges = mesh.half_edges().subspan(std::size_t{3} * f, 3);
-        store(out, gpu::kFaceRows * f + 3,
-              gpu::FaceLinksRec{edges[0].around, edges[1].around, edges[2].around,
-                                first_cell | (single ? gpu::kSingleCell : grid.corner)
-                                                 << gpu::kFaceCornerShift});
-        first_cell += static_cast<std::uint32_t>(grid.columns * grid.rows);
     }
 }
 
-Result<Done> write_fans(const PreparedMesh& mesh, const SampleParams& params,
-                        std::span<std::byte> out) {
-    const FanRows rows(mesh, params.radii != nullptr);
-    std::memset(out.data(), 0, out.size());
-    for (std::size_t v = 0; v < mesh.fans().size(); ++v) {
-        const VertexFan& fan = mesh.fans()[v];
-        store(out, v, gpu::FanRec{fan.first_corner, fan.corner_count, fan.total_angle, fan.flags});
+void write_lengths(PlacedSurfaces surfaces, bool one_cell_each, std::span<std::byte> out) {
+    std::uint32_t first_cell = 0;
+    for (const PlacedSurface& surface : surfaces) {
+        const auto own = out.subspan(surface.first_face * sizeof(gpu::FaceLengthsRec));
+        for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
+            const Grid grid = one_cell_each
+                                  ? Grid{1, 1, 0}
+                                  : face_grid(*surface.mesh, surface.params, f, surface.unit);
+            const bool single = grid.columns * grid.rows == 1;
+            const HalfEdge* const edges = &surface.mesh->half_edges()[std::size_t{3} * f];
+            store(own, f,
+                  gpu::FaceLengthsRec{scaled(edges[0].length, surface.unit),
+                                      scaled(edges[1].length, surface.unit),
+                                      scaled(edges[2].length, surface.unit),
+                                      first_cell | (single ? gpu::kSingleCell : grid.corner)
+                                                       << gpu::kFaceCornerShift});
+            first_cell += static_cast<std::uint32_t>(grid.columns * grid.rows);
+        }
     }
+}
+
+void write_fans(PlacedSurfaces surfaces, std::span<std::byte> out) {
     struct CornerRec {
         std::uint32_t half_edge, angles;
     };
-    const auto corners = out.subspan(rows.fans * 16);
-    for (std::size_t i = 0; i < mesh.corners().size(); ++i) {
-        const std::uint32_t h = mesh.corners()[i];
-        store(corners, i, CornerRec{h, mesh.half_edges()[h].fan_angles});
+    const FanRows rows(surfaces);
+    const auto corners = out.subspan(rows.fans * kRowBytes);
+    const auto angles = corners.subspan(rows.corners * kRowBytes);
+    std::memset(out.data(), 0, out.size());
+    for (const PlacedSurface& surface : surfaces) {
+        const PreparedMesh& mesh = *surface.mesh;
+        const std::uint32_t first_half_edge = 3 * surface.first_face;
+        for (std::size_t v = 0; v < mesh.fans().size(); ++v) {
+            const VertexFan& fan = mesh.fans()[v];
+            store(out, surface.first_vertex + v,
+                  gpu::FanRec{fan.first_corner + surface.first_corner, fan.corner_count,
+                              fan.total_angle, fan.flags});
+        }
+        for (std::size_t i = 0; i < mesh.corners().size(); ++i) {
+            const std::uint32_t h = mesh.corners()[i];
+            store(corners, surface.first_corner + i,
+                  CornerRec{h + first_half_edge, mesh.half_edges()[h].fan_angles});
+        }
+        for (std::size_t h = 0; h < mesh.half_edges().size(); ++h) {
+            store(angles, first_half_edge + h, mesh.half_edges()[h].fan_angles);
+        }
     }
-    const auto angles = corners.subspan(rows.corners * 16);
-    for (std::size_t h = 0; h < mesh.half_edges().size(); ++h) {
-        store(angles, h, mesh.half_edges()[h].fan_angles);
-    }
-    if (params.radii == nullptr) {
-        return Done{};
-    }
-    const auto bounds = params.radii->reach_bounds(mesh, params.min_distance);
-    if (!bounds) {
-        return bounds.error();
-    }
-    const auto radii = angles.subspan(rows.angles * 16);
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        gpu::RadiiRec record = radii_of(params, f);
-        record.bound = (*bounds)[f];
-        store(radii, f, record);
+}
+
+Result<Done> write_radii(PlacedSurfaces surfaces, std::span<std::byte> out) {
+    for (const PlacedSurface& surface : surfaces) {
+        const SampleParams& params = surface.params;
+        const auto bounds = params.radii->reach_bounds(*surface.mesh, params.min_distance);
+        if (!bounds) {
+            return bounds.error();
+        }
+        for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
+            gpu::RadiiRec record = radii_of(params, f);
+            record.bound = (*bounds)[f];
+            store(out, surface.first_face + f, record);
+        }
     }
     return Done{};
 }
 
-void write_keys(const SampleParams& params, std::span<std::byte> out) {
+void write_keys(PlacedSurfaces surfaces, std::span<std::byte> out) {
+    if (surfaces.size() > 1) {
+        write_parts(surfaces, out);
+        return;
+    }
+    const auto keys = surfaces[0].params.face_keys;
     std::memset(out.data(), 0, out.size());
-    if (!params.face_keys.empty()) {
-        std::memcpy(out.data(), params.face_keys.data(), params.face_keys.size_bytes());
+    if (!keys.empty()) {
+        std::memcpy(out.data(), keys.data(), keys.size_bytes());
     }
 }
 

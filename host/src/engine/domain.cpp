@@ -11,6 +11,10 @@ Domain::Domain(Domain&&) noexcept = default;
 Domain& Domain::operator=(Domain&&) noexcept = default;
 Domain::~Domain() = default;
 
+std::span<const std::uint32_t> Domain::first_faces() const noexcept {
+    return impl_->first_faces;
+}
+
 const Stages& Domain::stages() const noexcept {
     return impl_->stages;
 }

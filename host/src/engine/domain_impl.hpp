@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <geodisk/domain.hpp>
 #include <geodisk/sampler.hpp>
@@ -19,6 +20,8 @@ namespace geodisk {
 struct Domain::Impl {
     KernelVariant kernels;
     Stages stages;
+    std::vector<std::uint32_t> first_faces; ///< Of the surfaces, and one past the last.
+    std::vector<std::uint64_t> meshes; ///< PreparedMesh::identity() of each.
     double samples_per_measure = 0; ///< Expected, per unit of area or volume.
     double samples = 0;             ///< To reckon with: not more than are asked for, or thrown.
     std::uint32_t stop_count = 0;   ///< 0 for none.
@@ -39,6 +42,7 @@ struct Domain::Impl {
     virtual ~Impl() = default;
 
     static const Impl& of(const Domain& domain) { return *domain.impl_; }
+    static Domain wrap(std::unique_ptr<const Impl> impl) { return Domain(std::move(impl)); }
 
     /// As many candidates as one binding holds, with so many slots.
     virtual std::uint64_t most_candidates(const DeviceLimits& limits,
@@ -67,7 +71,10 @@ struct Domain::Impl {
     virtual void set_push(gpu::Push& push, const RunPlan& plan) const = 0;
     /// Bytes of a buffer that is uploaded, 0 for others.
     virtual std::size_t upload_size(BufferRole role) const = 0;
-    virtual Result<Done> write_upload(const RunPlan& plan, BufferRole role,
+    /// The first of them, which follow from `meshes` alone.
+    virtual std::size_t mesh_bytes(BufferRole) const { return 0; }
+    /// Those from a byte on: the first, or the one behind mesh_bytes().
+    virtual Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
                                       std::span<std::byte> out) const = 0;
     virtual double guard_for(double error_bound) const = 0;
     virtual void coordinates(const gpu::SampleRec&, std::span<double>) const {}

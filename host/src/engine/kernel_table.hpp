@@ -58,6 +58,7 @@ struct KernelVariant {
     std::uint32_t dimension = 0; ///< Of a grid.
     bool curved = false;         ///< Lengths of curves instead of straight lines in space.
     bool adaptive = false;       ///< Radii that vary over a surface.
+    bool several = false;        ///< Surfaces with seeds and stages of their own.
     bool event_heap = false;     ///< Vertex events of a disk wait in a heap, else in a ring.
 
     friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;

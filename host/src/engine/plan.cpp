@@ -109,7 +109,7 @@ const char* to_string(BufferRole role) noexcept {
 
 // Of darts the largest stage there may be.
 std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept {
-    double expected = at_once * stages.expected(0);
+    double expected = std::min(at_once * stages.expected(0), stages.pool());
     if (stages.throws != 0) {
         double all = 0;
         for (std::uint32_t s = 0; all < 2.0 * stages.throws && s < gpu::kMostDartStages; ++s) {

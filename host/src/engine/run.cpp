@@ -128,26 +128,31 @@ Result<Done> Run::prepare(const RunPlan& plan) {
 Result<Done> Run::upload() {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         const auto role = static_cast<BufferRole>(i);
-        const std::size_t size = runner_.sampler.upload_size(domain_, role);
-        std::span<std::byte> staged = memory_.stage(role, size);
+        const std::size_t from =
+            memory_.holds(role, of_.meshes) ? runner_.sampler.mesh_bytes(domain_, role) : 0;
+        const std::size_t size = runner_.sampler.upload_size(domain_, role) - from;
+        std::span<std::byte> staged = memory_.stage(role, from, size);
         if (staged.empty() && size > 0) {
             auto before = runner_.submitter->run(
                 [&](VkCommandBuffer commands) { memory_.record_uploads(commands); });
             if (!before) {
                 return before;
             }
-            staged = memory_.stage(role, size);
+            staged = memory_.stage(role, from, size);
         }
         std::vector<std::byte> large(staged.empty() ? size : 0);
-        auto written = size > 0 ? runner_.sampler.write_upload(domain_, job_->plan(), role,
-                                                               staged.empty() ? large : staged)
-                                : Result<Done>(Done{});
+        auto written = size > 0
+                           ? runner_.sampler.write_upload(domain_, job_->plan(), role,
+                                                          staged.empty() ? large : staged, from)
+                           : Result<Done>(Done{});
         if (!written) {
             return written;
         }
-        if (auto uploaded = memory_.upload(role, large); !uploaded) {
+        if (auto uploaded = memory_.upload(role, from, large); !uploaded) {
             return uploaded;
         }
+        memory_.set_held(role, of_.meshes);
+        report_.uploaded += size;
     }
     return Done{};
 }

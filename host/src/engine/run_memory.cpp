@@ -60,6 +60,7 @@ Result<Done> RunMemory::reserve(const WorkspaceNeeds& needs, VkDeviceSize stagin
             continue;
         }
         buffers_[i] = {};
+        held_[i].clear();
         auto made = create(needs.bytes[i]);
         if (!made) {
             return made.error();
@@ -72,13 +73,14 @@ Result<Done> RunMemory::reserve(const WorkspaceNeeds& needs, VkDeviceSize stagin
 Result<Done> RunMemory::allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes) {
     uploads_.clear();
     staged_ = 0;
-    const VkDeviceSize staging = std::clamp(kHeadBytes + upload_bytes, kLeastStaging, kMostStaging);
+    const VkDeviceSize staging = staging_bytes(upload_bytes);
     const bool had_any = bytes() > 0;
     auto reserved = reserve(needs, staging);
     if (!reserved && reserved.error().status == Status::out_of_device_memory && had_any) {
         for (DeviceBuffer& buffer : buffers_) {
             buffer = {};
         }
+        held_ = {};
         staging_ = {};
         reserved = reserve(needs, staging);
     }
@@ -105,12 +107,20 @@ std::uint64_t RunMemory::bytes() const {
     return sum;
 }
 
-std::span<std::byte> RunMemory::stage(BufferRole role, std::size_t size) {
+bool RunMemory::holds(BufferRole role, const std::vector<std::uint64_t>& meshes) const {
+    return held_[static_cast<std::size_t>(role)] == meshes;
+}
+
+void RunMemory::set_held(BufferRole role, const std::vector<std::uint64_t>& meshes) {
+    held_[static_cast<std::size_t>(role)] = meshes;
+}
+
+std::span<std::byte> RunMemory::stage(BufferRole role, VkDeviceSize to, std::size_t size) {
     const VkDeviceSize from = kHeadBytes + staged_;
     if (size == 0 || from + size > staging_.size()) {
         return {};
     }
-    uploads_.push_back({role, from, size});
+    uploads_.push_back({role, from, to, size});
     staged_ += size;
     return staging_.bytes().subspan(from, size);
 }
@@ -118,7 +128,7 @@ std::span<std::byte> RunMemory::stage(BufferRole role, std::size_t size) {
 void RunMemory::record_uploads(VkCommandBuffer commands) {
     samples_ = 0;
     for (const Upload& upload : uploads_) {
-        const VkBufferCopy copy{upload.from, 0, upload.size};
+        const VkBufferCopy copy{upload.from, upload.to, upload.size};
         sampler_.vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer(upload.role).handle(), 1,
                                     &copy);
     }
@@ -129,13 +139,13 @@ void RunMemory::record_uploads(VkCommandBuffer commands) {
     staged_ = 0;
 }
 
-Result<Done> RunMemory::upload(BufferRole role, std::span<const std::byte> bytes) {
+Result<Done> RunMemory::upload(BufferRole role, VkDeviceSize to, std::span<const std::byte> bytes) {
     const DeviceTable& vk = sampler_.vk;
     for (std::size_t done = 0; done < bytes.size();) {
         const std::size_t part = std::min(bytes.size() - done, staging_.bytes().size());
         std::memcpy(staging_.bytes().data(), bytes.data() + done, part);
         auto copied = submitter_.run([&](VkCommandBuffer commands) {
-            const VkBufferCopy copy{0, done, part};
+            const VkBufferCopy copy{0, to + done, part};
             vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer(role).handle(), 1, &copy);
             barrier_transfer_to_compute(vk, commands);
         });

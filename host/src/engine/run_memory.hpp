@@ -42,12 +42,16 @@ class RunMemory {
     /// Whether memory was short for one.
     bool was_short() const { return was_short_; }
 
-    /// Where to write what is to be uploaded; empty where there is no room. It is up to the next
-    /// record_uploads to do so.
-    std::span<std::byte> stage(BufferRole role, std::size_t size);
+    /// Whether a buffer holds what follows from these meshes, by PreparedMesh::identity(); and says
+    /// that it does, now or with the next record_uploads.
+    bool holds(BufferRole role, const std::vector<std::uint64_t>& meshes) const;
+    void set_held(BufferRole role, const std::vector<std::uint64_t>& meshes);
+    /// Where to write what is to be uploaded from a byte of the buffer on; empty where there is no
+    /// room. It is up to the next record_uploads to do so.
+    std::span<std::byte> stage(BufferRole role, VkDeviceSize to, std::size_t size);
     void record_uploads(VkCommandBuffer commands);
     /// In as many parts as it takes, at once.
-    Result<Done> upload(BufferRole role, std::span<const std::byte> bytes);
+    Result<Done> upload(BufferRole role, VkDeviceSize to, std::span<const std::byte> bytes);
 
     /// Records that the host gets the control record.
     void record_control(VkCommandBuffer commands) const;
@@ -66,7 +70,7 @@ class RunMemory {
   private:
     struct Upload {
         BufferRole role;
-        VkDeviceSize from, size;
+        VkDeviceSize from, to, size;
     };
 
     Result<DeviceBuffer> create(VkDeviceSize bytes, VkBufferUsageFlags usage = kWorkspaceUsage,
@@ -82,6 +86,7 @@ class RunMemory {
     Submitter& submitter_;
     const VkPhysicalDeviceMemoryProperties& memory_;
     std::array<DeviceBuffer, kBufferRoles> buffers_;
+    std::array<std::vector<std::uint64_t>, kBufferRoles> held_; ///< Meshes.
     DeviceBuffer staging_; ///< The control record, then whatever comes or goes.
     std::vector<Upload> uploads_;
     VkDeviceSize staged_ = 0;

@@ -89,14 +89,19 @@ std::size_t Sampler::upload_size(const Domain& domain, BufferRole role) const no
     return Domain::Impl::of(domain).upload_size(role);
 }
 
+std::size_t Sampler::mesh_bytes(const Domain& domain, BufferRole role) const noexcept {
+    return Domain::Impl::of(domain).mesh_bytes(role);
+}
+
 Result<Done> Sampler::write_upload(const Domain& domain, const RunPlan& plan, BufferRole role,
-                                   std::span<std::byte> out) const noexcept {
+                                   std::span<std::byte> out, std::size_t from) const noexcept {
     return guarded([&]() -> Result<Done> {
-        if (out.size() != upload_size(domain, role) || out.empty()) {
+        const bool is_whole = from == 0 || from == mesh_bytes(domain, role);
+        if (!is_whole || out.empty() || out.size() != upload_size(domain, role) - from) {
             return Error{Status::invalid_argument,
                          "not a buffer that is uploaded, or not of its size"};
         }
-        return Domain::Impl::of(domain).write_upload(plan, role, out);
+        return Domain::Impl::of(domain).write_upload(plan, role, from, out);
     });
 }
 

@@ -147,6 +147,7 @@ SpaceDomain::SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const S
     samples = samples_to_expect(stages.samples, params.throws, params.stop_count);
     stop_count = params.stop_count;
     units = mesh.face_count();
+    first_faces = {0, mesh.face_count()};
 }
 
 void SpaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
@@ -164,10 +165,10 @@ std::size_t SpaceDomain::upload_size(BufferRole role) const {
                                        : GridDomain::upload_size(role);
 }
 
-Result<Done> SpaceDomain::write_upload(const RunPlan& plan, BufferRole role,
+Result<Done> SpaceDomain::write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
                                        std::span<std::byte> out) const {
     if (role != BufferRole::corners) {
-        return GridDomain::write_upload(plan, role, out);
+        return GridDomain::write_upload(plan, role, from, out);
     }
     std::fill(out.begin(), out.end(), std::byte{0});
     for (std::size_t corner = 0; corner < view_.triangles.size(); ++corner) {

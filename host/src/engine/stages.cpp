@@ -16,6 +16,9 @@ constexpr double kMostInSmallFace = 24;
 } // namespace
 
 std::uint32_t Stages::pool_stages() const noexcept {
+    if (most_stages != 0) {
+        return most_stages;
+    }
     return static_cast<std::uint32_t>(
         std::clamp(std::ceil(ratio / kStageRatio), 1.0, double{kMostPoolStages}));
 }
@@ -54,16 +57,23 @@ double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, st
     return per_area * 0.5 * edge.length * edge.apex_y * density;
 }
 
-bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params) {
+void FaceCrowding::add(const PreparedMesh& mesh, const SampleParams& params) {
     const double per_area = stages_of(mesh, params).candidates() / effective_area(mesh, params);
-    double sum = 0;
-    double squares = 0;
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
         const double expected = expected_in_face(mesh, params, face, per_area);
-        sum += expected;
-        squares += expected * expected;
+        sum_ += expected;
+        squares_ += expected * expected;
     }
-    return squares <= kMostInSmallFace * sum;
+}
+
+bool FaceCrowding::is_small() const noexcept {
+    return squares_ <= kMostInSmallFace * sum_;
+}
+
+bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params) {
+    FaceCrowding crowding;
+    crowding.add(mesh, params);
+    return crowding.is_small();
 }
 
 } // namespace geodisk

@@ -27,8 +27,20 @@ GEODISK_API float stage_intensity(const PreparedMesh& mesh, const SampleParams& 
 double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
                         double per_area);
 
-/// Whether faces hold so few candidates that disks need not tell their cells apart: all then have
-/// one cell. The rule bears on speed alone.
+/// How many candidates share a face.
+class FaceCrowding {
+  public:
+    /// Those of a surface.
+    void add(const PreparedMesh& mesh, const SampleParams& params);
+    /// Whether faces hold so few that disks need not tell their cells apart: all then have one
+    /// cell. The rule bears on speed alone.
+    bool is_small() const noexcept;
+
+  private:
+    double sum_ = 0, squares_ = 0;
+};
+
+/// The same of one surface.
 GEODISK_API bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params);
 
 } // namespace geodisk

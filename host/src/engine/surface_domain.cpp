@@ -25,6 +25,66 @@ constexpr double kLeastList = 8;
 // with the order of work the longest window chain may change, and with it the guard.
 constexpr double kHeapFaces = 1u << 14;
 
+// Of several surfaces, as of one.
+constexpr std::uint64_t kMostHalfEdges = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMostVertices = gpu::kVertexMask;
+
+/// The stages of all: each has those of its own.
+Stages stages_of(PlacedSurfaces surfaces) {
+    Stages all = stages_of(*surfaces[0].mesh, surfaces[0].params);
+    if (surfaces.size() == 1) {
+        return all;
+    }
+    all = {};
+    double pool = 0;
+    for (const PlacedSurface& surface : surfaces) {
+        const Stages own = stages_of(*surface.mesh, surface.params);
+        all.samples += own.samples;
+        pool += own.pool();
+        all.most_stages = std::max(all.most_stages, own.pool_stages());
+        all.most_expected += own.expected(0);
+    }
+    all.ratio = pool / all.samples;
+    return all;
+}
+
+Result<Domain> wrapped(Result<std::unique_ptr<const Domain::Impl>> made) {
+    return made ? Result<Domain>(Domain::Impl::wrap(std::move(*made)))
+                : Result<Domain>(made.error());
+}
+
+PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params) {
+    return {&mesh, params, working_distance(mesh, params), 0, 0, 0};
+}
+
+Error invalid(std::string message) {
+    return {Status::invalid_argument, std::move(message)};
+}
+
+Error in_part(std::size_t part, Error error) {
+    error.message = "surface " + std::to_string(part) + ": " + error.message;
+    return error;
+}
+
+/// A part, with the distance in units of its mesh.
+Result<PlacedSurface> place(const SurfacePart& part) {
+    if (part.mesh == nullptr) {
+        return invalid("there is no mesh");
+    }
+    if (!(part.scale > 0) || !std::isfinite(part.scale)) {
+        return invalid("the scale must be a positive finite number");
+    }
+    SampleParams params = part.params;
+    params.min_distance /= part.scale;
+    if (auto checked = pool_size(*part.mesh, params); !checked) {
+        return checked.error();
+    }
+    if (params.throws != 0 || params.stop_count != 0) {
+        return invalid("of several surfaces, darts and samples are not counted");
+    }
+    return placed(*part.mesh, params);
+}
+
 } // namespace
 
 Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& params) noexcept {
@@ -32,28 +92,79 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
         if (auto checked = pool_size(mesh, params); !checked) {
             return checked.error();
         }
-        const auto cells = count_cells(mesh, params);
-        if (!cells) {
-            return cells.error();
-        }
-        return Domain(std::make_unique<SurfaceDomain>(mesh, params, *cells));
+        return wrapped(SurfaceDomain::make({placed(mesh, params)}));
     });
 }
 
-SurfaceDomain::SurfaceDomain(const PreparedMesh& mesh, const SampleParams& params,
-                             std::uint32_t cells)
-    : mesh_(mesh), params_(params), cells_(cells),
-      full_(std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance))) {
+Result<Domain> Domain::surfaces(std::span<const SurfacePart> parts) noexcept {
+    return guarded([&]() -> Result<Domain> {
+        if (parts.empty()) {
+            return invalid("there are no surfaces");
+        }
+        std::vector<PlacedSurface> surfaces;
+        std::uint64_t half_edges = 0, vertices = 0, corners = 0;
+        double candidates = 0;
+        for (const SurfacePart& part : parts) {
+            auto next = place(part);
+            if (next && (next->params.radii != nullptr) != (parts[0].params.radii != nullptr)) {
+                next = invalid("some surfaces have radii that vary, others have not");
+            }
+            if (!next) {
+                return in_part(surfaces.size(), next.error());
+            }
+            next->first_face = static_cast<std::uint32_t>(half_edges / 3);
+            next->first_vertex = static_cast<std::uint32_t>(vertices);
+            next->first_corner = static_cast<std::uint32_t>(corners);
+            half_edges += part.mesh->half_edges().size();
+            vertices += part.mesh->vertex_count();
+            corners += part.mesh->corners().size();
+            candidates += stages_of(*part.mesh, next->params).candidates();
+            if (half_edges > kMostHalfEdges || vertices > kMostVertices ||
+                candidates > kMostCandidates) {
+                return in_part(surfaces.size(),
+                               invalid("with those before it is too large for one job, which may "
+                                       "have 2^30 half-edges, 2^30 vertices and 2^32 candidates"));
+            }
+            surfaces.push_back(*next);
+        }
+        return wrapped(SurfaceDomain::make(std::move(surfaces)));
+    });
+}
+
+Result<std::unique_ptr<const Domain::Impl>>
+SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
+    const auto cells = count_cells(surfaces);
+    if (!cells) {
+        return cells.error();
+    }
+    return std::unique_ptr<const Impl>(
+        std::make_unique<SurfaceDomain>(std::move(surfaces), *cells));
+}
+
+SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t cells)
+    : surfaces_(std::move(surfaces)), cells_(cells) {
+    stages = stages_of(surfaces_);
+    for (const PlacedSurface& surface : surfaces_) {
+        const PreparedMesh& mesh = *surface.mesh;
+        const SampleParams& params = surface.params;
+        full_ += std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance));
+        first_error_ = std::max(first_error_, first_error(mesh, params));
+        error.widen(ErrorModel(mesh, params));
+        meshes.push_back(mesh.identity());
+        first_faces.push_back(surface.first_face);
+    }
+    first_faces.push_back(face_count(surfaces_));
     kernels.domain = DomainKind::surface;
-    kernels.adaptive = params.radii != nullptr;
+    kernels.adaptive = has_radii(surfaces_);
+    kernels.several = surfaces_.size() > 1;
     kernels.event_heap = faces_per_disk() >= kHeapFaces;
-    stages = stages_of(mesh, params);
     samples_per_measure = samples_per_area();
+    // Several have neither, and seeds of their own.
+    const SampleParams& params = surfaces_[0].params;
     samples = samples_to_expect(full_, params.throws, params.stop_count);
     stop_count = params.stop_count;
-    seed = params.seed;
-    units = mesh.face_count();
-    error = ErrorModel(mesh, params);
+    seed = kernels.several ? 0 : params.seed;
+    units = face_count(surfaces_);
     bytes_per_candidate = 16;
 }
 
@@ -71,7 +182,7 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
     plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces);
     plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces);
     plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * candidates / full_));
-    plan.error_bound = first_error(mesh_, params_);
+    plan.error_bound = first_error_;
 }
 
 double SurfaceDomain::disk_steps(const RunPlan&, std::uint32_t) const {
@@ -107,7 +218,7 @@ void SurfaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
 }
 
 std::string SurfaceDomain::beside_candidates() const {
-    return " and " + std::to_string(mesh_.face_count()) + " faces";
+    return " and " + std::to_string(units) + " faces";
 }
 
 void SurfaceDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
@@ -115,35 +226,60 @@ void SurfaceDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
     push.limit = tolerances.limit;
     push.margin = tolerances.margin;
     push.slack = tolerances.slack;
-    push.has_keys = params_.face_keys.empty() ? 0 : 1;
+    push.has_keys = surfaces_[0].params.face_keys.empty() ? 0 : 1;
     push.all_single = cells_ == 0 ? 1 : 0;
-    push.vertices = mesh_.vertex_count();
-    push.splits_once = mesh_.statistics().nonmanifold_edges == 0 ? 1 : 0;
+    push.vertices = vertex_count(surfaces_);
+    push.splits_once =
+        std::all_of(surfaces_.begin(), surfaces_.end(),
+                    [](const PlacedSurface& surface) {
+                        return surface.mesh->statistics().nonmanifold_edges == 0;
+                    })
+            ? 1
+            : 0;
 }
 
 std::size_t SurfaceDomain::upload_size(BufferRole role) const {
     switch (role) {
     case BufferRole::faces:
-        return face_bytes(mesh_);
+        return half_edge_bytes(surfaces_) + length_bytes(surfaces_);
     case BufferRole::fans:
-        return fan_bytes(mesh_, kernels.adaptive);
+        return fan_bytes(surfaces_) + radii_bytes(surfaces_);
     case BufferRole::keys:
-        return key_bytes(params_);
+        return key_bytes(surfaces_);
     default:
         return 0;
     }
 }
 
-Result<Done> SurfaceDomain::write_upload(const RunPlan&, BufferRole role,
-                                         std::span<std::byte> out) const {
+std::size_t SurfaceDomain::mesh_bytes(BufferRole role) const {
     switch (role) {
     case BufferRole::faces:
-        write_faces(mesh_, params_, cells_ == 0, out);
+        return half_edge_bytes(surfaces_);
+    case BufferRole::fans:
+        return fan_bytes(surfaces_);
+    default:
+        return 0;
+    }
+}
+
+Result<Done> SurfaceDomain::write_upload(const RunPlan&, BufferRole role, std::size_t from,
+                                         std::span<std::byte> out) const {
+    const std::size_t of_mesh = from == 0 ? mesh_bytes(role) : 0;
+    const auto rest = out.subspan(of_mesh);
+    switch (role) {
+    case BufferRole::faces:
+        if (of_mesh > 0) {
+            write_half_edges(surfaces_, out.first(of_mesh));
+        }
+        write_lengths(surfaces_, cells_ == 0, rest);
         return Done{};
     case BufferRole::fans:
-        return write_fans(mesh_, params_, out);
+        if (of_mesh > 0) {
+            write_fans(surfaces_, out.first(of_mesh));
+        }
+        return rest.empty() ? Result<Done>(Done{}) : write_radii(surfaces_, rest);
     default:
-        write_keys(params_, out);
+        write_keys(surfaces_, out);
         return Done{};
     }
 }

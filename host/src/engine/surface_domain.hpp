@@ -1,15 +1,20 @@
 // Surfaces with geodesic distances.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "engine/domain_impl.hpp"
+#include "engine/placed_surface.hpp"
 #include "engine/tolerances.hpp"
 
 namespace geodisk {
 
-/// A mesh and what is asked of it, which pool_size() finds no fault with; all must outlive it.
+/// Meshes and what is asked of each, which pool_size() finds no fault with; all must outlive it.
 class SurfaceDomain : public Domain::Impl {
   public:
-    SurfaceDomain(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t cells);
+    SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t cells);
+    static Result<std::unique_ptr<const Impl>> make(std::vector<PlacedSurface> surfaces);
 
     std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
@@ -24,17 +29,18 @@ class SurfaceDomain : public Domain::Impl {
     std::string beside_candidates() const override;
     void set_push(gpu::Push& push, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
-    Result<Done> write_upload(const RunPlan& plan, BufferRole role,
+    std::size_t mesh_bytes(BufferRole role) const override;
+    Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
                               std::span<std::byte> out) const override;
     double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
 
   private:
-    double faces_per_disk() const { return 2.0 * mesh_.face_count() / full_; }
+    double faces_per_disk() const { return 2.0 * face_count(surfaces_) / full_; }
 
-    const PreparedMesh& mesh_;
-    SampleParams params_;
+    std::vector<PlacedSurface> surfaces_;
+    double first_error_ = 0;
     std::uint32_t cells_; ///< Of all faces; 0 where each has one.
-    double full_;         ///< Samples that a full surface holds, at least two: no disk covers
+    double full_ = 0;     ///< Samples that full surfaces hold, at least two each: no disk covers
                           ///< more than all faces.
 };
 

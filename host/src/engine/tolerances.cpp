@@ -55,6 +55,12 @@ ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params)
     : longest_(mesh.statistics().longest_edge / working_distance(mesh, params)),
       further_(params.radii != nullptr ? kRadiiRounding : 0), per_crossing_(kRounding) {}
 
+void ErrorModel::widen(const ErrorModel& other) noexcept {
+    longest_ = std::max(longest_, other.longest_);
+    further_ = std::max(further_, other.further_);
+    per_crossing_ = std::max(per_crossing_, other.per_crossing_);
+}
+
 double ErrorModel::error_of(std::uint32_t chain) const noexcept {
     return per_crossing_ * (chain + 4 * std::ceil(longest_)) + further_;
 }

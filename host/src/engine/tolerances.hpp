@@ -39,6 +39,9 @@ class GEODISK_API ErrorModel {
     /// Where radii vary, with a little more for their rounding.
     ErrorModel(const PreparedMesh& mesh, const SampleParams& params);
 
+    /// Makes it one that holds of another as well.
+    void widen(const ErrorModel& other) noexcept;
+
     /// Of chains of so many crossings.
     double error_of(std::uint32_t chain) const noexcept;
     /// That is safe while errors keep to the bound: in steps of two from 2^-13 on, so that an edit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <new>
 #include <vector>
@@ -109,6 +110,11 @@ Error current_failure() {
 }
 
 } // namespace
+
+std::uint64_t PreparedMesh::next_identity() noexcept {
+    static std::atomic<std::uint64_t> next{0};
+    return ++next;
+}
 
 template <class View>
 Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh) {
