@@ -127,8 +127,8 @@ TEST_SUITE("several") {
         options.plan.stages = 1;
         options.plan.slots = 32;
         options.pool_bytes = std::uint64_t{1} << 20;
-        Runner runner = expect(
-            Runner::create(shared_context().device(), shared_context().queue(), options));
+        Runner runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), options));
         CHECK(points_of(expect(runner.sample_and_wait(domain))) == whole);
     }
 

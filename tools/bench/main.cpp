@@ -11,6 +11,7 @@
 #include <geodisk/version.hpp>
 
 #include "bench/circumstances.hpp"
+#include "bench/copies.hpp"
 #include "bench/options.hpp"
 #include "bench/outputs.hpp"
 #include "bench/sweep.hpp"
@@ -34,6 +35,7 @@ Examples:
   geodisk_bench builtin:showpiece bunny.ply
   geodisk_bench builtin:cube -n 1e4,1e5 --repeats 9 --json bench.json
   geodisk_bench builtin:showpiece -n 1e4,1e5 --tune
+  geodisk_bench builtin:torus-knot:6 -n 50 --copies 300
   geodisk_bench builtin:showpiece --scaling --json scaling.json --plot scaling
 
 Exit status:
@@ -67,6 +69,11 @@ void measure(const Context& context, bench::Options options,
     }
     Runner runner = tools::take(Runner::create(context.device(), context.queue(), options.runner));
     const bench::Circumstances circumstances = bench::find_circumstances(runner.sampler(), options);
+    if (options.copies != 0) {
+        bench::print_copies_heading(circumstances);
+        bench::run_copies(runner, options, meshes, bench::print_copies);
+        return;
+    }
     bench::print_heading(circumstances);
     const std::vector<bench::Series> series =
         bench::run_all(runner, options, meshes, {bench::print_row, bench::print_growth});

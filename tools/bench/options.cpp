@@ -50,6 +50,11 @@ Options checked(const RawOptions& raw) {
     if (!options.scaling && !options.plot.empty()) {
         tools::fail_usage("--plot draws sweeps, so it needs --scaling");
     }
+    if (options.copies != 0 &&
+        (options.tune || options.scaling || !options.json.empty() || !options.csv.empty())) {
+        tools::fail_usage("--copies measures nothing else and contradicts --tune, --scaling, "
+                          "--json and --csv");
+    }
     options.counts = options.scaling ? parse_counts("--scaling-counts", raw.scaling_counts)
                                      : parse_counts("--count", raw.counts);
     options.face_sweep_count = tools::parse_count("--scaling-samples", raw.scaling_samples);
@@ -130,6 +135,10 @@ void add_options(CLI::App& app, void (*run)(const Options&)) {
     add_option(app, "--warm-ups", options.warm_ups, "K", "Runs before those, 0 to 1000")
         ->check(CLI::Range(0, 1000).description(""))
         ->capture_default_str();
+    add_option(app, "--copies", options.copies, "K",
+               "Time K copies of each mesh instead: sampled one by one,\n"
+               "as one job and as one mesh; counts are those of a copy")
+        ->check(CLI::Range(1, 100000).description(""));
     add_option(app, "--device", options.device, "NAME|INDEX",
                "Device by name, index or UUID (geodisk info)");
     app.add_flag("--stages", options.runner.time_stages,

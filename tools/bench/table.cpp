@@ -29,6 +29,7 @@ std::string three_digits(double value) {
 }
 
 constexpr std::size_t kNameWidth = 20;
+constexpr std::size_t kCopiesWidth = 10;
 constexpr Column kColumns[] = {
     {"", "faces", 8, [](const Measurement& r) { return std::to_string(r.triangles); }},
     {"", "samples", 8, [](const Measurement& r) { return std::to_string(r.samples); }},
@@ -137,6 +138,30 @@ void print_growth(const Series& series) {
         }
     }
     std::cout << std::flush;
+}
+
+void print_copies_heading(const Circumstances& run) {
+    print_circumstances(run);
+    std::cout << "seconds    medians of " << run.repeats << " runs after " << run.warm_ups
+              << " to warm up, from upload to result; each copy got the same samples in one job as "
+                 "by itself\n\n"
+              << tools::padded("mesh", kNameWidth);
+    std::string line;
+    for (const char* name : {"faces", "samples", "one by one", "one job", "one mesh", "job/mesh"}) {
+        append_right(line, name, kCopiesWidth);
+    }
+    std::cout << line << '\n' << std::flush;
+}
+
+void print_copies(const CopiesRow& row) {
+    std::string line = tools::padded(tools::one_line(row.mesh), kNameWidth);
+    for (const std::string& text : {std::to_string(row.triangles), std::to_string(row.samples),
+                                    seconds(row.seconds.one_by_one), seconds(row.seconds.one_job),
+                                    seconds(row.seconds.one_mesh),
+                                    three_digits(row.seconds.one_job / row.seconds.one_mesh)}) {
+        append_right(line, text, kCopiesWidth);
+    }
+    std::cout << line << '\n' << std::flush;
 }
 
 void print_tune_heading(const Circumstances& run) {

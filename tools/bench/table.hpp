@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/circumstances.hpp"
+#include "bench/copies.hpp"
 #include "bench/sweep.hpp"
 #include "bench/tune.hpp"
 
@@ -14,6 +15,9 @@ void print_heading(const Circumstances& circumstances);
 void print_row(const Measurement& row);
 /// The exponents of a sweep, if it is one.
 void print_growth(const Series& series);
+
+void print_copies_heading(const Circumstances& circumstances);
+void print_copies(const CopiesRow& row);
 
 void print_tune_heading(const Circumstances& circumstances);
 void print_trial(const Trial& trial);

@@ -107,8 +107,7 @@ void write_parts(PlacedSurfaces surfaces, std::span<std::byte> out) {
         const PlacedSurface& surface = surfaces[i];
         const SampleParams& params = surface.params;
         for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
-            store(out, surface.first_face + f,
-                  params.face_keys.empty() ? f : params.face_keys[f]);
+            store(out, surface.first_face + f, params.face_keys.empty() ? f : params.face_keys[f]);
             store(parts, surface.first_face + f, i);
         }
         store(records, i,

@@ -21,10 +21,10 @@ struct Domain::Impl {
     KernelVariant kernels;
     Stages stages;
     std::vector<std::uint32_t> first_faces; ///< Of the surfaces, and one past the last.
-    std::vector<std::uint64_t> meshes; ///< PreparedMesh::identity() of each.
-    double samples_per_measure = 0; ///< Expected, per unit of area or volume.
-    double samples = 0;             ///< To reckon with: not more than are asked for, or thrown.
-    std::uint32_t stop_count = 0;   ///< 0 for none.
+    std::vector<std::uint64_t> meshes;      ///< PreparedMesh::identity() of each.
+    double samples_per_measure = 0;         ///< Expected, per unit of area or volume.
+    double samples = 0;           ///< To reckon with: not more than are asked for, or thrown.
+    std::uint32_t stop_count = 0; ///< 0 for none.
     std::uint64_t seed = 0;
     ErrorModel error; ///< Of distances.
     /// What candidates are drawn by: faces, or cells of a box.

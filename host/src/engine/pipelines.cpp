@@ -124,16 +124,16 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
     constexpr std::uint32_t kWord = sizeof(std::uint32_t);
     const Tuning& tuning = choices_.tuning;
     const std::array<std::uint32_t, 10> constants{info.per_slot ? tuning.slot_local_size
-                                                               : tuning.local_size,
-                                                 choices_.native_rounding ? VK_TRUE : VK_FALSE,
-                                                 tuning.pool_block,
-                                                 choices_.counted_lanes,
-                                                 choices_.count_calls ? VK_TRUE : VK_FALSE,
-                                                 variant.dimension,
-                                                 variant.curved ? VK_TRUE : VK_FALSE,
-                                                 variant.adaptive ? VK_TRUE : VK_FALSE,
-                                                 variant.event_heap ? VK_TRUE : VK_FALSE,
-                                                 variant.several ? VK_TRUE : VK_FALSE};
+                                                                : tuning.local_size,
+                                                  choices_.native_rounding ? VK_TRUE : VK_FALSE,
+                                                  tuning.pool_block,
+                                                  choices_.counted_lanes,
+                                                  choices_.count_calls ? VK_TRUE : VK_FALSE,
+                                                  variant.dimension,
+                                                  variant.curved ? VK_TRUE : VK_FALSE,
+                                                  variant.adaptive ? VK_TRUE : VK_FALSE,
+                                                  variant.event_heap ? VK_TRUE : VK_FALSE,
+                                                  variant.several ? VK_TRUE : VK_FALSE};
     const std::array<VkSpecializationMapEntry, 10> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
