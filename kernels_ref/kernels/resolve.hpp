@@ -1,4 +1,4 @@
-// Twin of shaders/kernels/block.comp and resolve.comp: decides a batch of active candidates (paper
+// Twin of shaders/kernels/resolve.comp: decides a batch of active candidates (paper
 // section 3.5, CheckStatus).
 #pragma once
 

@@ -65,7 +65,7 @@
         }                                                                                          \
     }
 
-#define GEODISK_PUSH                                                                               \
-    layout(push_constant, std430) uniform push_block { Push push; }
+#define GEODISK_PUSH(type)                                                                         \
+    layout(push_constant, std430) uniform push_block { type push; }
 
 #endif

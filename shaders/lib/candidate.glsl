@@ -4,17 +4,8 @@
 #define GEODISK_CANDIDATE_GLSL
 
 #include "face_candidate.glsl"
+#include "parts.glsl"
 #include "radii.glsl"
-
-layout(constant_id = kSpecSeveral) const bool kSeveral = false;
-
-GEODISK_WORDS(kBindKeys, keys);
-
-// A word of PartRec, of the surface that a face is of.
-uint part_word(uint face, uint word) {
-    uint part = word_at(keys, push.faces + face);
-    return word_at(keys, 2u * push.faces + kPartWords * part + word);
-}
 
 uint key_of(uint face) {
     return kSeveral || push.has_keys != 0u ? word_at(keys, face) : face;
@@ -23,15 +14,19 @@ uint key_of(uint face) {
 // That of the job changes those of several surfaces alike.
 uvec2 seed_of(uint face) {
     uvec2 seed = uvec2(push.seed_low, push.seed_high);
-    return kSeveral ? seed ^ uvec2(part_word(face, 0u), part_word(face, 1u)) : seed;
+    if (kSeveral) {
+        uint part = part_of(face);
+        seed ^= uvec2(part_word(part, 0u), part_word(part, 1u));
+    }
+    return seed;
 }
 
 float intensity_of(uint face) {
-    return kSeveral ? uintBitsToFloat(part_word(face, 2u)) : push.intensity;
+    return kSeveral ? uintBitsToFloat(part_word(part_of(face), 2u)) : push.intensity;
 }
 
 // Those of the job that the face has candidates in.
-uint stages_of(uint face) { return kSeveral ? part_word(face, 3u) : kAllStages; }
+uint stages_of(uint face) { return kSeveral ? part_word(part_of(face), 3u) : kAllStages; }
 
 // Where radii vary, candidates are as dense as 1 / r^2, so that every disk holds as many. Uniform
 // weights u of the corners are turned into u_k / s_k over their sum, which makes points as dense as

@@ -8,7 +8,10 @@
 #include "../shared/records.h"
 #include "buffers.glsl"
 
-GEODISK_PUSH;
+#ifndef GEODISK_OWN_PUSH
+#define GEODISK_OWN_PUSH Push
+#endif
+GEODISK_PUSH(GEODISK_OWN_PUSH);
 
 // Passes over faces, candidates or samples are cut into several dispatches.
 uint own_group() { return push.first_group + gl_WorkGroupID.x; }

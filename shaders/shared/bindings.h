@@ -47,7 +47,12 @@ GEODISK_CONST uint kBindPoolTexels = 15u;
 GEODISK_CONST uint kBindStatesTexels = 16u;
 GEODISK_CONST uint kBindOrdersTexels = 17u;
 GEODISK_CONST uint kBindCellsTexels = 18u;
-GEODISK_CONST uint kBindCount = 19u;
+// Of the caller alone.
+GEODISK_CONST uint kBindVertices = 19u;  // floats
+GEODISK_CONST uint kBindIndices = 20u;   // three of 16 or 32 bits per face
+GEODISK_CONST uint kBindPlaced = 21u;    // PlacedRec per sample
+GEODISK_CONST uint kBindArguments = 22u; // of an indirect draw: four words
+GEODISK_CONST uint kBindCount = 23u;
 
 GEODISK_END_SHARED
 

@@ -164,7 +164,8 @@ GEODISK_CONST uint kFaceRows = 3u;
 GEODISK_CONST uint kSpaceRows = 6u; // of a face, where distances go through space
 GEODISK_CONST uint kRadiiRows = 2u;
 GEODISK_CONST uint kAxisRows = 2u;
-GEODISK_CONST uint kPartWords = 4u; // of a surface among several
+GEODISK_CONST uint kPlacedRows = 3u; // of a sample where the caller draws it
+GEODISK_CONST uint kPartWords = 8u;  // of a surface among several
 GEODISK_CONST uint kLaneRows = 9u;
 GEODISK_CONST uint kWindowRows = 2u;
 

@@ -43,6 +43,22 @@ struct Push {
     uint list_groups;     // most work groups of a select that goes through all candidates
 };
 
+// That of `place`, which needs what a caller says of its own buffers. Strides and offsets are in words.
+struct PlacePush {
+    uint most;          // samples that the caller has room for
+    uint faces;
+    uint vertices;      // of the meshes of the job
+    uint last_vertex;   // of the caller's
+    uint stride;        // from vertex to vertex
+    uint position;      // where a vertex has its position
+    uint normal;        // and its normal
+    uint has_normals;   // 0 where normals are those of the faces
+    uint short_indices; // 1 for 16 bits
+    uint vertices_each; // that the caller draws for each sample
+    float radius;       // the largest, where there is one surface
+    uint first_group;   // as above
+};
+
 GEODISK_END_SHARED
 
 #ifdef __cplusplus

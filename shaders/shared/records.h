@@ -28,9 +28,19 @@ struct RadiiRec {
 };
 
 // A surface among several: its seed, candidates that one of its stages expects per unit of area, and how
-// many stages it has.
+// many stages it has; its largest radius, in its own units, and its first face.
 struct PartRec {
     uint seed_low; uint seed_high; float intensity; uint stages;
+    float radius; uint first_face; uint spare0; uint spare1;
+};
+
+// A sample where the caller draws it: its position, and its radius in the same units; the normal, of
+// length 1, or 0 of a face without one; its face, of its own surface; the weights of its second and
+// third corner; which of several surfaces it is on; its order in the job.
+struct PlacedRec {
+    float x; float y; float z; float radius;
+    float normal_x; float normal_y; float normal_z; uint face;
+    float weight1; float weight2; uint part; uint order;
 };
 
 struct FanRec {
@@ -158,7 +168,8 @@ namespace geodisk::gpu {
 static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, around) == 12);
 static_assert(sizeof(FaceLengthsRec) == 16 && offsetof(FaceLengthsRec, cells) == 12);
 static_assert(sizeof(RadiiRec) == 32 && offsetof(RadiiRec, density) == 28);
-static_assert(sizeof(PartRec) == 16 && offsetof(PartRec, stages) == 12);
+static_assert(sizeof(PartRec) == 32 && offsetof(PartRec, spare1) == 28);
+static_assert(sizeof(PlacedRec) == 48 && offsetof(PlacedRec, order) == 44);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);

@@ -40,8 +40,7 @@ DeviceRun::DeviceRun(const Domain& domain, const RunPlan& plan, const SamplerOpt
         if (needs.bytes[i] == 0) {
             continue;
         }
-        buffers_[i] = expect(DeviceBuffer::create(device_, vk_, memory_, needs.bytes[i],
-                                                  kWorkspaceUsage, MemoryKind::host));
+        buffers_[i] = make_buffer(needs.bytes[i]);
         workspace[i] = {buffers_[i].handle(), 0, buffers_[i].size()};
         const auto role = static_cast<BufferRole>(i);
         if (const std::size_t size = sampler_.upload_size(domain, role); size > 0) {
@@ -94,8 +93,7 @@ void DeviceRun::enlarge_samples(std::uint32_t capacity) {
     constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
         DeviceBuffer& buffer = buffers_[static_cast<std::size_t>(kRoles[i])];
-        DeviceBuffer larger = expect(DeviceBuffer::create(device_, vk_, memory_, bytes[i],
-                                                          kWorkspaceUsage, MemoryKind::host));
+        DeviceBuffer larger = make_buffer(bytes[i]);
         std::copy(buffer.bytes().begin(), buffer.bytes().end(), larger.bytes().begin());
         buffer = std::move(larger);
         ranges[i] = {buffer.handle(), 0, buffer.size()};

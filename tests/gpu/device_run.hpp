@@ -77,10 +77,15 @@ class DeviceRun {
     /// Dispatches recorded so far.
     std::uint64_t dispatches() const { return Job::Impl::of(*job_).dispatches; }
 
-  private:
     /// Records, submits and waits.
     void submit(const std::function<void(VkCommandBuffer)>& record);
+    /// Of a caller, which the host may read and write.
+    DeviceBuffer make_buffer(VkDeviceSize bytes) const {
+        return expect(
+            DeviceBuffer::create(device_, vk_, memory_, bytes, kWorkspaceUsage, MemoryKind::host));
+    }
 
+  private:
     DeviceRefs device_;
     DeviceTable vk_;
     Sampler sampler_;

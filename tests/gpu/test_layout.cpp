@@ -35,6 +35,14 @@ const Offsets kPush{GEODISK_OFFSET(Push, capacity),        GEODISK_OFFSET(Push, 
                     GEODISK_OFFSET(Push, buckets),         GEODISK_OFFSET(Push, bucket_shift),
                     GEODISK_OFFSET(Push, first_group),     GEODISK_OFFSET(Push, list_groups)};
 
+const Offsets kPlacePush{
+    GEODISK_OFFSET(PlacePush, most),          GEODISK_OFFSET(PlacePush, faces),
+    GEODISK_OFFSET(PlacePush, vertices),      GEODISK_OFFSET(PlacePush, last_vertex),
+    GEODISK_OFFSET(PlacePush, stride),        GEODISK_OFFSET(PlacePush, position),
+    GEODISK_OFFSET(PlacePush, normal),        GEODISK_OFFSET(PlacePush, has_normals),
+    GEODISK_OFFSET(PlacePush, short_indices), GEODISK_OFFSET(PlacePush, vertices_each),
+    GEODISK_OFFSET(PlacePush, radius),        GEODISK_OFFSET(PlacePush, first_group)};
+
 const Offsets kControl{GEODISK_OFFSET(ControlRec, select_x),
                        GEODISK_OFFSET(ControlRec, select_y),
                        GEODISK_OFFSET(ControlRec, select_z),
@@ -108,8 +116,10 @@ TEST_SUITE("layout") {
             CAPTURE(info.name);
             for (const auto& spirv : {info.spirv, info.texels_spirv}) {
                 const auto offsets = struct_offsets(spirv);
-                REQUIRE(offsets.count("Push") == 1);
-                CHECK(offsets.at("Push") == kPush);
+                const bool is_place = static_cast<Kernel>(k) == Kernel::place;
+                const char* const push = is_place ? "PlacePush" : "Push";
+                REQUIRE(offsets.count(push) == 1);
+                CHECK(offsets.at(push) == (is_place ? kPlacePush : kPush));
                 if (offsets.count("ControlRec") != 0) {
                     ++controls;
                     CHECK(offsets.at("ControlRec") == kControl);
@@ -118,7 +128,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 28);
+        CHECK(controls == 30);
     }
 
     TEST_CASE("no kernel binds more than eight storage buffers") {

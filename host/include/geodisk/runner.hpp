@@ -66,7 +66,7 @@ struct RunReport {
     std::uint64_t device_bytes = 0; ///< Memory allocated on the device.
     std::uint64_t uploaded = 0; ///< Bytes; of meshes only the lengths where the run before was of
                                 ///< the same ones.
-    RunPlan plan; ///< As it stood at the end.
+    RunPlan plan;               ///< As it stood at the end.
     struct {
         double compile = 0; ///< Of pipelines that no run before has needed.
         double upload = 0, sample = 0, readback = 0;

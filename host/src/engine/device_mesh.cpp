@@ -114,7 +114,8 @@ void write_parts(PlacedSurfaces surfaces, std::span<std::byte> out) {
               gpu::PartRec{static_cast<std::uint32_t>(params.seed),
                            static_cast<std::uint32_t>(params.seed >> 32),
                            stage_intensity(*surface.mesh, params, 0),
-                           stages_of(*surface.mesh, params).pool_stages()});
+                           stages_of(*surface.mesh, params).pool_stages(),
+                           static_cast<float>(params.min_distance / 2), surface.first_face, 0, 0});
     }
 }
 

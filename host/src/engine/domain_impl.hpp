@@ -20,6 +20,7 @@ namespace geodisk {
 struct Domain::Impl {
     KernelVariant kernels;
     Stages stages;
+    double largest_radius = 0;              ///< Of one surface, in its units.
     std::vector<std::uint32_t> first_faces; ///< Of the surfaces, and one past the last.
     std::vector<std::uint64_t> meshes;      ///< PreparedMesh::identity() of each.
     double samples_per_measure = 0;         ///< Expected, per unit of area or volume.

@@ -7,6 +7,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "bindings.h"
+#include "engine/buffer_ranges.hpp"
 #include "engine/domain_impl.hpp"
 #include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
@@ -21,41 +22,6 @@ namespace {
 // Beside a minimum distance of one.
 constexpr double kMostError = 0.5;
 
-Error range_error(Status status, const char* name, const std::string& what) {
-    return Error{status, std::string("the workspace's buffer ") + name + ' ' + what};
-}
-
-Result<Done> check_range(const BufferRange& range, const char* name, VkDeviceSize needed,
-                         const DeviceLimits& limits) {
-    if (range.buffer == VK_NULL_HANDLE) {
-        return range_error(Status::invalid_argument, name, "is null");
-    }
-    if (range.size < needed) {
-        return range_error(Status::workspace_too_small, name,
-                           "has " + std::to_string(range.size) + " bytes and needs " +
-                               std::to_string(needed));
-    }
-    if (range.size > limits.max_storage_buffer_range) {
-        return range_error(Status::invalid_argument, name,
-                           "has " + std::to_string(range.size) +
-                               " bytes, but the device binds at "
-                               "most " +
-                               std::to_string(limits.max_storage_buffer_range));
-    }
-    const std::uint64_t alignment = std::max(limits.min_storage_buffer_offset_alignment,
-                                             limits.min_texel_buffer_offset_alignment);
-    if (range.offset % alignment != 0) {
-        return range_error(Status::invalid_argument, name,
-                           "starts at " + std::to_string(range.offset) +
-                               ", off the device's alignment of " + std::to_string(alignment));
-    }
-    return Done{};
-}
-
-bool overlap(const BufferRange& a, const BufferRange& b) {
-    return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
-}
-
 Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
                              const Domain::Impl& of, const DeviceLimits& limits) {
     const auto name = [&of](std::size_t i) { return of.name_of(static_cast<BufferRole>(i)); };
@@ -68,8 +34,7 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
         }
         for (std::size_t k = 0; k < i; ++k) {
             if (overlap(workspace[i], workspace[k])) {
-                return range_error(Status::invalid_argument, name(i),
-                                   std::string("overlaps the buffer ") + name(k));
+                return overlap_error(name(i), name(k));
             }
         }
     }

@@ -35,6 +35,8 @@ namespace {
 #include "order_place_texels.spv.inc"
 #include "order_write.spv.inc"
 #include "order_write_texels.spv.inc"
+#include "place.spv.inc"
+#include "place_texels.spv.inc"
 #include "resolve.spv.inc"
 #include "resolve_texels.spv.inc"
 #include "resume.spv.inc"
@@ -113,6 +115,10 @@ constexpr Binding kOrderPlace[] = {
     {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
 constexpr Binding kOrderWrite[] = {
     {kBindControl, storage}, {kBindSamples, storage}, {kBindAccepted, read}, {kBindBuckets, read}};
+constexpr Binding kPlace[] = {{kBindFans, read},        {kBindKeys, read},
+                              {kBindControl, storage},  {kBindSamples, storage},
+                              {kBindVertices, storage}, {kBindIndices, storage},
+                              {kBindPlaced, storage},   {kBindArguments, storage}};
 constexpr Binding kSelfTest[] = {{kBindSums, storage}};
 constexpr Binding kBoxCount[] = {{kBindAxes, read}, {kBindStarts, storage}};
 constexpr Binding kBoxBin[] = {{kBindAxes, read}, {kBindCells, storage}, {kBindStarts, read}};
@@ -167,6 +173,7 @@ const std::array<KernelInfo, kKernels> kTable{{
     {"order_count", k_order_count_spirv, k_order_count_texels_spirv, kOrderCount, false},
     {"order_place", k_order_place_spirv, k_order_place_texels_spirv, kOrderPlace, false},
     {"order_write", k_order_write_spirv, k_order_write_texels_spirv, kOrderWrite, false},
+    {"place", k_place_spirv, k_place_texels_spirv, kPlace, false, DomainKind::placement},
     {"self_test", k_self_test_spirv, k_self_test_texels_spirv, kSelfTest, false},
     {"box_count", k_box_count_spirv, k_box_count_texels_spirv, kBoxCount, false, DomainKind::box},
     {"box_bin", k_box_bin_spirv, k_box_bin_texels_spirv, kBoxBin, false, DomainKind::box},

@@ -30,6 +30,7 @@ enum class Kernel : std::uint32_t {
     order_count,
     order_place,
     order_write,
+    place,
     self_test,
     box_count,
     box_bin,
@@ -41,7 +42,7 @@ enum class Kernel : std::uint32_t {
     space_select,
     grid_detect,
 };
-inline constexpr std::size_t kKernels = 27;
+inline constexpr std::size_t kKernels = 28;
 
 /// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
 enum class DomainKind : std::uint8_t {
@@ -50,6 +51,7 @@ enum class DomainKind : std::uint8_t {
     space = 4,    ///< A surface in space.
     in_space = 6, ///< Of kernels: both with a grid.
     any = 7,
+    placement = 8, ///< No domain: of the kernel that places samples for a caller.
 };
 
 /// What the kernels of a job are specialized for, besides what all jobs of a device share.

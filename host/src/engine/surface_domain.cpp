@@ -165,6 +165,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
     stop_count = params.stop_count;
     seed = kernels.several ? 0 : params.seed;
     units = face_count(surfaces_);
+    largest_radius = params.min_distance / 2;
     bytes_per_candidate = 16;
 }
 

@@ -1,0 +1,49 @@
+#include "engine/buffer_ranges.hpp"
+
+#include <algorithm>
+
+namespace geodisk {
+namespace {
+
+Error range_error(Status status, const std::string& name, const std::string& what) {
+    return Error{status, "the workspace's buffer " + name + ' ' + what};
+}
+
+} // namespace
+
+Result<Done> check_range(const BufferRange& range, const std::string& name, VkDeviceSize needed,
+                         const DeviceLimits& limits) {
+    if (range.buffer == VK_NULL_HANDLE) {
+        return range_error(Status::invalid_argument, name, "is null");
+    }
+    if (range.size < needed) {
+        return range_error(Status::workspace_too_small, name,
+                           "has " + std::to_string(range.size) + " bytes and needs " +
+                               std::to_string(needed));
+    }
+    if (range.size > limits.max_storage_buffer_range) {
+        return range_error(Status::invalid_argument, name,
+                           "has " + std::to_string(range.size) +
+                               " bytes, but the device binds at "
+                               "most " +
+                               std::to_string(limits.max_storage_buffer_range));
+    }
+    const std::uint64_t alignment = std::max(limits.min_storage_buffer_offset_alignment,
+                                             limits.min_texel_buffer_offset_alignment);
+    if (range.offset % alignment != 0) {
+        return range_error(Status::invalid_argument, name,
+                           "starts at " + std::to_string(range.offset) +
+                               ", off the device's alignment of " + std::to_string(alignment));
+    }
+    return Done{};
+}
+
+bool overlap(const BufferRange& a, const BufferRange& b) {
+    return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+}
+
+Error overlap_error(const std::string& name, const std::string& other) {
+    return range_error(Status::invalid_argument, name, "overlaps the buffer " + other);
+}
+
+} // namespace geodisk

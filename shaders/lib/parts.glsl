@@ -1,0 +1,16 @@
+// Which of several surfaces a face is of, and what each has of its own.
+#ifndef GEODISK_PARTS_GLSL
+#define GEODISK_PARTS_GLSL
+
+layout(constant_id = kSpecSeveral) const bool kSeveral = false;
+
+GEODISK_WORDS(kBindKeys, keys);
+
+uint part_of(uint face) { return word_at(keys, push.faces + face); }
+
+// A word of PartRec.
+uint part_word(uint part, uint word) {
+    return word_at(keys, 2u * push.faces + kPartWords * part + word);
+}
+
+#endif
