@@ -37,8 +37,8 @@ inline Vec face_normal(const std::array<Vec, 3>& corners) {
     }
     u = normalized(u);
     v = normalized(v);
-    return normalized({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                       u[0] * v[1] - u[1] * v[0]});
+    return normalized(
+        {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
 }
 
 } // namespace geodisk::ref

@@ -88,7 +88,8 @@ struct Scene {
     /// What is there once the samples are placed.
     std::vector<gpu::PlacedRec> points() {
         const Placement placement = expect(place());
-        run.submit([&](VkCommandBuffer commands) { expect(placement.record(commands, run.job())); });
+        run.submit(
+            [&](VkCommandBuffer commands) { expect(placement.record(commands, run.job())); });
         VkDrawIndirectCommand draw;
         std::memcpy(&draw, arguments.bytes().data(), sizeof draw);
         CHECK(draw.vertexCount == 6);
@@ -173,8 +174,8 @@ TEST_SUITE("placement") {
             std::vector<std::uint16_t> short_indices(mesh.triangles.begin(), mesh.triangles.end());
             SamplerOptions options;
             options.tuning.reads = Reads::storage;
-            Scene other(expect(Domain::surface(surface, params)), vertices,
-                        bytes_of(short_indices), options);
+            Scene other(expect(Domain::surface(surface, params)), vertices, bytes_of(short_indices),
+                        options);
             other.source.index_bytes = 2;
             other.source.normal = offsetof(Vertex, normal);
             other.decide();
@@ -216,8 +217,7 @@ TEST_SUITE("placement") {
             const float* const g = &radii.factors()[std::size_t{3} * point.face];
             const double factor = (1.0 - point.weight1 - point.weight2) * g[0] +
                                   point.weight1 * double{g[1]} + point.weight2 * double{g[2]};
-            CHECK(point.radius ==
-                  doctest::Approx(factor * params.min_distance / 2).epsilon(1e-6));
+            CHECK(point.radius == doctest::Approx(factor * params.min_distance / 2).epsilon(1e-6));
         }
     }
 
@@ -259,8 +259,7 @@ TEST_SUITE("placement") {
         CHECK(scene.refusal() == "the workspace's buffer vertices is null");
         scene.source = source;
         scene.source.vertices.size -= sizeof(Vertex);
-        CHECK(scene.refusal() ==
-              "the workspace's buffer vertices has 1476 bytes and needs 1492");
+        CHECK(scene.refusal() == "the workspace's buffer vertices has 1476 bytes and needs 1492");
         scene.source = source;
         scene.source.indices.size -= 4;
         CHECK(scene.refusal() == "the workspace's buffer indices has 956 bytes and needs 960");
@@ -283,7 +282,8 @@ TEST_SUITE("placement") {
         CHECK(scene.place());
         const PreparedMesh other = prepared(builtin("icosphere", 2));
         const Domain foreign = expect(Domain::surface(other, params_for(other, 30)));
-        CHECK_FALSE(Placement::create(scene.run.sampler(), foreign, scene.run.job(), source, target));
+        CHECK_FALSE(
+            Placement::create(scene.run.sampler(), foreign, scene.run.job(), source, target));
         const Placement stale = expect(scene.place());
         scene.run.begin();
         scene.run.enlarge_samples(scene.run.plan().sample_capacity * 2);

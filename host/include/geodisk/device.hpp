@@ -18,6 +18,32 @@
 
 namespace geodisk {
 
+/// Memory for a buffer, asked of the caller.
+struct MemoryRequest {
+    VkBuffer buffer = VK_NULL_HANDLE; ///< To be bound to it, by geodisk.
+    VkMemoryRequirements requirements{};
+    VkMemoryPropertyFlags required =
+        0; ///< Host visible and coherent where the host writes or reads.
+    VkMemoryPropertyFlags preferred = 0; ///< Better still.
+};
+
+/// What the caller gives: from `offset` on, which is aligned as asked.
+struct MemoryGrant {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    void* mapped = nullptr;     ///< At `offset`, until freed; not null where the host is to see it.
+    void* allocation = nullptr; ///< The caller's own, for `free`.
+};
+
+/// Device memory of a caller's allocator, such as VMA, instead of an allocation for each buffer.
+/// Called on the thread that calls geodisk; must not throw.
+struct MemoryHooks {
+    void* user = nullptr;
+    /// Fills `grant`, or fails as vkAllocateMemory does.
+    VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryGrant& grant) = nullptr;
+    void (*free)(void* user, const MemoryGrant& grant) = nullptr;
+};
+
 /// A device lent to geodisk.
 ///
 /// Nothing here is owned: every handle must outlive each geodisk object created from it, and
@@ -35,6 +61,11 @@ struct DeviceRefs {
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     /// Whether VK_EXT_memory_budget is enabled: Runner then keeps to the memory that is free.
     bool memory_budget = false;
+    /// Whether VK_EXT_debug_utils is enabled on the instance: pipelines and the buffers of Runner
+    /// then have names, and what is recorded has a label for each stage.
+    bool debug_utils = false;
+    /// Where Runner gets the memory of its buffers, if set; must outlive the objects.
+    const MemoryHooks* memory_hooks = nullptr;
     /// Passed, if set, to each create and destroy call; must outlive the objects as well.
     const VkAllocationCallbacks* host_allocator = nullptr;
 };

@@ -18,10 +18,11 @@ namespace geodisk {
 struct PlacementSource {
     static constexpr std::uint32_t kNoNormals = 0xffffffff;
 
-    BufferRange vertices;          ///< With three floats of a position for each vertex.
-    std::uint32_t stride = 12;     ///< From vertex to vertex.
-    std::uint32_t position = 0;    ///< Where a vertex has its position.
-    std::uint32_t normal = kNoNormals; ///< Three floats of a normal; else normals are those of faces.
+    BufferRange vertices;       ///< With three floats of a position for each vertex.
+    std::uint32_t stride = 12;  ///< From vertex to vertex.
+    std::uint32_t position = 0; ///< Where a vertex has its position.
+    std::uint32_t normal =
+        kNoNormals; ///< Three floats of a normal; else normals are those of faces.
     /// Three for each face, in the order that the domain has them in: of several surfaces those of
     /// each follow those of the one before, and name vertices of `vertices`.
     BufferRange indices;
@@ -52,11 +53,11 @@ class GEODISK_API Placement {
     Placement& operator=(Placement&&) noexcept;
     ~Placement();
 
-    /// Records that the samples in order so far (ControlRec::ready) are placed: after record_finish,
-    /// in the same command buffer or a later one. Coordinates are rounded alike on all devices.
-    /// Begins with a barrier behind what the job has recorded; Sampler::kLastUse has the access to
-    /// wait for before `placed` and `arguments` are used. Errors: `invalid_argument` where the job
-    /// has other buffers by now.
+    /// Records that the samples in order so far (ControlRec::ready) are placed: after
+    /// record_finish, in the same command buffer or a later one. Coordinates are rounded alike on
+    /// all devices. Begins with a barrier behind what the job has recorded; Sampler::kLastUse has
+    /// the access to wait for before `placed` and `arguments` are used. Errors: `invalid_argument`
+    /// where the job has other buffers by now.
     Result<Done> record(VkCommandBuffer commands, const Job& job) const noexcept;
 
     struct Impl; ///< Internal.

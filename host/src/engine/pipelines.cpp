@@ -5,6 +5,7 @@
 
 #include "constants.h"
 #include "push.h"
+#include "vk/debug.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
@@ -167,6 +168,8 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
         error.message += std::string(" (kernel ") + info.name + ")";
         return error;
     }
+    name_object(vk_, device_.device, VK_OBJECT_TYPE_PIPELINE, pipeline,
+                (std::string("geodisk ") + info.name).c_str());
     return pipeline;
 }
 

@@ -42,8 +42,7 @@ Error invalid(std::string message) {
 
 /// Bytes up to the end of the last of so many vertices.
 VkDeviceSize vertex_bytes(const PlacementSource& source, std::uint64_t vertices) {
-    const std::uint32_t normal =
-        source.normal == PlacementSource::kNoNormals ? 0 : source.normal;
+    const std::uint32_t normal = source.normal == PlacementSource::kNoNormals ? 0 : source.normal;
     const VkDeviceSize last = std::max(source.position, normal) + kPositionBytes;
     return (std::max<std::uint64_t>(vertices, 1) - 1) * source.stride + last;
 }
@@ -120,10 +119,10 @@ Result<Done> Placement::Impl::allocate_set() {
     pool_info.maxSets = 1;
     pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     pool_info.pPoolSizes = sizes.data();
-    VkResult result = null_unless_success(
-        vk.vkCreateDescriptorPool(sampler->device.device, &pool_info,
-                                  sampler->device.host_allocator, &pool),
-        pool);
+    VkResult result =
+        null_unless_success(vk.vkCreateDescriptorPool(sampler->device.device, &pool_info,
+                                                      sampler->device.host_allocator, &pool),
+                            pool);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateDescriptorPool", result);
     }
@@ -134,7 +133,8 @@ Result<Done> Placement::Impl::allocate_set() {
     info.descriptorSetCount = 1;
     info.pSetLayouts = &layout;
     result = vk.vkAllocateDescriptorSets(sampler->device.device, &info, &set);
-    return result == VK_SUCCESS ? Result<Done>(Done{}) : vk_error("vkAllocateDescriptorSets", result);
+    return result == VK_SUCCESS ? Result<Done>(Done{})
+                                : vk_error("vkAllocateDescriptorSets", result);
 }
 
 void Placement::Impl::bind(const Job::Impl& job, const CallersRanges& ranges) const {

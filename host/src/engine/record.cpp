@@ -11,6 +11,7 @@
 #include "engine/stage_clock.hpp"
 #include "records.h"
 #include "vk/barriers.hpp"
+#include "vk/debug.hpp"
 
 namespace geodisk {
 namespace {
@@ -145,6 +146,7 @@ class Recorder {
                 std::min<std::uint64_t>(job_.plan.dispatch_items, budget_.items) / per_group, 1,
                 kMostGroups);
             const std::uint64_t part = std::min(count - cursor_.done, groups * per_group);
+            label();
             record(cursor_.done, part);
             cursor_.done += part;
             --budget_.dispatches;
@@ -162,7 +164,20 @@ class Recorder {
         barrier_transfer_to_compute(sampler_.vk, commands_);
     }
 
+    /// Begins that of the stage, with the first it has.
+    void label() {
+        if (stage_ && !is_labelled_) {
+            begin_label(sampler_.vk, commands_, to_string(*stage_));
+            is_labelled_ = true;
+        }
+    }
+
+    /// Ends what is recorded of a stage.
     void mark() {
+        if (is_labelled_) {
+            end_label(sampler_.vk, commands_);
+            is_labelled_ = false;
+        }
         if (job_.clock != nullptr && has_unmarked_ && stage_) {
             job_.clock->mark(commands_, *stage_);
         }
@@ -202,6 +217,7 @@ class Recorder {
     std::uint32_t step_ = 0; ///< Of the sequence, whether recorded or not.
     std::optional<Stage> stage_;
     bool has_unmarked_ = false;
+    bool is_labelled_ = false;
     std::optional<Kernel> bound_;
     SetRole bound_role_ = SetRole::workspace;
     gpu::Push bound_push_{};

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 #include <utility>
 
 #include "vk/barriers.hpp"
+#include "vk/debug.hpp"
 
 namespace geodisk {
 namespace {
@@ -28,10 +30,14 @@ RunMemory::~RunMemory() {
     }
 }
 
-Result<DeviceBuffer> RunMemory::create(VkDeviceSize bytes, VkBufferUsageFlags usage,
-                                       MemoryKind kind) {
+Result<DeviceBuffer> RunMemory::create(const char* name, VkDeviceSize bytes,
+                                       VkBufferUsageFlags usage, MemoryKind kind) {
     ++made_;
     auto made = DeviceBuffer::create(sampler_.device, sampler_.vk, memory_, bytes, usage, kind);
+    if (made) {
+        name_object(sampler_.vk, sampler_.device.device, VK_OBJECT_TYPE_BUFFER, made->handle(),
+                    (std::string("geodisk ") + name).c_str());
+    }
     was_short_ = !made && made.error().vk_result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     return made;
 }
@@ -45,7 +51,8 @@ Result<Done> RunMemory::reserve_staging(VkDeviceSize bytes) {
         return Done{};
     }
     staging_ = {};
-    auto made = create(bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+    auto made = create("staging", bytes,
+                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                        MemoryKind::host);
     if (!made) {
         return made.error();
@@ -61,7 +68,7 @@ Result<Done> RunMemory::reserve(const WorkspaceNeeds& needs, VkDeviceSize stagin
         }
         buffers_[i] = {};
         held_[i].clear();
-        auto made = create(needs.bytes[i]);
+        auto made = create(to_string(static_cast<BufferRole>(i)), needs.bytes[i]);
         if (!made) {
             return made.error();
         }
@@ -206,7 +213,7 @@ gpu::ControlRec RunMemory::control() const {
 
 Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
     if (bytes > buffer(BufferRole::pool).size()) {
-        auto larger = create(bytes);
+        auto larger = create(to_string(BufferRole::pool), bytes);
         if (!larger) {
             return larger.error();
         }
@@ -220,7 +227,7 @@ Result<Done> RunMemory::enlarge_samples(const std::array<VkDeviceSize, 3>& bytes
     constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
     std::array<DeviceBuffer, kRoles.size()> larger;
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
-        auto allocated = create(bytes[i]);
+        auto allocated = create(to_string(kRoles[i]), bytes[i]);
         if (!allocated) {
             return allocated.error();
         }

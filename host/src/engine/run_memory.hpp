@@ -73,7 +73,8 @@ class RunMemory {
         VkDeviceSize from, to, size;
     };
 
-    Result<DeviceBuffer> create(VkDeviceSize bytes, VkBufferUsageFlags usage = kWorkspaceUsage,
+    Result<DeviceBuffer> create(const char* name, VkDeviceSize bytes,
+                                VkBufferUsageFlags usage = kWorkspaceUsage,
                                 MemoryKind kind = MemoryKind::device);
     Result<Done> reserve(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes);
     Result<Done> reserve_staging(VkDeviceSize bytes);

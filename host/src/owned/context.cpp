@@ -174,6 +174,7 @@ DeviceRefs Context::device() const noexcept {
     refs.get_instance_proc_addr = impl_->instance->get_instance_proc_addr();
     refs.api_version = Instance::kApiVersion;
     refs.memory_budget = impl_->memory_budget;
+    refs.debug_utils = impl_->instance->validation_log() != nullptr;
     return refs;
 }
 

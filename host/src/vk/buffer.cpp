@@ -9,6 +9,16 @@
 namespace geodisk {
 namespace {
 
+constexpr VkMemoryPropertyFlags kMapped =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+Error allocation_error(const char* function, VkResult status,
+                       const VkMemoryRequirements& requirements) {
+    Error error = vk_error(function, status);
+    error.message += " (" + std::to_string(requirements.size) + " bytes)";
+    return error;
+}
+
 std::optional<std::uint32_t> find_type(const VkPhysicalDeviceMemoryProperties& memory,
                                        std::uint32_t allowed, VkMemoryPropertyFlags flags) {
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
@@ -21,8 +31,6 @@ std::optional<std::uint32_t> find_type(const VkPhysicalDeviceMemoryProperties& m
 
 std::optional<std::uint32_t> choose_type(const VkPhysicalDeviceMemoryProperties& memory,
                                          std::uint32_t allowed, MemoryKind kind) {
-    constexpr VkMemoryPropertyFlags kMapped =
-        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     if (kind == MemoryKind::host) {
         // Cached memory reads back many times faster where the device is not the host.
         const auto cached =
@@ -56,6 +64,27 @@ Result<DeviceBuffer> DeviceBuffer::create(const DeviceRefs& device, const Device
     }
     VkMemoryRequirements requirements{};
     vk.vkGetBufferMemoryRequirements(device.device, result.buffer_, &requirements);
+    auto allocated = device.memory_hooks != nullptr
+                         ? result.ask_for_memory(requirements, kind)
+                         : result.allocate_memory(memory, requirements, kind);
+    if (!allocated) {
+        return allocated.error();
+    }
+    status = vk.vkBindBufferMemory(device.device, result.buffer_, result.grant_.memory,
+                                   result.grant_.offset);
+    if (status != VK_SUCCESS) {
+        return vk_error("vkBindBufferMemory", status);
+    }
+    if (kind == MemoryKind::host) {
+        result.mapped_ = {static_cast<std::byte*>(result.grant_.mapped),
+                          static_cast<std::size_t>(bytes)};
+    }
+    return result;
+}
+
+Result<Done> DeviceBuffer::allocate_memory(const VkPhysicalDeviceMemoryProperties& memory,
+                                           const VkMemoryRequirements& requirements,
+                                           MemoryKind kind) {
     const auto type = choose_type(memory, requirements.memoryTypeBits, kind);
     if (!type) {
         return Error{Status::device_lacks, "the device has no memory type for a storage buffer"};
@@ -64,27 +93,43 @@ Result<DeviceBuffer> DeviceBuffer::create(const DeviceRefs& device, const Device
     allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = *type;
-    status = null_unless_success(
-        vk.vkAllocateMemory(device.device, &allocate, device.host_allocator, &result.memory_),
-        result.memory_);
+    VkResult status = null_unless_success(
+        vk_->vkAllocateMemory(device_->device, &allocate, device_->host_allocator, &grant_.memory),
+        grant_.memory);
     if (status != VK_SUCCESS) {
-        Error error = vk_error("vkAllocateMemory", status);
-        error.message += " (" + std::to_string(requirements.size) + " bytes)";
-        return error;
-    }
-    status = vk.vkBindBufferMemory(device.device, result.buffer_, result.memory_, 0);
-    if (status != VK_SUCCESS) {
-        return vk_error("vkBindBufferMemory", status);
+        return allocation_error("vkAllocateMemory", status, requirements);
     }
     if (kind == MemoryKind::host) {
-        void* mapped = nullptr;
-        status = vk.vkMapMemory(device.device, result.memory_, 0, VK_WHOLE_SIZE, 0, &mapped);
+        status =
+            vk_->vkMapMemory(device_->device, grant_.memory, 0, VK_WHOLE_SIZE, 0, &grant_.mapped);
         if (status != VK_SUCCESS) {
             return vk_error("vkMapMemory", status);
         }
-        result.mapped_ = {static_cast<std::byte*>(mapped), static_cast<std::size_t>(bytes)};
     }
-    return result;
+    return Done{};
+}
+
+Result<Done> DeviceBuffer::ask_for_memory(const VkMemoryRequirements& requirements,
+                                          MemoryKind kind) {
+    const MemoryHooks& hooks = *device_->memory_hooks;
+    const bool is_host = kind == MemoryKind::host;
+    const MemoryRequest request{
+        buffer_, requirements, is_host ? kMapped : 0,
+        static_cast<VkMemoryPropertyFlags>(is_host ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                                                   : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
+    MemoryGrant grant;
+    const VkResult status = hooks.allocate(hooks.user, request, grant);
+    if (status != VK_SUCCESS) {
+        return allocation_error("MemoryHooks::allocate", status, requirements);
+    }
+    grant_ = grant;
+    if (grant.memory == VK_NULL_HANDLE || grant.offset % requirements.alignment != 0 ||
+        (is_host && grant.mapped == nullptr)) {
+        return Error{Status::invalid_argument,
+                     "MemoryHooks::allocate gave memory that is null, off alignment, or not mapped "
+                     "where it has to be"};
+    }
+    return Done{};
 }
 
 DeviceBuffer::DeviceBuffer(DeviceBuffer&& other) noexcept {
@@ -95,7 +140,7 @@ DeviceBuffer& DeviceBuffer::operator=(DeviceBuffer&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(vk_, other.vk_);
     std::swap(buffer_, other.buffer_);
-    std::swap(memory_, other.memory_);
+    std::swap(grant_, other.grant_);
     std::swap(size_, other.size_);
     std::swap(mapped_, other.mapped_);
     return *this;
@@ -104,7 +149,11 @@ DeviceBuffer& DeviceBuffer::operator=(DeviceBuffer&& other) noexcept {
 DeviceBuffer::~DeviceBuffer() {
     if (vk_ != nullptr) {
         vk_->vkDestroyBuffer(device_->device, buffer_, device_->host_allocator);
-        vk_->vkFreeMemory(device_->device, memory_, device_->host_allocator);
+        if (device_->memory_hooks == nullptr) {
+            vk_->vkFreeMemory(device_->device, grant_.memory, device_->host_allocator);
+        } else if (grant_.memory != VK_NULL_HANDLE) {
+            device_->memory_hooks->free(device_->memory_hooks->user, grant_);
+        }
     }
 }
 

@@ -37,10 +37,14 @@ class DeviceBuffer {
     std::span<std::byte> bytes() const noexcept { return mapped_; }
 
   private:
+    Result<Done> allocate_memory(const VkPhysicalDeviceMemoryProperties& memory,
+                                 const VkMemoryRequirements& requirements, MemoryKind kind);
+    Result<Done> ask_for_memory(const VkMemoryRequirements& requirements, MemoryKind kind);
+
     const DeviceRefs* device_ = nullptr;
     const DeviceTable* vk_ = nullptr;
     VkBuffer buffer_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    MemoryGrant grant_;
     VkDeviceSize size_ = 0;
     std::span<std::byte> mapped_;
 };

@@ -73,6 +73,20 @@ Result<DeviceTable> load_device_table(const DeviceRefs& refs) noexcept {
 #undef GEODISK_LOAD
         if (missing != nullptr)
             return missing_function("device", missing);
+        if (refs.debug_utils) {
+            // Of an extension of the instance.
+#define GEODISK_LOAD(name)                                                                         \
+    table.name = reinterpret_cast<PFN_##name>(refs.get_instance_proc_addr(refs.instance, #name));  \
+    if (table.name == nullptr && missing == nullptr)                                               \
+        missing = #name;
+            GEODISK_DEBUG_FUNCTIONS(GEODISK_LOAD)
+#undef GEODISK_LOAD
+            if (missing != nullptr)
+                return Error{Status::device_lacks,
+                             std::string("DeviceRefs::debug_utils is set, but the instance does "
+                                         "not provide the function ") +
+                                 missing};
+        }
         return table;
     });
 }

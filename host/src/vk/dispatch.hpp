@@ -78,6 +78,12 @@
     X(vkGetQueryPoolResults)              \
     X(vkCmdResetQueryPool)                \
     X(vkCmdWriteTimestamp)
+
+// Of VK_EXT_debug_utils; null unless DeviceRefs::debug_utils.
+#define GEODISK_DEBUG_FUNCTIONS(X)        \
+    X(vkSetDebugUtilsObjectNameEXT)       \
+    X(vkCmdBeginDebugUtilsLabelEXT)       \
+    X(vkCmdEndDebugUtilsLabelEXT)
 // clang-format on
 
 namespace geodisk {
@@ -93,6 +99,7 @@ struct InstanceTable {
 /// functions.
 struct DeviceTable {
     GEODISK_DEVICE_FUNCTIONS(GEODISK_MEMBER)
+    GEODISK_DEBUG_FUNCTIONS(GEODISK_MEMBER)
 };
 
 #undef GEODISK_MEMBER

@@ -1,0 +1,255 @@
+// What a caller hooks into: its own memory, and names for its debugger.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <geodisk/runner.hpp>
+
+#include "app_device.hpp"
+#include "gpu/sets.hpp"
+#include "support/meshes.hpp"
+#include "vk/dispatch.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// An engine's allocator: one large allocation of each memory type, cut from its front.
+class Arena {
+  public:
+    explicit Arena(const DeviceRefs& refs) : refs_(refs), vk_(expect(load_device_table(refs))) {
+        const auto instance = expect(load_instance_table(refs.get_instance_proc_addr, refs.instance));
+        instance.vkGetPhysicalDeviceMemoryProperties(refs.physical_device, &memory_);
+    }
+    ~Arena() {
+        for (const auto& [type, block] : blocks_) {
+            vk_.vkFreeMemory(refs_.device, block.memory, nullptr);
+        }
+    }
+    Arena(const Arena&) = delete;
+    Arena& operator=(const Arena&) = delete;
+
+    MemoryHooks hooks() {
+        return {this,
+                [](void* user, const MemoryRequest& request, MemoryGrant& grant) {
+                    return static_cast<Arena*>(user)->allocate(request, grant);
+                },
+                [](void* user, const MemoryGrant& grant) {
+                    auto& granted = static_cast<Arena*>(user)->alive;
+                    REQUIRE(granted.erase(grant.allocation) == 1);
+                }};
+    }
+
+    std::set<void*> alive;
+    std::uint32_t asked = 0;
+    std::uint32_t fail_from = ~0u; ///< Of those asked.
+    bool forget_to_map = false;
+
+  private:
+    struct Block {
+        VkDeviceMemory memory;
+        VkDeviceSize used;
+        std::byte* mapped;
+    };
+    static constexpr VkDeviceSize kBytes = VkDeviceSize{64} << 20;
+
+    VkResult allocate(const MemoryRequest& request, MemoryGrant& grant) {
+        if (asked++ >= fail_from) {
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        }
+        std::uint32_t type = 0;
+        while ((request.requirements.memoryTypeBits & 1u << type) == 0 ||
+               (memory_.memoryTypes[type].propertyFlags & request.required) != request.required) {
+            ++type;
+        }
+        if (blocks_.count(type) == 0) {
+            const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, kBytes,
+                                            type};
+            Block block{};
+            REQUIRE(vk_.vkAllocateMemory(refs_.device, &info, nullptr, &block.memory) == VK_SUCCESS);
+            if ((memory_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+                void* mapped = nullptr;
+                REQUIRE(vk_.vkMapMemory(refs_.device, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped) ==
+                        VK_SUCCESS);
+                block.mapped = static_cast<std::byte*>(mapped);
+            }
+            blocks_[type] = block;
+        }
+        Block& block = blocks_[type];
+        const VkDeviceSize alignment = request.requirements.alignment;
+        const VkDeviceSize offset = (block.used + alignment - 1) / alignment * alignment;
+        if (offset + request.requirements.size > kBytes) {
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        }
+        block.used = offset + request.requirements.size;
+        grant = {block.memory, offset,
+                 block.mapped == nullptr || forget_to_map ? nullptr : block.mapped + offset,
+                 reinterpret_cast<void*>(std::uintptr_t{asked})};
+        alive.insert(grant.allocation);
+        return VK_SUCCESS;
+    }
+
+    DeviceRefs refs_;
+    DeviceTable vk_;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    std::map<std::uint32_t, Block> blocks_;
+};
+
+// Of the functions below, which carry no user pointer.
+PFN_vkGetInstanceProcAddr real = nullptr;
+PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
+PFN_vkCmdBeginDebugUtilsLabelEXT begin = nullptr;
+PFN_vkCmdEndDebugUtilsLabelEXT end = nullptr;
+bool has_labels = true;
+std::multiset<std::string> names;
+std::vector<std::string> labels;
+int open_labels = 0;
+
+VKAPI_ATTR VkResult VKAPI_CALL note_name(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info) {
+    names.insert(info->pObjectName);
+    return set_name(device, info);
+}
+
+VKAPI_ATTR void VKAPI_CALL note_begin(VkCommandBuffer commands, const VkDebugUtilsLabelEXT* label) {
+    CHECK(open_labels++ == 0);
+    labels.push_back(label->pLabelName);
+    begin(commands, label);
+}
+
+VKAPI_ATTR void VKAPI_CALL note_end(VkCommandBuffer commands) {
+    CHECK(open_labels-- == 1);
+    end(commands);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watched(VkInstance instance, const char* name) {
+    const PFN_vkVoidFunction function = real(instance, name);
+    if (std::strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0) {
+        set_name = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(function);
+        return reinterpret_cast<PFN_vkVoidFunction>(note_name);
+    }
+    if (std::strcmp(name, "vkCmdBeginDebugUtilsLabelEXT") == 0) {
+        begin = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(function);
+        return has_labels ? reinterpret_cast<PFN_vkVoidFunction>(note_begin) : nullptr;
+    }
+    if (std::strcmp(name, "vkCmdEndDebugUtilsLabelEXT") == 0) {
+        end = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(function);
+        return reinterpret_cast<PFN_vkVoidFunction>(note_end);
+    }
+    return function;
+}
+
+struct SmallJob {
+    PreparedMesh mesh = prepared(builtin("icosphere", 2));
+    SampleParams params = params_for(mesh, 100);
+    void check(Runner& runner) const {
+        const SampleSet set = expect(runner.sample_and_wait(mesh, params));
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+    }
+};
+
+} // namespace
+
+TEST_SUITE("hooks") {
+    TEST_CASE("buffers lie in the caller's memory, and go back to it") {
+        AppDevice app;
+        Arena arena(app.refs());
+        const MemoryHooks hooks = arena.hooks();
+        DeviceRefs refs = app.refs();
+        refs.memory_hooks = &hooks;
+        const SmallJob job;
+        {
+            Runner runner = expect(Runner::create(refs, app.queue()));
+            job.check(runner);
+            const std::uint32_t asked = arena.asked;
+            CHECK(asked > 0);
+            job.check(runner);
+            CHECK(arena.asked == asked);
+            runner.release_memory();
+            CHECK(arena.alive.empty());
+            job.check(runner);
+            CHECK_FALSE(arena.alive.empty());
+        }
+        CHECK(arena.alive.empty());
+        CHECK(app.messages().empty());
+    }
+
+    TEST_CASE("a caller without memory is an error that names the bytes, whichever it lacks") {
+        AppDevice app;
+        Arena arena(app.refs());
+        const MemoryHooks hooks = arena.hooks();
+        DeviceRefs refs = app.refs();
+        refs.memory_hooks = &hooks;
+        const SmallJob job;
+        Runner runner = expect(Runner::create(refs, app.queue()));
+        arena.asked = 0;
+        job.check(runner);
+        const std::uint32_t needed = arena.asked;
+        for (std::uint32_t i = 0; i < needed; ++i) {
+            CAPTURE(i);
+            runner.release_memory();
+            arena.asked = 0;
+            arena.fail_from = i;
+            const auto set = runner.sample_and_wait(job.mesh, job.params);
+            REQUIRE_FALSE(set);
+            CHECK(set.error().status == Status::out_of_device_memory);
+            CHECK(set.error().message.find("MemoryHooks::allocate") != std::string::npos);
+            CHECK(set.error().message.find("bytes") != std::string::npos);
+            CHECK(arena.alive.empty());
+        }
+        arena.fail_from = ~0u;
+        arena.forget_to_map = true;
+        const auto set = runner.sample_and_wait(job.mesh, job.params);
+        REQUIRE_FALSE(set);
+        CHECK(set.error().status == Status::invalid_argument);
+        CHECK(arena.alive.empty());
+        arena.forget_to_map = false;
+        job.check(runner);
+        CHECK(app.messages().empty());
+    }
+
+    TEST_CASE("pipelines and buffers have names, and stages labels, where the caller asks for them") {
+        AppDevice app;
+        real = app.refs().get_instance_proc_addr;
+        names.clear();
+        labels.clear();
+        DeviceRefs refs = app.refs();
+        refs.get_instance_proc_addr = watched;
+        const SmallJob job;
+        {
+            Runner runner = expect(Runner::create(refs, app.queue()));
+            job.check(runner);
+            CHECK(names.empty());
+            CHECK(labels.empty());
+        }
+        refs.debug_utils = true;
+        {
+            Runner runner = expect(Runner::create(refs, app.queue()));
+            job.check(runner);
+            for (const char* name : {"geodisk detect", "geodisk select", "geodisk resolve",
+                                     "geodisk draw", "geodisk faces", "geodisk pool",
+                                     "geodisk staging"}) {
+                CAPTURE(name);
+                CHECK(names.count(name) >= 1);
+            }
+            for (const Stage stage : {Stage::count, Stage::draw, Stage::select, Stage::detect,
+                                      Stage::resolve, Stage::gather}) {
+                CAPTURE(to_string(stage));
+                CHECK(std::count(labels.begin(), labels.end(), to_string(stage)) >= 1);
+            }
+            CHECK(open_labels == 0);
+        }
+        has_labels = false;
+        const auto refused = Runner::create(refs, app.queue());
+        has_labels = true;
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().status == Status::device_lacks);
+        CHECK(refused.error().message.find("vkCmdBeginDebugUtilsLabelEXT") != std::string::npos);
+        CHECK(app.messages().empty());
+    }
+}
+
+} // namespace geodisk::test
