@@ -1,41 +1,16 @@
-// Triangle meshes: the view a caller hands in, and the prepared intrinsic surface.
+// Triangle meshes as prepared: the intrinsic surface.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "geodisk/export.hpp"
+#include "geodisk/mesh_view.hpp"
 #include "geodisk/status.hpp"
 #include "geodisk/uninitialized.hpp"
 
 namespace geodisk {
-
-/// A triangle mesh in the caller's memory; nothing is copied until `PreparedMesh::prepare`.
-///
-/// `positions` holds `dimension` coordinates per vertex, `triangles` three vertex indices per face.
-/// Faces may be oriented either way, share an edge by any number, touch in single vertices, have
-/// zero area, and leave borders open. Vertices that no face uses are ignored.
-struct MeshView {
-    std::span<const double> positions;
-    std::span<const std::uint32_t> triangles;
-    std::uint32_t dimension = 3;
-};
-
-/// A triangle mesh given by the lengths of its edges alone, also in the caller's memory: no
-/// coordinates need exist, and no space that it would fit in.
-///
-/// `lengths` holds three per face, in mesh units: from its first corner to the second, to the third
-/// and back, so `lengths[h]` is that of half-edge h. The faces of an edge must agree about its
-/// length to a billionth. Each face must satisfy the triangle inequality to a millionth of its
-/// longest edge, as lengths rounded to float do; one that does no more than that has no area.
-/// Vertices are numbered below `vertex_count`.
-struct LengthMeshView {
-    std::span<const std::uint32_t> triangles;
-    std::span<const double> lengths;
-    std::uint32_t vertex_count = 0;
-};
 
 /// One half-edge, `h = 3 * face + corner`, running from that corner to the next one of its face.
 ///

@@ -21,9 +21,9 @@ constexpr double kSmallestExtent = 1e-100;
 
 /// Fills what a face alone does not determine: `around` and `fan_angles` of the half-edges, the
 /// fans and the lists of corners.
-void connect(std::span<const std::uint32_t> triangles, std::span<Link> links,
-             std::span<HalfEdge> half_edges, std::vector<VertexFan>& fans,
-             std::vector<std::uint32_t>& corners, MeshStatistics& statistics) {
+void connect(IndexView triangles, std::span<Link> links, std::span<HalfEdge> half_edges,
+             std::vector<VertexFan>& fans, std::vector<std::uint32_t>& corners,
+             MeshStatistics& statistics) {
     list_corners(triangles, fans, corners);
     EdgeLinker linker(links, static_cast<std::uint32_t>(fans.size()));
     FanBuilder builder(links);
@@ -61,10 +61,10 @@ Result<double> measure_extent(const MeshView& mesh, std::span<const HalfEdge>,
     high.fill(-HUGE_VAL);
     for (std::uint32_t v = 0; v < fans.size(); ++v) {
         if (fans[v].corner_count > 0) {
-            const double* const vertex = mesh.positions.data() + std::size_t{v} * mesh.dimension;
             for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
-                low[axis] = std::min(low[axis], vertex[axis]);
-                high[axis] = std::max(high[axis], vertex[axis]);
+                const double x = mesh.coordinate(v, axis);
+                low[axis] = std::min(low[axis], x);
+                high[axis] = std::max(high[axis], x);
             }
         }
     }
@@ -86,7 +86,7 @@ Result<double> measure_extent(const LengthMeshView&, std::span<const HalfEdge> h
 }
 
 std::size_t vertices_of(const MeshView& mesh) {
-    return mesh.positions.size() / mesh.dimension;
+    return mesh.vertex_count();
 }
 
 std::size_t vertices_of(const LengthMeshView& mesh) {
