@@ -22,9 +22,9 @@ auto fields(const VertexFan& fan) {
 }
 
 auto fields(const MeshStatistics& s) {
-    return std::tuple(s.vertices, s.triangles, s.components, s.boundary_edges, s.nonmanifold_edges,
-                      s.repeated_index_faces, s.zero_area_faces, bits(s.area), bits(s.diagonal),
-                      bits(s.longest_edge));
+    return std::tuple(s.vertices, s.triangles, s.components, s.boundary_edges,
+                      s.coinciding_border_edges, s.nonmanifold_edges, s.repeated_index_faces,
+                      s.zero_area_faces, bits(s.area), bits(s.diagonal), bits(s.longest_edge));
 }
 
 template <class Range>

@@ -15,24 +15,15 @@ namespace {
 
 // Half-edge indices carry two flag bits in places, faces two in their cell word.
 constexpr std::uint64_t kMaxFaces = (std::uint64_t{1} << 30) / 3;
-// Beyond it squared lengths could leave the range of double.
+// Beyond them squared lengths could leave the range of double.
 constexpr double kLargestCoordinate = 1e100;
+constexpr double kSmallestExtent = 1e-100;
 /// What a triangle may lack to close, of its longest side: lengths rounded to float do.
 constexpr double kRoundedLength = 1e-6;
 constexpr double kAgreement = 1e-9;
 
 Error rejected(std::string message, std::uint64_t element = kNoElement) {
     return Error{Status::mesh_rejected, std::move(message), element};
-}
-
-Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices) {
-    if (faces == 0) {
-        return rejected("the mesh has no faces");
-    }
-    if (faces > kMaxFaces || vertices >= (std::uint64_t{1} << 31)) {
-        return rejected("the mesh is too large: at most 357,913,941 faces can be indexed");
-    }
-    return Done{};
 }
 
 Error index_rejected(std::size_t corner, std::uint32_t vertex, std::uint64_t vertices) {
@@ -176,6 +167,16 @@ Result<Done> check_face(std::size_t face, std::span<const double> lengths) {
 
 } // namespace
 
+Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices) {
+    if (faces == 0) {
+        return rejected("the mesh has no faces");
+    }
+    if (faces > kMaxFaces || vertices >= (std::uint64_t{1} << 31)) {
+        return rejected("the mesh is too large: at most 357,913,941 faces can be indexed");
+    }
+    return Done{};
+}
+
 Result<Done> check_mesh(const MeshView& mesh) {
     if (auto shape = check_shape(mesh); !shape) {
         return shape;
@@ -225,6 +226,17 @@ Result<Done> check_agreement(std::span<const HalfEdge> half_edges) {
                                 exact_text(half_edges[high].length),
                             low / 3);
         }
+    }
+    return Done{};
+}
+
+bool has_area(double area, double extent) {
+    return area > 1e-13 * extent * extent && extent >= kSmallestExtent;
+}
+
+Result<Done> check_threads(const ThreadOptions& threads) {
+    if (threads.most_threads == 0) {
+        return invalid("most_threads must be at least 1");
     }
     return Done{};
 }

@@ -78,7 +78,9 @@ void EdgeLinker::link_at(std::uint32_t v, std::span<const std::uint32_t> corners
             ++end;
         }
         link_cycle(entries.subspan(begin, end - begin));
-        boundary_edges_ += end - begin == 1;
+        if (end - begin == 1) {
+            borders_.push_back(half_edge_of(entries[begin]));
+        }
         nonmanifold_edges_ += end - begin > 2;
         join(v, other);
         begin = end;
@@ -112,7 +114,7 @@ void EdgeLinker::join(std::uint32_t a, std::uint32_t b) {
 
 void EdgeLinker::count(MeshStatistics& statistics) const {
     statistics.components = vertices_ - joins_;
-    statistics.boundary_edges = boundary_edges_;
+    statistics.boundary_edges = borders_.size();
     statistics.nonmanifold_edges = nonmanifold_edges_;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geodisk/mesh.hpp"
@@ -50,6 +51,9 @@ class EdgeLinker {
     /// Fills in what all calls have counted.
     void count(MeshStatistics& statistics) const;
 
+    /// The half-edges that are the only ones of their edges.
+    std::vector<std::uint32_t> take_borders() { return std::move(borders_); }
+
   private:
     void link_cycle(std::span<const std::uint64_t> cycle);
     std::uint32_t find_root(std::uint32_t v);
@@ -57,8 +61,9 @@ class EdgeLinker {
 
     std::span<Link> links_;
     std::vector<std::uint32_t> parents_; ///< A forest with one tree per component.
+    std::vector<std::uint32_t> borders_;
     std::vector<std::uint64_t> entries_; ///< Of link_at(), kept for its memory.
-    std::uint64_t vertices_ = 0, joins_ = 0, boundary_edges_ = 0, nonmanifold_edges_ = 0;
+    std::uint64_t vertices_ = 0, joins_ = 0, nonmanifold_edges_ = 0;
 };
 
 } // namespace geodisk

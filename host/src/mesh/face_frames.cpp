@@ -83,13 +83,6 @@ void place_apex(const Vertex<kAxes>& a, const Vertex<kAxes>& b, const Vertex<kAx
     edge.apex_y = std::sqrt(height2);
 }
 
-void place_angle(HalfEdge& edge) {
-    // Not std::hypot: its last bit differs between C libraries.
-    const double left = std::sqrt(edge.apex_x * edge.apex_x + edge.apex_y * edge.apex_y);
-    edge.cosine = left > 0 ? edge.apex_x / left : 1;
-    edge.sine = left > 0 ? edge.apex_y / left : 0;
-}
-
 template <std::size_t kAxes>
 void place_face(const Vertex<kAxes> (&corners)[3], HalfEdge (&edges)[3]) {
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -103,14 +96,15 @@ void place_face(const Vertex<kAxes> (&corners)[3], HalfEdge (&edges)[3]) {
 
 /// Fills in all faces, their edges by `place(f, face, edges)`, block by block.
 template <typename Place>
-void place_all(const IndexView& triangles, UninitializedVector<HalfEdge>& half_edges,
-               UninitializedVector<Link>& links, MeshStatistics& statistics, const Place& place) {
+void place_all(const ThreadOptions& threads, const IndexView& triangles,
+               UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+               MeshStatistics& statistics, const Place& place) {
     const std::size_t faces = triangles.size() / 3;
     half_edges.resize(triangles.size());
     links.resize(triangles.size());
     UninitializedVector<double> areas(faces);
     std::vector<MeshStatistics> blocks(block_count(faces));
-    for_blocks(faces, [&](std::size_t begin, std::size_t end) {
+    for_blocks(threads, faces, [&](std::size_t begin, std::size_t end) {
         MeshStatistics& block = blocks[begin / kBlock];
         for (std::size_t f = begin; f < end; ++f) {
             const auto face = triangles.face(f);
@@ -146,12 +140,13 @@ void place_all(const IndexView& triangles, UninitializedVector<HalfEdge>& half_e
 }
 
 template <std::size_t kAxes, class Coordinate>
-void place_vertices(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                    UninitializedVector<Link>& links, MeshStatistics& statistics) {
+void place_vertices(const ThreadOptions& threads, const MeshView& mesh,
+                    UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                    MeshStatistics& statistics) {
     const std::size_t faces = mesh.face_count();
     const Vertices<Coordinate> vertices(mesh);
     constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
-    place_all(mesh.triangles, half_edges, links, statistics,
+    place_all(threads, mesh.triangles, half_edges, links, statistics,
               [&](std::size_t f, const Face& face, HalfEdge(&edges)[3]) {
                   if (f + kAhead < faces) {
                       for (const std::uint32_t v : mesh.triangles.face(f + kAhead)) {
@@ -166,10 +161,12 @@ void place_vertices(const MeshView& mesh, UninitializedVector<HalfEdge>& half_ed
 }
 
 template <std::size_t kAxes>
-void place_coordinates(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                       UninitializedVector<Link>& links, MeshStatistics& statistics) {
-    mesh.positions.is_float() ? place_vertices<kAxes, float>(mesh, half_edges, links, statistics)
-                              : place_vertices<kAxes, double>(mesh, half_edges, links, statistics);
+void place_coordinates(const ThreadOptions& threads, const MeshView& mesh,
+                       UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                       MeshStatistics& statistics) {
+    mesh.positions.is_float()
+        ? place_vertices<kAxes, float>(threads, mesh, half_edges, links, statistics)
+        : place_vertices<kAxes, double>(threads, mesh, half_edges, links, statistics);
 }
 
 /// Twice the area of a triangle with these sides, 0 where they only just reach each other or, by
@@ -206,15 +203,24 @@ void place_apex(double next, double previous, double twice_area, HalfEdge& edge)
 
 } // namespace
 
-void place_faces(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics) {
-    mesh.dimension <= 3 ? place_coordinates<3>(mesh, half_edges, links, statistics)
-                        : place_coordinates<8>(mesh, half_edges, links, statistics);
+void place_angle(HalfEdge& edge) {
+    // Not std::hypot: its last bit differs between C libraries.
+    const double left = std::sqrt(edge.apex_x * edge.apex_x + edge.apex_y * edge.apex_y);
+    edge.cosine = left > 0 ? edge.apex_x / left : 1;
+    edge.sine = left > 0 ? edge.apex_y / left : 0;
 }
 
-void place_faces(const LengthMeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics) {
-    place_all(mesh.triangles, half_edges, links, statistics,
+void place_faces(const ThreadOptions& threads, const MeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics) {
+    mesh.dimension <= 3 ? place_coordinates<3>(threads, mesh, half_edges, links, statistics)
+                        : place_coordinates<8>(threads, mesh, half_edges, links, statistics);
+}
+
+void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics) {
+    place_all(threads, mesh.triangles, half_edges, links, statistics,
               [&](std::size_t f, const Face&, HalfEdge(&edges)[3]) {
                   const auto lengths = mesh.lengths.subspan(3 * f, 3);
                   const double twice_area = double_area(lengths[0], lengths[1], lengths[2]);

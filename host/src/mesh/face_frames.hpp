@@ -14,9 +14,14 @@ namespace geodisk {
 ///
 /// A face that names a vertex twice gets neither lengths nor area: its sides must neither widen the
 /// tolerances nor take cells. The mesh must have passed check_mesh().
-void place_faces(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics);
-void place_faces(const LengthMeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics);
+void place_faces(const ThreadOptions& threads, const MeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics);
+void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics);
+
+/// Fills in the angle of a half-edge's frame, of which it has the rest.
+void place_angle(HalfEdge& edge);
 
 } // namespace geodisk

@@ -17,6 +17,16 @@ constexpr std::uint64_t kFinePerUnit = 1u << 7;
 /// The bit of a packed angle that tells of a short side; angles take 22 bits.
 constexpr std::uint32_t kShortSide = 1u << 31;
 
+constexpr std::uint32_t kIrregularFlags = gpu::kFanIrregular | gpu::kFanBends;
+
+/// Of a fan in rotational order.
+std::uint32_t regular_flags(bool open, std::uint32_t total_angle) {
+    // A shortest path makes at least pi on either side of a vertex it passes.
+    const std::uint32_t needed = open ? gpu::kAnglePi : 2 * gpu::kAnglePi;
+    return (open ? gpu::kFanOpen : 0u) |
+           (total_angle + gpu::kAngleTolerance >= needed ? gpu::kFanBends : 0u);
+}
+
 /// Whether the corner has a side of next to no length beside the other. Such a side joins two
 /// vertices into one place, whose angle is that of both together: neither fan alone tells whether
 /// a path may bend there, nor in which direction the other lies.
@@ -121,14 +131,44 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
         ordered = ordered && !too_wide && (packed & kShortSide) == 0;
     }
     if (!ordered) {
-        fan.flags = gpu::kFanIrregular | gpu::kFanBends;
+        fan.flags = kIrregularFlags;
         return;
     }
     fan.total_angle = static_cast<std::uint32_t>((fine + kFinePerUnit - 1) / kFinePerUnit);
-    // A shortest path makes at least pi on either side of a vertex it passes.
-    const std::uint32_t needed = open ? gpu::kAnglePi : 2 * gpu::kAnglePi;
-    fan.flags = (open ? gpu::kFanOpen : 0u) |
-                (fan.total_angle + gpu::kAngleTolerance >= needed ? gpu::kFanBends : 0u);
+    fan.flags = regular_flags(open, fan.total_angle);
+}
+
+bool FanBuilder::fits(std::span<const HalfEdge> half_edges, std::uint32_t v, const VertexFan& fan,
+                      std::span<const std::uint32_t> corners) {
+    if (corners.empty()) {
+        return fan.flags == 0 && fan.total_angle == 0;
+    }
+    if (fan.flags == kIrregularFlags) {
+        return fan.total_angle == 0;
+    }
+    bool open = false;
+    copy_.assign(corners.begin(), corners.end());
+    if (!order_corners(v, copy_, open) || !std::ranges::equal(copy_, corners) ||
+        fan.flags != regular_flags(open, fan.total_angle)) {
+        return false;
+    }
+    std::uint32_t end = 0;
+    for (const std::uint32_t corner : corners) {
+        const std::uint32_t start = links_[corner].angle & 0xffffu;
+        const std::uint32_t size = links_[corner].angle >> 16;
+        const std::uint32_t packed =
+            pack_corner_angle(half_edges[corner], half_edges[previous_in_face(corner)]);
+        const std::uint32_t fine = packed & ~kShortSide;
+        // Starts are rounded down and ends up.
+        const bool follows = start == end || start + 1 == end;
+        const bool is_angle =
+            size * kFinePerUnit + 1 >= fine && size * kFinePerUnit <= fine + 2 * kFinePerUnit;
+        if (!follows || !is_angle || (packed & kShortSide) != 0) {
+            return false;
+        }
+        end = start + size;
+    }
+    return end == fan.total_angle && end <= gpu::kLargestFanAngle;
 }
 
 } // namespace geodisk

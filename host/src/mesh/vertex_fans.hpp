@@ -23,12 +23,18 @@ class FanBuilder {
     /// `HalfEdge::fan_angles` and fills the rest of the fan. All edges at v must be linked.
     void build(std::uint32_t v, std::span<std::uint32_t> corners, VertexFan& fan);
 
+    /// Whether a fan and the angles of its corners, those at v, are as build() makes them, up to
+    /// the last bit of a corner's angle. All edges at v must be linked.
+    bool fits(std::span<const HalfEdge> half_edges, std::uint32_t v, const VertexFan& fan,
+              std::span<const std::uint32_t> corners);
+
   private:
     /// False where no single walk around v covers the corners; these stay as they are then.
     bool order_corners(std::uint32_t v, std::span<std::uint32_t> corners, bool& open);
     void measure(std::span<const std::uint32_t> corners, bool ordered, bool open, VertexFan& fan);
 
     std::span<Link> links_;
+    std::vector<std::uint32_t> copy_; ///< Of fits(), kept for its memory.
     std::vector<std::uint32_t> walk_; ///< Of order_corners(), kept for its memory.
 };
 
