@@ -105,23 +105,17 @@ void place_all(const ThreadOptions& threads, const IndexView& triangles,
     UninitializedVector<double> areas(faces);
     std::vector<MeshStatistics> blocks(block_count(faces));
     for_blocks(threads, faces, [&](std::size_t begin, std::size_t end) {
-        MeshStatistics& block = blocks[begin / kBlock];
         for (std::size_t f = begin; f < end; ++f) {
             const auto face = triangles.face(f);
             HalfEdge edges[3]{};
             std::uint32_t angles[3]{};
-            areas[f] = 0;
-            if (!takes_part(face)) {
-                ++block.repeated_index_faces;
-            } else {
+            if (takes_part(face)) {
                 place(f, face, edges);
-                areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
-                block.zero_area_faces += areas[f] == 0;
                 for (std::uint32_t k = 0; k < 3; ++k) {
-                    block.longest_edge = std::max(block.longest_edge, edges[k].length);
                     angles[k] = pack_corner_angle(edges[k], edges[previous_in_face(k)]);
                 }
             }
+            areas[f] = add_face(takes_part(face), edges, blocks[begin / kBlock]);
             const auto first = static_cast<std::uint32_t>(3 * f);
             for (std::uint32_t k = 0; k < 3; ++k) {
                 edges[k].origin = face[k];
@@ -130,13 +124,7 @@ void place_all(const ThreadOptions& threads, const IndexView& triangles,
             std::copy_n(edges, 3, half_edges.begin() + first);
         }
     });
-    statistics.triangles = faces;
-    for (const MeshStatistics& block : blocks) {
-        statistics.repeated_index_faces += block.repeated_index_faces;
-        statistics.zero_area_faces += block.zero_area_faces;
-        statistics.longest_edge = std::max(statistics.longest_edge, block.longest_edge);
-    }
-    statistics.area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    sum_up(areas, blocks, statistics);
 }
 
 template <std::size_t kAxes, class Coordinate>
@@ -208,6 +196,30 @@ void place_angle(HalfEdge& edge) {
     const double left = std::sqrt(edge.apex_x * edge.apex_x + edge.apex_y * edge.apex_y);
     edge.cosine = left > 0 ? edge.apex_x / left : 1;
     edge.sine = left > 0 ? edge.apex_y / left : 0;
+}
+
+double add_face(bool takes_part, const HalfEdge (&edges)[3], MeshStatistics& block) {
+    if (!takes_part) {
+        ++block.repeated_index_faces;
+        return 0;
+    }
+    for (const HalfEdge& edge : edges) {
+        block.longest_edge = std::max(block.longest_edge, edge.length);
+    }
+    const double area = 0.5 * edges[0].length * edges[0].apex_y;
+    block.zero_area_faces += area == 0;
+    return area;
+}
+
+void sum_up(std::span<const double> areas, std::span<const MeshStatistics> blocks,
+            MeshStatistics& statistics) {
+    statistics.triangles = areas.size();
+    for (const MeshStatistics& block : blocks) {
+        statistics.repeated_index_faces += block.repeated_index_faces;
+        statistics.zero_area_faces += block.zero_area_faces;
+        statistics.longest_edge = std::max(statistics.longest_edge, block.longest_edge);
+    }
+    statistics.area = std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 void place_faces(const ThreadOptions& threads, const MeshView& mesh,

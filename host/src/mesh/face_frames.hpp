@@ -2,6 +2,8 @@
 // from the lengths of edges.
 #pragma once
 
+#include <span>
+
 #include "geodisk/mesh.hpp"
 #include "geodisk/uninitialized.hpp"
 #include "mesh/connectivity.hpp"
@@ -23,5 +25,13 @@ void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
 
 /// Fills in the angle of a half-edge's frame, of which it has the rest.
 void place_angle(HalfEdge& edge);
+
+/// Adds a face to the statistics of its block of faces. Returns its area.
+double add_face(bool takes_part, const HalfEdge (&edges)[3], MeshStatistics& block);
+
+/// Adds up what add_face() said of all faces; areas in their order, so that the sum is always the
+/// same.
+void sum_up(std::span<const double> areas, std::span<const MeshStatistics> blocks,
+            MeshStatistics& statistics);
 
 } // namespace geodisk

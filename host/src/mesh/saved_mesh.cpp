@@ -200,7 +200,7 @@ class Loader {
         corners.resize(header_.corners);
         saved_fans_.read(0, fans.size(), fans.data());
         saved_corners_.read(0, corners.size(), corners.data());
-        if (auto loaded = load_faces(half_edges, statistics); !loaded) {
+        if (auto loaded = load_faces(half_edges, fans, statistics); !loaded) {
             return loaded;
         }
         if (auto checked = check_edges(statistics); !checked) {
@@ -209,7 +209,7 @@ class Loader {
         if (auto checked = check_agreement(half_edges); !checked) {
             return invalid(checked.error().message, checked.error().element);
         }
-        if (auto checked = check_fans(half_edges, fans, corners, statistics); !checked) {
+        if (auto checked = check_fans(fans, corners, statistics); !checked) {
             return checked;
         }
         return check_statistics(statistics);
@@ -217,16 +217,22 @@ class Loader {
 
   private:
     /// Half-edges and links, with what follows from them; all indices of vertices are in range
-    /// then.
-    Result<Done> load_faces(std::span<HalfEdge> half_edges, MeshStatistics& statistics) {
+    /// then, and the angles of corners fit.
+    Result<Done> load_faces(std::span<HalfEdge> half_edges, std::span<const VertexFan> fans,
+                            MeshStatistics& statistics) {
         const std::size_t faces = half_edges.size() / 3;
         std::vector<std::size_t> wrong(block_count(faces), faces); // The first in each block.
+        UninitializedVector<double> areas(faces);
+        std::vector<MeshStatistics> blocks(block_count(faces));
         for_blocks(threads_, faces, [&](std::size_t begin, std::size_t end) {
             saved_links_.read(3 * begin, 3 * end, &links_[3 * begin]);
             for (std::size_t f = end; f-- > begin;) {
-                if (!load_face(f, &half_edges[3 * f])) {
+                HalfEdge edges[3];
+                if (!load_face(f, fans, edges)) {
                     wrong[begin / kBlock] = f;
                 }
+                areas[f] = add_face(takes_part(face_of(f)), edges, blocks[begin / kBlock]);
+                std::copy_n(edges, 3, &half_edges[3 * f]);
             }
         });
         const std::size_t first = *std::min_element(wrong.begin(), wrong.end());
@@ -234,22 +240,11 @@ class Loader {
             return invalid("face " + std::to_string(first) + " of the saved mesh is no triangle",
                            first);
         }
-        statistics.triangles = faces;
-        for (std::size_t h = 0; h < half_edges.size(); h += 3) {
-            const HalfEdge& edge = half_edges[h];
-            const double area = 0.5 * edge.length * edge.apex_y;
-            const bool repeats = !takes_part(face_of(h / 3));
-            statistics.area += area;
-            statistics.repeated_index_faces += repeats;
-            statistics.zero_area_faces += !repeats && area == 0;
-            statistics.longest_edge =
-                std::max({statistics.longest_edge, edge.length, half_edges[h + 1].length,
-                          half_edges[h + 2].length});
-        }
+        sum_up(areas, blocks, statistics);
         return Done{};
     }
 
-    bool load_face(std::size_t f, HalfEdge* edges) const {
+    bool load_face(std::size_t f, std::span<const VertexFan> fans, HalfEdge (&edges)[3]) const {
         for (std::size_t k = 0; k < 3; ++k) {
             const Link& link = links_[3 * f + k];
             const Shape shape = shapes_[3 * f + k];
@@ -262,10 +257,20 @@ class Loader {
         if (!takes_part(face_of(f))) {
             return is_empty(edges[0]) && is_empty(edges[1]) && is_empty(edges[2]);
         }
-        for (std::size_t k = 0; k < 3; ++k) {
-            place_angle(edges[k]);
+        for (HalfEdge& edge : edges) {
+            place_angle(edge);
         }
-        return frames_agree(edges);
+        if (!frames_agree(edges)) {
+            return false;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t packed = pack_corner_angle(edges[k], edges[(k + 2) % 3]);
+            const bool is_regular = (fans[edges[k].origin].flags & gpu::kFanIrregular) == 0;
+            if (is_regular && !angles_fit(edges[k].fan_angles, packed)) {
+                return false;
+            }
+        }
+        return true;
     }
 
     /// The cycles of half-edges around edges, which it counts.
@@ -307,8 +312,8 @@ class Loader {
     }
 
     /// Every corner is in the fan of its vertex, and fans are as FanBuilder makes them.
-    Result<Done> check_fans(std::span<const HalfEdge> half_edges, std::span<const VertexFan> fans,
-                            std::span<const std::uint32_t> corners, MeshStatistics& statistics) {
+    Result<Done> check_fans(std::span<const VertexFan> fans, std::span<const std::uint32_t> corners,
+                            MeshStatistics& statistics) {
         std::uint64_t total = 0;
         std::vector<bool> seen(links_.size(), false);
         for (std::uint32_t v = 0; v < fans.size(); ++v) {
@@ -335,7 +340,7 @@ class Loader {
             FanBuilder builder(links_);
             for (std::size_t v = end; v-- > begin;) {
                 const VertexFan& fan = fans[v];
-                if (!builder.fits(half_edges, static_cast<std::uint32_t>(v), fan,
+                if (!builder.fits(static_cast<std::uint32_t>(v), fan,
                                   corners.subspan(fan.first_corner, fan.corner_count))) {
                     wrong[begin / kBlock] = static_cast<std::uint32_t>(v);
                 }

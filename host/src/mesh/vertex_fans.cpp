@@ -12,7 +12,7 @@ namespace {
 
 /// Corners are summed in units of 2^-20 radian, so that the last bit of the platform's atan2 never
 /// shows, and stored in units of 2^-13.
-constexpr std::uint64_t kFinePerUnit = 1u << 7;
+constexpr std::uint32_t kFinePerUnit = 1u << 7;
 
 /// The bit of a packed angle that tells of a short side; angles take 22 bits.
 constexpr std::uint32_t kShortSide = 1u << 31;
@@ -138,7 +138,14 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
     fan.flags = regular_flags(open, fan.total_angle);
 }
 
-bool FanBuilder::fits(std::span<const HalfEdge> half_edges, std::uint32_t v, const VertexFan& fan,
+bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed) {
+    const std::uint32_t fine = packed & ~kShortSide;
+    const std::uint32_t size = (fan_angles >> 16) * kFinePerUnit;
+    // The start is rounded down and the end up.
+    return (packed & kShortSide) == 0 && size + 1 >= fine && size <= fine + 2 * kFinePerUnit;
+}
+
+bool FanBuilder::fits(std::uint32_t v, const VertexFan& fan,
                       std::span<const std::uint32_t> corners) {
     if (corners.empty()) {
         return fan.flags == 0 && fan.total_angle == 0;
@@ -155,18 +162,10 @@ bool FanBuilder::fits(std::span<const HalfEdge> half_edges, std::uint32_t v, con
     std::uint32_t end = 0;
     for (const std::uint32_t corner : corners) {
         const std::uint32_t start = links_[corner].angle & 0xffffu;
-        const std::uint32_t size = links_[corner].angle >> 16;
-        const std::uint32_t packed =
-            pack_corner_angle(half_edges[corner], half_edges[previous_in_face(corner)]);
-        const std::uint32_t fine = packed & ~kShortSide;
-        // Starts are rounded down and ends up.
-        const bool follows = start == end || start + 1 == end;
-        const bool is_angle =
-            size * kFinePerUnit + 1 >= fine && size * kFinePerUnit <= fine + 2 * kFinePerUnit;
-        if (!follows || !is_angle || (packed & kShortSide) != 0) {
+        if (start != end && start + 1 != end) { // Starts are rounded down and ends up.
             return false;
         }
-        end = start + size;
+        end = start + (links_[corner].angle >> 16);
     }
     return end == fan.total_angle && end <= gpu::kLargestFanAngle;
 }
