@@ -22,8 +22,8 @@ Vector unit(const Vector& v, const Vector& otherwise) {
 std::array<Vector, 3> corners_of(const MeshView& mesh, std::uint32_t f) {
     std::array<Vector, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = std::size_t{3} * mesh.triangles[std::size_t{3} * f + k];
-        corners[k] = {mesh.positions[at], mesh.positions[at + 1], mesh.positions[at + 2]};
+        const std::uint32_t v = mesh.triangles[std::size_t{3} * f + k];
+        corners[k] = {mesh.coordinate(v, 0), mesh.coordinate(v, 1), mesh.coordinate(v, 2)};
     }
     return corners;
 }
@@ -73,8 +73,8 @@ double curve_length(const OrientedPoint& a, const OrientedPoint& b) {
 
 std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
                                            std::span<const FacePoint<double>> points) {
-    std::vector<Vector> normals(mesh.positions.size() / 3, Vector());
-    for (std::uint32_t f = 0; f < mesh.triangles.size() / 3; ++f) {
+    std::vector<Vector> normals(mesh.vertex_count(), Vector());
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         for (std::size_t k = 0; k < 3; ++k) {
             normals[mesh.triangles[std::size_t{3} * f + k]] += face_normal(corners_of(mesh, f));
         }

@@ -13,10 +13,10 @@ namespace {
 using Vector = std::array<double, 3>;
 
 std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
-    std::vector<Vector> sums(view.positions.size() / 3, Vector{});
-    for (std::size_t face = 0; face < view.triangles.size() / 3; ++face) {
+    std::vector<Vector> sums(view.vertex_count(), Vector{});
+    for (std::size_t face = 0; face < view.face_count(); ++face) {
         const auto corner = [&](std::size_t k, std::size_t axis) {
-            return view.positions[std::size_t{3} * view.triangles[3 * face + k] + axis];
+            return view.coordinate(view.triangles[3 * face + k], axis);
         };
         Vector normal;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -54,22 +54,23 @@ SpacePoints draw_in_space(const MeshView& view, const PreparedMesh& mesh,
     const auto candidates = draw_pool(surface, mesh, params).by_rank();
     points.by_rank.resize(candidates.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto coordinate = [&](std::uint32_t vertex) {
-            return view.positions[std::size_t{3} * vertex + axis];
+        const auto coordinate = [&](std::size_t corner) {
+            return view.coordinate(view.triangles[corner], axis);
         };
-        const auto [low, high] = std::minmax_element(
-            view.triangles.begin(), view.triangles.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return coordinate(a) < coordinate(b); });
-        const double least = coordinate(*low);
-        const double side =
-            std::max((coordinate(*high) - least) * (1 + 0x1p-30), 0x1p-10 * params.min_distance);
+        double least = coordinate(0);
+        double most = least;
+        for (std::size_t corner = 1; corner < view.triangles.size(); ++corner) {
+            least = std::min(least, coordinate(corner));
+            most = std::max(most, coordinate(corner));
+        }
+        const double side = std::max((most - least) * (1 + 0x1p-30), 0x1p-10 * params.min_distance);
         points.box.extents.push_back(side);
         for (std::size_t rank = 0; rank < candidates.size(); ++rank) {
             const FacePoint<double>& c = candidates[rank];
             const double weights[3] = {1 - c.weight1 - c.weight2, c.weight1, c.weight2};
             std::uint64_t sum = 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                const double x = coordinate(view.triangles[std::size_t{3} * c.face + k]);
+                const double x = coordinate(std::size_t{3} * c.face + k);
                 const double corner = std::floor((x - least) / side * 0x1p32);
                 sum += static_cast<std::uint64_t>(weights[k] * 0x1p24) *
                        static_cast<std::uint64_t>(corner);

@@ -28,6 +28,7 @@ void check_mesh(const Json& mesh) {
     CHECK(mesh["triangles"] == 12);
     CHECK(mesh["components"] == 1);
     CHECK(mesh["boundary_edges"] == 0);
+    CHECK(mesh["coinciding_border_edges"] == 0);
     CHECK(mesh["nonmanifold_edges"] == 0);
     CHECK(mesh["area"].get<double>() == doctest::Approx(6));
 }
@@ -85,6 +86,20 @@ TEST_CASE("the report has every documented key") {
     CHECK(report["candidates"] <= 6400);
     CHECK(report["rho"] > 0.65);
     CHECK(report["rho"] < 0.8);
+}
+
+TEST_CASE("the report tells of seams whose vertices are doubled") {
+    const TemporaryFolder folder;
+    folder.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\n"
+                               "f 1 2 3\nf 4 5 6\n");
+    const Outcome outcome =
+        run(folder, {"sample", "square.obj", "-o", "a.ply", "-n", "50", "--json", "a.json"});
+    REQUIRE(outcome.status == 0);
+    CHECK(contains(outcome.out, "6 boundary edges, 2 of them in one place with others: "
+                                "weld the vertices to join the faces"));
+    const Json report = Json::parse(bytes_of(folder / "a.json"));
+    CHECK(report["mesh"]["boundary_edges"] == 6);
+    CHECK(report["mesh"]["coinciding_border_edges"] == 2);
 }
 
 TEST_CASE("calls are counted where asked for, without effect on the samples") {

@@ -1,41 +1,18 @@
-// Triangle meshes: the view a caller hands in, and the prepared intrinsic surface.
+// Triangle meshes as prepared: the intrinsic surface.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "geodisk/export.hpp"
+#include "geodisk/mesh_view.hpp"
 #include "geodisk/status.hpp"
+#include "geodisk/threads.hpp"
 #include "geodisk/uninitialized.hpp"
 
 namespace geodisk {
-
-/// A triangle mesh in the caller's memory; nothing is copied until `PreparedMesh::prepare`.
-///
-/// `positions` holds `dimension` coordinates per vertex, `triangles` three vertex indices per face.
-/// Faces may be oriented either way, share an edge by any number, touch in single vertices, have
-/// zero area, and leave borders open. Vertices that no face uses are ignored.
-struct MeshView {
-    std::span<const double> positions;
-    std::span<const std::uint32_t> triangles;
-    std::uint32_t dimension = 3;
-};
-
-/// A triangle mesh given by the lengths of its edges alone, also in the caller's memory: no
-/// coordinates need exist, and no space that it would fit in.
-///
-/// `lengths` holds three per face, in mesh units: from its first corner to the second, to the third
-/// and back, so `lengths[h]` is that of half-edge h. The faces of an edge must agree about its
-/// length to a billionth. Each face must satisfy the triangle inequality to a millionth of its
-/// longest edge, as lengths rounded to float do; one that does no more than that has no area.
-/// Vertices are numbered below `vertex_count`.
-struct LengthMeshView {
-    std::span<const std::uint32_t> triangles;
-    std::span<const double> lengths;
-    std::uint32_t vertex_count = 0;
-};
 
 /// One half-edge, `h = 3 * face + corner`, running from that corner to the next one of its face.
 ///
@@ -79,8 +56,11 @@ struct VertexFan {
 struct MeshStatistics {
     std::uint64_t vertices = 0; ///< Vertices used by a face.
     std::uint64_t triangles = 0;
-    std::uint64_t components = 0;           ///< Parts with no path between them.
-    std::uint64_t boundary_edges = 0;       ///< Edges of one face.
+    std::uint64_t components = 0;     ///< Parts with no path between them.
+    std::uint64_t boundary_edges = 0; ///< Edges of one face.
+    /// Boundary edges with both ends exactly where those of another one are: seams that are open
+    /// because their vertices are doubled, which `weld` closes. 0 for a mesh without coordinates.
+    std::uint64_t coinciding_border_edges = 0;
     std::uint64_t nonmanifold_edges = 0;    ///< Edges of three or more faces.
     std::uint64_t repeated_index_faces = 0; ///< Faces naming a vertex twice; they take no part.
     std::uint64_t zero_area_faces = 0; ///< Faces without area; they connect but hold no sample.
@@ -92,23 +72,40 @@ struct MeshStatistics {
 
 /// The surface in intrinsic form, independent of the sampling distance.
 ///
-/// Immutable after `prepare`, so one object may serve many threads. All arrays are indexed as in
-/// the caller's mesh: face f owns half-edges 3f, 3f+1, 3f+2.
+/// Immutable after `prepare` and `load`, so one object may serve many threads. All arrays are
+/// indexed as in the caller's mesh: face f owns half-edges 3f, 3f+1, 3f+2.
 class PreparedMesh {
   public:
     /// Builds connectivity, intrinsic frames and vertex fans. Time and memory are linear in the
-    /// mesh (about 300 bytes per face). Large meshes take further threads, up to 16, which end
-    /// before it returns; the result does not depend on them.
+    /// mesh (about 300 bytes per face). Large meshes take further threads as `threads` allows,
+    /// which end before it returns; the result does not depend on them.
     ///
     /// Fails with `mesh_rejected` and the face or vertex in `Error::element` when an index is out
     /// of range, a used coordinate is not finite, there is no face with area, or the mesh is too
-    /// large to index with 32 bits; with `out_of_host_memory` when memory runs out.
-    GEODISK_API static Result<PreparedMesh> prepare(const MeshView& mesh) noexcept;
+    /// large to index with 32 bits; with `invalid_argument` for sizes and layouts that MeshView
+    /// rules out and for no threads; with `out_of_host_memory` when memory runs out.
+    GEODISK_API static Result<PreparedMesh> prepare(const MeshView& mesh,
+                                                    const ThreadOptions& threads = {}) noexcept;
 
     /// The same from edge lengths. Fails with `mesh_rejected` and the face in `Error::element` when
     /// a length is not positive and finite, a face violates the triangle inequality, or the faces
     /// of an edge disagree about its length. Faces that name a vertex twice may have any lengths.
-    GEODISK_API static Result<PreparedMesh> prepare(const LengthMeshView& mesh) noexcept;
+    GEODISK_API static Result<PreparedMesh> prepare(const LengthMeshView& mesh,
+                                                    const ThreadOptions& threads = {}) noexcept;
+
+    /// The mesh as bytes for load(), 130 to 170 per face, the same for the same mesh.
+    /// Fails with `out_of_host_memory`.
+    GEODISK_API Result<std::vector<std::byte>> save() const noexcept;
+
+    /// The mesh that save() was called on, to the bit. The bytes may come from anywhere and need no
+    /// alignment: whatever could lead a run astray is refused, which takes about as long as
+    /// preparing.
+    ///
+    /// Fails with `invalid_argument` for bytes of something else, of another version of the format
+    /// or another byte order, and damaged ones, with the face or vertex in `Error::element` where
+    /// there is one at fault; with `out_of_host_memory`.
+    GEODISK_API static Result<PreparedMesh> load(std::span<const std::byte> bytes,
+                                                 const ThreadOptions& threads = {}) noexcept;
 
     std::span<const HalfEdge> half_edges() const noexcept { return half_edges_; }
     std::span<const VertexFan> fans() const noexcept { return fans_; }
@@ -124,7 +121,7 @@ class PreparedMesh {
   private:
     static std::uint64_t next_identity() noexcept;
     template <class View>
-    static Result<PreparedMesh> prepare_any(const View& mesh);
+    static Result<PreparedMesh> prepare_any(const View& mesh, const ThreadOptions& threads);
 
     UninitializedVector<HalfEdge> half_edges_;
     std::vector<VertexFan> fans_;

@@ -30,8 +30,8 @@ using Vector = std::array<double, 3>;
 Vector face_normal(const MeshView& view, std::size_t face) {
     std::array<Vector, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t at = std::size_t{3} * view.triangles[3 * face + k];
-        corners[k] = {view.positions[at], view.positions[at + 1], view.positions[at + 2]};
+        const std::uint32_t v = view.triangles[3 * face + k];
+        corners[k] = {view.coordinate(v, 0), view.coordinate(v, 1), view.coordinate(v, 2)};
     }
     Vector u, v;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -43,7 +43,7 @@ Vector face_normal(const MeshView& view, std::size_t face) {
 
 /// Of unit length, weighted by the areas of the faces; zero where those cancel out.
 std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
-    std::vector<Vector> sums(view.positions.size() / 3, Vector{});
+    std::vector<Vector> sums(view.vertex_count(), Vector{});
     for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
         const Vector normal = face_normal(view, corner / 3);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -71,8 +71,7 @@ Result<Done> check_view(const MeshView& view, const PreparedMesh& mesh) {
                      "straight-line distances need three coordinates per vertex, not " +
                          std::to_string(view.dimension)};
     }
-    if (view.triangles.size() != std::size_t{3} * mesh.face_count() ||
-        view.positions.size() != std::size_t{3} * mesh.vertex_count()) {
+    if (view.face_count() != mesh.face_count() || view.vertex_count() != mesh.vertex_count()) {
         return Error{Status::invalid_argument, "the view is not of the mesh that was prepared"};
     }
     return Done{};
@@ -85,21 +84,22 @@ SpaceFrame::SpaceFrame(const MeshView& view, const SampleParams& params)
     box.min_distance = params.min_distance;
     box.seed = params.seed;
     box.extents.assign(3, 0);
-    vertices.resize(view.positions.size() / 3);
+    vertices.resize(view.vertex_count());
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double least = std::numeric_limits<double>::infinity();
         double most = -least;
         // Corners of faces alone: a vertex without faces may be anywhere.
-        for (const std::uint32_t v : view.triangles) {
-            const double x = view.positions[std::size_t{3} * v + axis];
+        for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
+            const double x = view.coordinate(view.triangles[corner], axis);
             least = std::min(least, x);
             most = std::max(most, x);
         }
         // A flat surface is given some thickness; the farthest vertices lie inside.
         double& side = box.extents[axis];
         side = std::max((most - least) * (1 + 0x1p-30), 0x1p-10 * params.min_distance);
-        for (const std::uint32_t v : view.triangles) {
-            const double x = view.positions[std::size_t{3} * v + axis];
+        for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
+            const std::uint32_t v = view.triangles[corner];
+            const double x = view.coordinate(v, axis);
             vertices[v][axis] = static_cast<std::uint32_t>((x - least) / side * 0x1p32);
         }
     }

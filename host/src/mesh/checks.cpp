@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <utility>
 
+#include "mesh/connectivity.hpp"
 #include "support/number_text.hpp"
 
 namespace geodisk {
@@ -12,8 +15,9 @@ namespace {
 
 // Half-edge indices carry two flag bits in places, faces two in their cell word.
 constexpr std::uint64_t kMaxFaces = (std::uint64_t{1} << 30) / 3;
-// Beyond it squared lengths could leave the range of double.
+// Beyond them squared lengths could leave the range of double.
 constexpr double kLargestCoordinate = 1e100;
+constexpr double kSmallestExtent = 1e-100;
 /// What a triangle may lack to close, of its longest side: lengths rounded to float do.
 constexpr double kRoundedLength = 1e-6;
 constexpr double kAgreement = 1e-9;
@@ -22,53 +26,97 @@ Error rejected(std::string message, std::uint64_t element = kNoElement) {
     return Error{Status::mesh_rejected, std::move(message), element};
 }
 
-const double* vertex(const MeshView& mesh, std::uint32_t v) {
-    return mesh.positions.data() + std::size_t{v} * mesh.dimension;
-}
-
-Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices) {
-    if (faces == 0) {
-        return rejected("the mesh has no faces");
-    }
-    if (faces > kMaxFaces || vertices >= (std::uint64_t{1} << 31)) {
-        return rejected("the mesh is too large: at most 357,913,941 faces can be indexed");
-    }
-    return Done{};
-}
-
 Error index_rejected(std::size_t corner, std::uint32_t vertex, std::uint64_t vertices) {
     return rejected("face " + std::to_string(corner / 3) + " names vertex " +
                         std::to_string(vertex) + ", but there are only " + std::to_string(vertices),
                     corner / 3);
 }
 
-Result<Done> check_shape(const MeshView& mesh) {
-    if (mesh.dimension < 2 || mesh.dimension > kMostDimensions) {
-        return Error{Status::invalid_argument, "the dimension must be 2 to 8"};
-    }
-    if (mesh.positions.size() % mesh.dimension != 0 || mesh.triangles.size() % 3 != 0) {
-        return Error{Status::invalid_argument,
-                     "positions must hold whole vertices and triangles whole faces"};
-    }
-    return check_counts(mesh.triangles.size() / 3, mesh.positions.size() / mesh.dimension);
+Error invalid(std::string message) {
+    return Error{Status::invalid_argument, std::move(message)};
 }
 
-/// Whether every index and every coordinate will do, those of unused vertices included.
-bool all_elements_fit(const MeshView& mesh) {
+/// Elements of some bytes, each a stride after the one before, made of parts of a type's size.
+Result<Done> check_layout(const std::string& name, const void* data, std::size_t count,
+                          std::size_t stride, std::size_t element, std::size_t part) {
+    if (count == 0) {
+        return Done{};
+    }
+    if (data == nullptr) {
+        return invalid("there are " + std::to_string(count) + " " + name + ", but no data");
+    }
+    if (stride < element) {
+        return invalid("the stride of " + name + " is " + std::to_string(stride) +
+                       " bytes, less than the " + std::to_string(element) + " of one");
+    }
+    if (stride % part != 0 || reinterpret_cast<std::uintptr_t>(data) % part != 0) {
+        return invalid(name + " must lie at multiples of " + std::to_string(part) + " bytes");
+    }
+    return Done{};
+}
+
+Result<Done> check_layout(const PositionView& positions, std::uint32_t dimension) {
+    const std::size_t part = positions.is_float() ? sizeof(float) : sizeof(double);
+    return check_layout("positions", positions.data(), positions.count(),
+                        positions.stride(dimension), part * dimension, part);
+}
+
+Result<Done> check_layout(const IndexView& triangles) {
+    const std::size_t part = triangles.is_short() ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
+    return check_layout("indices", triangles.data(), triangles.size(), triangles.stride(), part,
+                        part);
+}
+
+Result<Done> check_shape(const MeshView& mesh) {
+    if (mesh.dimension < 2 || mesh.dimension > kMostDimensions) {
+        return invalid("the dimension must be 2 to 8");
+    }
+    if ((mesh.positions.is_packed() && mesh.positions.count() % mesh.dimension != 0) ||
+        mesh.triangles.size() % 3 != 0) {
+        return invalid("positions must hold whole vertices and triangles whole faces");
+    }
+    if (auto layout = check_layout(mesh.positions, mesh.dimension); !layout) {
+        return layout;
+    }
+    if (auto layout = check_layout(mesh.triangles); !layout) {
+        return layout;
+    }
+    return check_counts(mesh.face_count(), mesh.vertex_count());
+}
+
+/// Whether all coordinates will do, those of unused vertices included.
+template <class Coordinate>
+bool all_coordinates_fit(const MeshView& mesh) {
+    const PositionView& positions = mesh.positions;
+    // What is packed is one long row.
+    const std::size_t rows = positions.is_packed() ? 1 : positions.count();
+    const std::size_t length = positions.is_packed() ? positions.count() : mesh.dimension;
     bool fit = true;
-    for (const double x : mesh.positions) {
-        fit &= std::abs(x) <= kLargestCoordinate; // False also for what is not a number.
+    for (std::size_t row = 0; row < rows; ++row) {
+        const auto* const first =
+            reinterpret_cast<const Coordinate*>(static_cast<const std::byte*>(positions.data()) +
+                                                row * positions.stride(mesh.dimension));
+        for (std::size_t i = 0; i < length; ++i) {
+            fit &= std::abs(first[i]) <= kLargestCoordinate; // False also for what is no number.
+        }
     }
+    return fit;
+}
+
+bool all_elements_fit(const MeshView& mesh) {
     std::uint32_t largest = 0;
-    for (const std::uint32_t v : mesh.triangles) {
-        largest = std::max(largest, v);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const auto [a, b, c] = mesh.triangles.face(f);
+        largest = std::max({largest, a, b, c});
     }
-    return fit && largest < mesh.positions.size() / mesh.dimension;
+    return largest < mesh.vertex_count() &&
+           (mesh.positions.is_float() ? all_coordinates_fit<float>(mesh)
+                                      : all_coordinates_fit<double>(mesh));
 }
 
 Result<Done> check_vertex(const MeshView& mesh, std::uint32_t v) {
     for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
-        const double x = vertex(mesh, v)[axis];
+        const double x = mesh.coordinate(v, axis);
         if (!std::isfinite(x)) {
             return rejected("vertex " + std::to_string(v) + " is not finite", v);
         }
@@ -84,7 +132,7 @@ Result<Done> check_elements(const MeshView& mesh) {
     if (all_elements_fit(mesh)) {
         return Done{}; // In memory order: several times as fast as face by face.
     }
-    const std::uint64_t vertices = mesh.positions.size() / mesh.dimension;
+    const std::uint64_t vertices = mesh.vertex_count();
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const std::uint32_t v = mesh.triangles[i];
         if (v >= vertices) {
@@ -95,11 +143,6 @@ Result<Done> check_elements(const MeshView& mesh) {
         }
     }
     return Done{};
-}
-
-/// Whether the face names three vertices.
-bool takes_part(std::span<const std::uint32_t> face) {
-    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
 }
 
 Result<Done> check_face(std::size_t face, std::span<const double> lengths) {
@@ -124,6 +167,16 @@ Result<Done> check_face(std::size_t face, std::span<const double> lengths) {
 
 } // namespace
 
+Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices) {
+    if (faces == 0) {
+        return rejected("the mesh has no faces");
+    }
+    if (faces > kMaxFaces || vertices >= (std::uint64_t{1} << 31)) {
+        return rejected("the mesh is too large: at most 357,913,941 faces can be indexed");
+    }
+    return Done{};
+}
+
 Result<Done> check_mesh(const MeshView& mesh) {
     if (auto shape = check_shape(mesh); !shape) {
         return shape;
@@ -133,15 +186,17 @@ Result<Done> check_mesh(const MeshView& mesh) {
 
 Result<Done> check_mesh(const LengthMeshView& mesh) {
     if (mesh.triangles.size() % 3 != 0 || mesh.lengths.size() != mesh.triangles.size()) {
-        return Error{Status::invalid_argument,
-                     "triangles must hold whole faces and lengths three per face"};
+        return invalid("triangles must hold whole faces and lengths three per face");
+    }
+    if (auto layout = check_layout(mesh.triangles); !layout) {
+        return layout;
     }
     const std::size_t faces = mesh.triangles.size() / 3;
     if (auto counts = check_counts(faces, mesh.vertex_count); !counts) {
         return counts;
     }
     for (std::size_t f = 0; f < faces; ++f) {
-        const auto face = mesh.triangles.subspan(3 * f, 3);
+        const auto face = mesh.triangles.face(f);
         for (const std::uint32_t v : face) {
             if (v >= mesh.vertex_count) {
                 return index_rejected(3 * f, v, mesh.vertex_count);
@@ -171,6 +226,17 @@ Result<Done> check_agreement(std::span<const HalfEdge> half_edges) {
                                 exact_text(half_edges[high].length),
                             low / 3);
         }
+    }
+    return Done{};
+}
+
+bool has_area(double area, double extent) {
+    return area > 1e-13 * extent * extent && extent >= kSmallestExtent;
+}
+
+Result<Done> check_threads(const ThreadOptions& threads) {
+    if (threads.most_threads == 0) {
+        return invalid("most_threads must be at least 1");
     }
     return Done{};
 }

@@ -19,4 +19,12 @@ Result<Done> check_mesh(const LengthMeshView& mesh);
 /// Whether the faces of each edge agree about its length, once they are linked.
 Result<Done> check_agreement(std::span<const HalfEdge> half_edges);
 
+/// Whether the area of all faces is more than rounding for a mesh of this extent.
+bool has_area(double area, double extent);
+
+Result<Done> check_threads(const ThreadOptions& threads);
+
+/// Whether a mesh of so many faces and vertices can be indexed and has any face.
+Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices);
+
 } // namespace geodisk

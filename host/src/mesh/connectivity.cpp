@@ -7,10 +7,6 @@
 namespace geodisk {
 namespace {
 
-bool takes_part(std::span<const std::uint32_t> face) {
-    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
-}
-
 /// An edge at the vertex in question, to be sorted by its other vertex and then by half-edge, so
 /// that cycles do not depend on the sort used.
 std::uint64_t make_entry(std::uint32_t other, std::uint32_t half_edge) {
@@ -25,12 +21,12 @@ std::uint32_t half_edge_of(std::uint64_t entry) {
 
 } // namespace
 
-void list_corners(std::span<const std::uint32_t> triangles, std::span<VertexFan> fans,
+void list_corners(IndexView triangles, std::span<VertexFan> fans,
                   std::vector<std::uint32_t>& corners) {
     // ends[v] counts the corners of v, becomes where they start, and ends as where they end.
     std::vector<std::uint32_t> ends(fans.size(), 0);
     for (std::size_t h = 0; h < triangles.size(); h += 3) {
-        const auto face = triangles.subspan(h, 3);
+        const auto face = triangles.face(h / 3);
         if (takes_part(face)) {
             ++ends[face[0]];
             ++ends[face[1]];
@@ -45,7 +41,7 @@ void list_corners(std::span<const std::uint32_t> triangles, std::span<VertexFan>
     }
     corners.resize(total);
     for (std::size_t h = 0; h < triangles.size(); h += 3) {
-        const auto face = triangles.subspan(h, 3);
+        const auto face = triangles.face(h / 3);
         if (takes_part(face)) {
             corners[ends[face[0]]++] = static_cast<std::uint32_t>(h);
             corners[ends[face[1]]++] = static_cast<std::uint32_t>(h + 1);
@@ -82,7 +78,9 @@ void EdgeLinker::link_at(std::uint32_t v, std::span<const std::uint32_t> corners
             ++end;
         }
         link_cycle(entries.subspan(begin, end - begin));
-        boundary_edges_ += end - begin == 1;
+        if (end - begin == 1) {
+            borders_.push_back(half_edge_of(entries[begin]));
+        }
         nonmanifold_edges_ += end - begin > 2;
         join(v, other);
         begin = end;
@@ -116,7 +114,7 @@ void EdgeLinker::join(std::uint32_t a, std::uint32_t b) {
 
 void EdgeLinker::count(MeshStatistics& statistics) const {
     statistics.components = vertices_ - joins_;
-    statistics.boundary_edges = boundary_edges_;
+    statistics.boundary_edges = borders_.size();
     statistics.nonmanifold_edges = nonmanifold_edges_;
 }
 

@@ -2,13 +2,20 @@
 // can join.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geodisk/mesh.hpp"
 
 namespace geodisk {
+
+/// Whether a face names three vertices. One that does not is kept, but takes no part.
+constexpr bool takes_part(const std::array<std::uint32_t, 3>& face) {
+    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+}
 
 /// A half-edge while the mesh is being connected. Connecting reads and writes in the order of the
 /// vertices, which may be any, so this is kept apart from the large HalfEdge.
@@ -23,10 +30,10 @@ constexpr std::uint32_t lone_half_edge(std::uint32_t h) {
     return h << 1 | 1u;
 }
 
-/// Lists the corners of the faces that take part (name three different vertices) by vertex, each
+/// Lists the corners of the faces that take part by vertex, each
 /// named by the half-edge that starts at it: fills `corners`, in ascending order for each vertex,
 /// and `first_corner` and `corner_count` of `fans`, one fan per vertex.
-void list_corners(std::span<const std::uint32_t> triangles, std::span<VertexFan> fans,
+void list_corners(IndexView triangles, std::span<VertexFan> fans,
                   std::vector<std::uint32_t>& corners);
 
 /// Joins the half-edges of one undirected edge into cycles (`Link::around`), vertex by vertex, and
@@ -44,6 +51,9 @@ class EdgeLinker {
     /// Fills in what all calls have counted.
     void count(MeshStatistics& statistics) const;
 
+    /// The half-edges that are the only ones of their edges.
+    std::vector<std::uint32_t> take_borders() { return std::move(borders_); }
+
   private:
     void link_cycle(std::span<const std::uint64_t> cycle);
     std::uint32_t find_root(std::uint32_t v);
@@ -51,8 +61,9 @@ class EdgeLinker {
 
     std::span<Link> links_;
     std::vector<std::uint32_t> parents_; ///< A forest with one tree per component.
+    std::vector<std::uint32_t> borders_;
     std::vector<std::uint64_t> entries_; ///< Of link_at(), kept for its memory.
-    std::uint64_t vertices_ = 0, joins_ = 0, boundary_edges_ = 0, nonmanifold_edges_ = 0;
+    std::uint64_t vertices_ = 0, joins_ = 0, nonmanifold_edges_ = 0;
 };
 
 } // namespace geodisk

@@ -14,21 +14,39 @@
 namespace geodisk {
 namespace {
 
+using Face = std::array<std::uint32_t, 3>;
+
 /// Zero beyond the mesh's dimension, which adds nothing to any sum.
 template <std::size_t kAxes>
 using Vertex = std::array<double, kAxes>;
 
-template <std::size_t kAxes>
-Vertex<kAxes> load(const MeshView& mesh, std::uint32_t v) {
-    Vertex<kAxes> vertex{};
-    const double* const from = mesh.positions.data() + std::size_t{v} * mesh.dimension;
-    if (mesh.dimension == kAxes) {
-        std::copy_n(from, kAxes, vertex.begin()); // A known number of axes takes no loop.
-    } else {
-        std::copy_n(from, mesh.dimension, vertex.begin());
+/// The vertices of a view, whose coordinates are of this type.
+template <class Coordinate>
+class Vertices {
+  public:
+    explicit Vertices(const MeshView& mesh)
+        : first_(static_cast<const std::byte*>(mesh.positions.data())),
+          stride_(mesh.positions.stride(mesh.dimension)), dimension_(mesh.dimension) {}
+
+    const Coordinate* operator[](std::uint32_t v) const {
+        return reinterpret_cast<const Coordinate*>(first_ + v * stride_);
     }
-    return vertex;
-}
+    template <std::size_t kAxes>
+    Vertex<kAxes> load(std::uint32_t v) const {
+        Vertex<kAxes> vertex{};
+        if (dimension_ == kAxes) {
+            std::copy_n((*this)[v], kAxes, vertex.begin()); // A known number takes no loop.
+        } else {
+            std::copy_n((*this)[v], dimension_, vertex.begin());
+        }
+        return vertex;
+    }
+
+  private:
+    const std::byte* first_;
+    std::size_t stride_;
+    std::uint32_t dimension_;
+};
 
 template <std::size_t kAxes>
 double distance(const Vertex<kAxes>& a, const Vertex<kAxes>& b) {
@@ -65,17 +83,8 @@ void place_apex(const Vertex<kAxes>& a, const Vertex<kAxes>& b, const Vertex<kAx
     edge.apex_y = std::sqrt(height2);
 }
 
-void place_angle(HalfEdge& edge) {
-    // Not std::hypot: its last bit differs between C libraries.
-    const double left = std::sqrt(edge.apex_x * edge.apex_x + edge.apex_y * edge.apex_y);
-    edge.cosine = left > 0 ? edge.apex_x / left : 1;
-    edge.sine = left > 0 ? edge.apex_y / left : 0;
-}
-
 template <std::size_t kAxes>
-void place_face(const MeshView& mesh, std::span<const std::uint32_t> face, HalfEdge (&edges)[3]) {
-    const Vertex<kAxes> corners[3] = {load<kAxes>(mesh, face[0]), load<kAxes>(mesh, face[1]),
-                                      load<kAxes>(mesh, face[2])};
+void place_face(const Vertex<kAxes> (&corners)[3], HalfEdge (&edges)[3]) {
     for (std::uint32_t k = 0; k < 3; ++k) {
         const Vertex<kAxes>& a = corners[k];
         const Vertex<kAxes>& b = corners[(k + 1) % 3];
@@ -85,37 +94,28 @@ void place_face(const MeshView& mesh, std::span<const std::uint32_t> face, HalfE
     }
 }
 
-bool repeats_vertex(std::span<const std::uint32_t> face) {
-    return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
-}
-
-/// Fills in all faces, their edges by `place(f, edges)`, block by block.
+/// Fills in all faces, their edges by `place(f, face, edges)`, block by block.
 template <typename Place>
-void place_all(std::span<const std::uint32_t> triangles, UninitializedVector<HalfEdge>& half_edges,
-               UninitializedVector<Link>& links, MeshStatistics& statistics, const Place& place) {
+void place_all(const ThreadOptions& threads, const IndexView& triangles,
+               UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+               MeshStatistics& statistics, const Place& place) {
     const std::size_t faces = triangles.size() / 3;
     half_edges.resize(triangles.size());
     links.resize(triangles.size());
     UninitializedVector<double> areas(faces);
     std::vector<MeshStatistics> blocks(block_count(faces));
-    for_blocks(faces, [&](std::size_t begin, std::size_t end) {
-        MeshStatistics& block = blocks[begin / kBlock];
+    for_blocks(threads, faces, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
-            const auto face = triangles.subspan(3 * f, 3);
+            const auto face = triangles.face(f);
             HalfEdge edges[3]{};
             std::uint32_t angles[3]{};
-            areas[f] = 0;
-            if (repeats_vertex(face)) {
-                ++block.repeated_index_faces;
-            } else {
-                place(f, edges);
-                areas[f] = 0.5 * edges[0].length * edges[0].apex_y;
-                block.zero_area_faces += areas[f] == 0;
+            if (takes_part(face)) {
+                place(f, face, edges);
                 for (std::uint32_t k = 0; k < 3; ++k) {
-                    block.longest_edge = std::max(block.longest_edge, edges[k].length);
                     angles[k] = pack_corner_angle(edges[k], edges[previous_in_face(k)]);
                 }
             }
+            areas[f] = add_face(takes_part(face), edges, blocks[begin / kBlock]);
             const auto first = static_cast<std::uint32_t>(3 * f);
             for (std::uint32_t k = 0; k < 3; ++k) {
                 edges[k].origin = face[k];
@@ -124,29 +124,37 @@ void place_all(std::span<const std::uint32_t> triangles, UninitializedVector<Hal
             std::copy_n(edges, 3, half_edges.begin() + first);
         }
     });
-    statistics.triangles = faces;
-    for (const MeshStatistics& block : blocks) {
-        statistics.repeated_index_faces += block.repeated_index_faces;
-        statistics.zero_area_faces += block.zero_area_faces;
-        statistics.longest_edge = std::max(statistics.longest_edge, block.longest_edge);
-    }
-    statistics.area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    sum_up(areas, blocks, statistics);
+}
+
+template <std::size_t kAxes, class Coordinate>
+void place_vertices(const ThreadOptions& threads, const MeshView& mesh,
+                    UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                    MeshStatistics& statistics) {
+    const std::size_t faces = mesh.face_count();
+    const Vertices<Coordinate> vertices(mesh);
+    constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
+    place_all(threads, mesh.triangles, half_edges, links, statistics,
+              [&](std::size_t f, const Face& face, HalfEdge(&edges)[3]) {
+                  if (f + kAhead < faces) {
+                      for (const std::uint32_t v : mesh.triangles.face(f + kAhead)) {
+                          prefetch(vertices[v]);
+                      }
+                  }
+                  const Vertex<kAxes> corners[3] = {vertices.template load<kAxes>(face[0]),
+                                                    vertices.template load<kAxes>(face[1]),
+                                                    vertices.template load<kAxes>(face[2])};
+                  place_face(corners, edges);
+              });
 }
 
 template <std::size_t kAxes>
-void place_vertices(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                    UninitializedVector<Link>& links, MeshStatistics& statistics) {
-    const std::size_t faces = mesh.triangles.size() / 3;
-    constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
-    place_all(mesh.triangles, half_edges, links, statistics,
-              [&](std::size_t f, HalfEdge(&edges)[3]) {
-                  if (f + kAhead < faces) {
-                      for (const std::uint32_t v : mesh.triangles.subspan(3 * (f + kAhead), 3)) {
-                          prefetch(&mesh.positions[std::size_t{v} * mesh.dimension]);
-                      }
-                  }
-                  place_face<kAxes>(mesh, mesh.triangles.subspan(3 * f, 3), edges);
-              });
+void place_coordinates(const ThreadOptions& threads, const MeshView& mesh,
+                       UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                       MeshStatistics& statistics) {
+    mesh.positions.is_float()
+        ? place_vertices<kAxes, float>(threads, mesh, half_edges, links, statistics)
+        : place_vertices<kAxes, double>(threads, mesh, half_edges, links, statistics);
 }
 
 /// Twice the area of a triangle with these sides, 0 where they only just reach each other or, by
@@ -183,16 +191,49 @@ void place_apex(double next, double previous, double twice_area, HalfEdge& edge)
 
 } // namespace
 
-void place_faces(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics) {
-    mesh.dimension <= 3 ? place_vertices<3>(mesh, half_edges, links, statistics)
-                        : place_vertices<8>(mesh, half_edges, links, statistics);
+void place_angle(HalfEdge& edge) {
+    // Not std::hypot: its last bit differs between C libraries.
+    const double left = std::sqrt(edge.apex_x * edge.apex_x + edge.apex_y * edge.apex_y);
+    edge.cosine = left > 0 ? edge.apex_x / left : 1;
+    edge.sine = left > 0 ? edge.apex_y / left : 0;
 }
 
-void place_faces(const LengthMeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics) {
-    place_all(mesh.triangles, half_edges, links, statistics,
-              [&](std::size_t f, HalfEdge(&edges)[3]) {
+double add_face(bool takes_part, const HalfEdge (&edges)[3], MeshStatistics& block) {
+    if (!takes_part) {
+        ++block.repeated_index_faces;
+        return 0;
+    }
+    for (const HalfEdge& edge : edges) {
+        block.longest_edge = std::max(block.longest_edge, edge.length);
+    }
+    const double area = 0.5 * edges[0].length * edges[0].apex_y;
+    block.zero_area_faces += area == 0;
+    return area;
+}
+
+void sum_up(std::span<const double> areas, std::span<const MeshStatistics> blocks,
+            MeshStatistics& statistics) {
+    statistics.triangles = areas.size();
+    for (const MeshStatistics& block : blocks) {
+        statistics.repeated_index_faces += block.repeated_index_faces;
+        statistics.zero_area_faces += block.zero_area_faces;
+        statistics.longest_edge = std::max(statistics.longest_edge, block.longest_edge);
+    }
+    statistics.area = std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+void place_faces(const ThreadOptions& threads, const MeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics) {
+    mesh.dimension <= 3 ? place_coordinates<3>(threads, mesh, half_edges, links, statistics)
+                        : place_coordinates<8>(threads, mesh, half_edges, links, statistics);
+}
+
+void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics) {
+    place_all(threads, mesh.triangles, half_edges, links, statistics,
+              [&](std::size_t f, const Face&, HalfEdge(&edges)[3]) {
                   const auto lengths = mesh.lengths.subspan(3 * f, 3);
                   const double twice_area = double_area(lengths[0], lengths[1], lengths[2]);
                   for (std::uint32_t k = 0; k < 3; ++k) {

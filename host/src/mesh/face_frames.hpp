@@ -2,6 +2,8 @@
 // from the lengths of edges.
 #pragma once
 
+#include <span>
+
 #include "geodisk/mesh.hpp"
 #include "geodisk/uninitialized.hpp"
 #include "mesh/connectivity.hpp"
@@ -14,9 +16,22 @@ namespace geodisk {
 ///
 /// A face that names a vertex twice gets neither lengths nor area: its sides must neither widen the
 /// tolerances nor take cells. The mesh must have passed check_mesh().
-void place_faces(const MeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics);
-void place_faces(const LengthMeshView& mesh, UninitializedVector<HalfEdge>& half_edges,
-                 UninitializedVector<Link>& links, MeshStatistics& statistics);
+void place_faces(const ThreadOptions& threads, const MeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics);
+void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
+                 UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
+                 MeshStatistics& statistics);
+
+/// Fills in the angle of a half-edge's frame, of which it has the rest.
+void place_angle(HalfEdge& edge);
+
+/// Adds a face to the statistics of its block of faces. Returns its area.
+double add_face(bool takes_part, const HalfEdge (&edges)[3], MeshStatistics& block);
+
+/// Adds up what add_face() said of all faces; areas in their order, so that the sum is always the
+/// same.
+void sum_up(std::span<const double> areas, std::span<const MeshStatistics> blocks,
+            MeshStatistics& statistics);
 
 } // namespace geodisk

@@ -4,27 +4,27 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <new>
 #include <vector>
 
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/face_frames.hpp"
+#include "mesh/seams.hpp"
 #include "mesh/vertex_fans.hpp"
 #include "support/blocks.hpp"
+#include "support/guard.hpp"
 #include "support/prefetch.hpp"
 
 namespace geodisk {
 namespace {
 
-// Below it squared lengths could leave the range of double.
-constexpr double kSmallestExtent = 1e-100;
-
 /// Fills what a face alone does not determine: `around` and `fan_angles` of the half-edges, the
-/// fans and the lists of corners.
-void connect(std::span<const std::uint32_t> triangles, std::span<Link> links,
-             std::span<HalfEdge> half_edges, std::vector<VertexFan>& fans,
-             std::vector<std::uint32_t>& corners, MeshStatistics& statistics) {
+/// fans and the lists of corners. Returns the half-edges on borders.
+std::vector<std::uint32_t> connect(const ThreadOptions& threads, IndexView triangles,
+                                   std::span<Link> links, std::span<HalfEdge> half_edges,
+                                   std::vector<VertexFan>& fans,
+                                   std::vector<std::uint32_t>& corners,
+                                   MeshStatistics& statistics) {
     list_corners(triangles, fans, corners);
     EdgeLinker linker(links, static_cast<std::uint32_t>(fans.size()));
     FanBuilder builder(links);
@@ -45,12 +45,13 @@ void connect(std::span<const std::uint32_t> triangles, std::span<Link> links,
         }
     }
     linker.count(statistics);
-    for_blocks(half_edges.size(), [&](std::size_t begin, std::size_t end) {
+    for_blocks(threads, half_edges.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = begin; h < end; ++h) {
             half_edges[h].around = links[h].around;
             half_edges[h].fan_angles = links[h].angle;
         }
     });
+    return linker.take_borders();
 }
 
 /// The length that areas are measured against: of coordinates, the diagonal of their box.
@@ -62,10 +63,10 @@ Result<double> measure_extent(const MeshView& mesh, std::span<const HalfEdge>,
     high.fill(-HUGE_VAL);
     for (std::uint32_t v = 0; v < fans.size(); ++v) {
         if (fans[v].corner_count > 0) {
-            const double* const vertex = mesh.positions.data() + std::size_t{v} * mesh.dimension;
             for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
-                low[axis] = std::min(low[axis], vertex[axis]);
-                high[axis] = std::max(high[axis], vertex[axis]);
+                const double x = mesh.coordinate(v, axis);
+                low[axis] = std::min(low[axis], x);
+                high[axis] = std::max(high[axis], x);
             }
         }
     }
@@ -86,27 +87,22 @@ Result<double> measure_extent(const LengthMeshView&, std::span<const HalfEdge> h
     return statistics.longest_edge;
 }
 
+std::uint64_t seams_of(const MeshView& mesh, std::span<const HalfEdge> half_edges,
+                       std::span<const std::uint32_t> borders) {
+    return count_coinciding(mesh, half_edges, borders);
+}
+
+std::uint64_t seams_of(const LengthMeshView&, std::span<const HalfEdge>,
+                       std::span<const std::uint32_t>) {
+    return 0; // Nothing tells where they lie.
+}
+
 std::size_t vertices_of(const MeshView& mesh) {
-    return mesh.positions.size() / mesh.dimension;
+    return mesh.vertex_count();
 }
 
 std::size_t vertices_of(const LengthMeshView& mesh) {
     return mesh.vertex_count;
-}
-
-/// Whether the area of all faces is more than rounding for a mesh of this extent.
-bool has_area(double area, double extent) {
-    return area > 1e-13 * extent * extent && extent >= kSmallestExtent;
-}
-
-Error current_failure() {
-    try {
-        throw;
-    } catch (const std::bad_alloc&) {
-        return {Status::out_of_host_memory, "not enough memory to prepare the mesh"};
-    } catch (...) {
-        return {Status::internal, "unexpected failure while preparing the mesh"};
-    }
 }
 
 } // namespace
@@ -117,16 +113,21 @@ std::uint64_t PreparedMesh::next_identity() noexcept {
 }
 
 template <class View>
-Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh) {
+Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh, const ThreadOptions& threads) {
+    if (auto checked = check_threads(threads); !checked) {
+        return checked.error();
+    }
     if (auto checked = check_mesh(mesh); !checked) {
         return checked.error();
     }
     PreparedMesh result;
     MeshStatistics& statistics = result.statistics_;
     UninitializedVector<Link> links;
-    place_faces(mesh, result.half_edges_, links, statistics);
+    place_faces(threads, mesh, result.half_edges_, links, statistics);
     result.fans_.resize(vertices_of(mesh));
-    connect(mesh.triangles, links, result.half_edges_, result.fans_, result.corners_, statistics);
+    const auto borders = connect(threads, mesh.triangles, links, result.half_edges_, result.fans_,
+                                 result.corners_, statistics);
+    statistics.coinciding_border_edges = seams_of(mesh, result.half_edges_, borders);
     const auto extent = measure_extent(mesh, result.half_edges_, result.fans_, statistics);
     if (!extent) {
         return extent.error();
@@ -137,16 +138,14 @@ Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh) {
     return result;
 }
 
-Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh) noexcept try {
-    return prepare_any(mesh);
-} catch (...) {
-    return current_failure();
+Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh,
+                                           const ThreadOptions& threads) noexcept {
+    return guarded([&] { return prepare_any(mesh, threads); });
 }
 
-Result<PreparedMesh> PreparedMesh::prepare(const LengthMeshView& mesh) noexcept try {
-    return prepare_any(mesh);
-} catch (...) {
-    return current_failure();
+Result<PreparedMesh> PreparedMesh::prepare(const LengthMeshView& mesh,
+                                           const ThreadOptions& threads) noexcept {
+    return guarded([&] { return prepare_any(mesh, threads); });
 }
 
 } // namespace geodisk

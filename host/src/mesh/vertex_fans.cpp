@@ -12,10 +12,20 @@ namespace {
 
 /// Corners are summed in units of 2^-20 radian, so that the last bit of the platform's atan2 never
 /// shows, and stored in units of 2^-13.
-constexpr std::uint64_t kFinePerUnit = 1u << 7;
+constexpr std::uint32_t kFinePerUnit = 1u << 7;
 
 /// The bit of a packed angle that tells of a short side; angles take 22 bits.
 constexpr std::uint32_t kShortSide = 1u << 31;
+
+constexpr std::uint32_t kIrregularFlags = gpu::kFanIrregular | gpu::kFanBends;
+
+/// Of a fan in rotational order.
+std::uint32_t regular_flags(bool open, std::uint32_t total_angle) {
+    // A shortest path makes at least pi on either side of a vertex it passes.
+    const std::uint32_t needed = open ? gpu::kAnglePi : 2 * gpu::kAnglePi;
+    return (open ? gpu::kFanOpen : 0u) |
+           (total_angle + gpu::kAngleTolerance >= needed ? gpu::kFanBends : 0u);
+}
 
 /// Whether the corner has a side of next to no length beside the other. Such a side joins two
 /// vertices into one place, whose angle is that of both together: neither fan alone tells whether
@@ -121,14 +131,43 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
         ordered = ordered && !too_wide && (packed & kShortSide) == 0;
     }
     if (!ordered) {
-        fan.flags = gpu::kFanIrregular | gpu::kFanBends;
+        fan.flags = kIrregularFlags;
         return;
     }
     fan.total_angle = static_cast<std::uint32_t>((fine + kFinePerUnit - 1) / kFinePerUnit);
-    // A shortest path makes at least pi on either side of a vertex it passes.
-    const std::uint32_t needed = open ? gpu::kAnglePi : 2 * gpu::kAnglePi;
-    fan.flags = (open ? gpu::kFanOpen : 0u) |
-                (fan.total_angle + gpu::kAngleTolerance >= needed ? gpu::kFanBends : 0u);
+    fan.flags = regular_flags(open, fan.total_angle);
+}
+
+bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed) {
+    const std::uint32_t fine = packed & ~kShortSide;
+    const std::uint32_t size = (fan_angles >> 16) * kFinePerUnit;
+    // The start is rounded down and the end up.
+    return (packed & kShortSide) == 0 && size + 1 >= fine && size <= fine + 2 * kFinePerUnit;
+}
+
+bool FanBuilder::fits(std::uint32_t v, const VertexFan& fan,
+                      std::span<const std::uint32_t> corners) {
+    if (corners.empty()) {
+        return fan.flags == 0 && fan.total_angle == 0;
+    }
+    if (fan.flags == kIrregularFlags) {
+        return fan.total_angle == 0;
+    }
+    bool open = false;
+    copy_.assign(corners.begin(), corners.end());
+    if (!order_corners(v, copy_, open) || !std::ranges::equal(copy_, corners) ||
+        fan.flags != regular_flags(open, fan.total_angle)) {
+        return false;
+    }
+    std::uint32_t end = 0;
+    for (const std::uint32_t corner : corners) {
+        const std::uint32_t start = links_[corner].angle & 0xffffu;
+        if (start != end && start + 1 != end) { // Starts are rounded down and ends up.
+            return false;
+        }
+        end = start + (links_[corner].angle >> 16);
+    }
+    return end == fan.total_angle && end <= gpu::kLargestFanAngle;
 }
 
 } // namespace geodisk

@@ -14,6 +14,10 @@ namespace geodisk {
 /// its angle, and whether one side has next to no length beside the other.
 std::uint32_t pack_corner_angle(const HalfEdge& from, const HalfEdge& to);
 
+/// Whether this may be HalfEdge::fan_angles of such a corner in a fan of rotational order, up to
+/// the last bit of the angle.
+bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed);
+
 /// Orders and measures fans one by one.
 class FanBuilder {
   public:
@@ -23,12 +27,17 @@ class FanBuilder {
     /// `HalfEdge::fan_angles` and fills the rest of the fan. All edges at v must be linked.
     void build(std::uint32_t v, std::span<std::uint32_t> corners, VertexFan& fan);
 
+    /// Whether the corners of v, whose angles fit, are in order, and these angles and the fan as
+    /// build() makes them. All edges at v must be linked.
+    bool fits(std::uint32_t v, const VertexFan& fan, std::span<const std::uint32_t> corners);
+
   private:
     /// False where no single walk around v covers the corners; these stay as they are then.
     bool order_corners(std::uint32_t v, std::span<std::uint32_t> corners, bool& open);
     void measure(std::span<const std::uint32_t> corners, bool ordered, bool open, VertexFan& fan);
 
     std::span<Link> links_;
+    std::vector<std::uint32_t> copy_; ///< Of fits(), kept for its memory.
     std::vector<std::uint32_t> walk_; ///< Of order_corners(), kept for its memory.
 };
 

@@ -8,40 +8,55 @@
 #include <thread>
 #include <vector>
 
+#include <geodisk/threads.hpp>
+
 namespace geodisk {
 
 /// Elements of a block: some milliseconds of work, beside which starting a thread is nothing.
 inline constexpr std::size_t kBlock = 32768;
-inline constexpr std::size_t kMostThreads = 16;
 
 constexpr std::size_t block_count(std::size_t count) {
     return (count + kBlock - 1) / kBlock;
 }
 
-/// Calls `work(begin, end)` once for each block of [0, count), on as many threads as the machine
-/// has, the calling one included, and returns when all is done. Which blocks there are does not
-/// depend on the threads, and where none can be started the calling one does it all. `work` must
-/// not throw.
+/// Calls `work(begin, end)` once for each block of [0, count), on as many threads as the options
+/// and the machine allow, the calling one included, and returns when all is done. Which blocks
+/// there are does not depend on the threads, and what no other thread does the calling one does.
+/// `work` must not throw.
 template <class Work>
-void for_blocks(std::size_t count, const Work& work) {
+void for_blocks(const ThreadOptions& options, std::size_t count, const Work& work) {
     const std::size_t blocks = block_count(count);
-    std::atomic<std::size_t> next{0};
-    const auto take_blocks = [&]() noexcept {
-        for (std::size_t block = next++; block < blocks; block = next++) {
+    std::vector<std::atomic_flag> taken(blocks);
+    auto take = [&](std::size_t block) noexcept {
+        if (block < blocks && !taken[block].test_and_set()) {
             work(block * kBlock, std::min((block + 1) * kBlock, count));
         }
     };
-    std::vector<std::jthread> threads;
-    const std::size_t most =
-        std::min({blocks, kMostThreads, std::size_t{std::thread::hardware_concurrency()}});
-    try {
-        while (threads.size() + 1 < most) {
-            threads.emplace_back(take_blocks);
+    const auto take_rest = [&]() noexcept {
+        for (std::size_t block = 0; block < blocks; ++block) {
+            take(block);
         }
-    } catch (const std::exception&) {
-        // Those that could be started do.
+    };
+    std::vector<std::jthread> threads;
+    if (options.parallel_for != nullptr && blocks > 1) {
+        options.parallel_for(
+            options.user, blocks,
+            [](void* context, std::size_t block) {
+                (*static_cast<decltype(take)*>(context))(block);
+            },
+            &take);
+    } else if (options.parallel_for == nullptr) {
+        const std::size_t most = std::min({blocks, std::size_t{options.most_threads},
+                                           std::size_t{std::thread::hardware_concurrency()}});
+        try {
+            while (threads.size() + 1 < most) {
+                threads.emplace_back(take_rest);
+            }
+        } catch (const std::exception&) {
+            // Those that could be started do.
+        }
     }
-    take_blocks();
+    take_rest();
 }
 
 } // namespace geodisk

@@ -17,6 +17,10 @@ std::string mesh_text(const MeshStatistics& mesh) {
     if (mesh.boundary_edges > 0) {
         text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
     }
+    if (mesh.coinciding_border_edges > 0) {
+        text += ", " + grouped(mesh.coinciding_border_edges) +
+                " of them in one place with others: weld the vertices to join the faces";
+    }
     return text + ", area " + rounded(mesh.area, 6);
 }
 
@@ -35,6 +39,7 @@ Json mesh_json(const SampleJob& job, const MeshStatistics& mesh) {
                  {"triangles", mesh.triangles},
                  {"components", mesh.components},
                  {"boundary_edges", mesh.boundary_edges},
+                 {"coinciding_border_edges", mesh.coinciding_border_edges},
                  {"nonmanifold_edges", mesh.nonmanifold_edges},
                  {"area", mesh.area},
                  {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});

@@ -1,0 +1,249 @@
+#include "geodisk/weld.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "mesh/checks.hpp"
+#include "mesh/connectivity.hpp"
+#include "mesh/position_table.hpp"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+/// Sets of vertices, each known by its lowest one.
+class VertexSets {
+  public:
+    explicit VertexSets(std::size_t count) : parents_(count) {
+        std::iota(parents_.begin(), parents_.end(), 0u);
+    }
+    std::uint32_t lowest(std::uint32_t v) {
+        while (parents_[v] != v) {
+            parents_[v] = parents_[parents_[v]];
+            v = parents_[v];
+        }
+        return v;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        const auto [low, high] = std::minmax({lowest(a), lowest(b)});
+        parents_[high] = low;
+    }
+
+  private:
+    std::vector<std::uint32_t> parents_;
+};
+
+using Cell = std::array<std::int64_t, 3>;
+
+/// Pairs of vertices within epsilon, by a grid of the first three coordinates. Cells are sorted, so
+/// that of those around a cell each row lies together.
+class NearPairs {
+  public:
+    /// `vertices` are in different places.
+    NearPairs(const MeshView& mesh, double epsilon, std::span<const std::uint32_t> vertices)
+        : mesh_(mesh), epsilon_(epsilon), axes_(std::min(mesh.dimension, 3u)) {
+        std::array<double, 3> low{};
+        for (std::uint32_t axis = 0; axis < axes_; ++axis) {
+            low[axis] = HUGE_VAL;
+            for (const std::uint32_t v : vertices) {
+                low[axis] = std::min(low[axis], mesh.coordinate(v, axis));
+            }
+        }
+        members_.reserve(vertices.size());
+        for (const std::uint32_t v : vertices) {
+            Member member{{}, v};
+            for (std::uint32_t axis = 0; axis < axes_; ++axis) {
+                const double x = (mesh.coordinate(v, axis) - low[axis]) / (kSide * epsilon);
+                fits_ = fits_ && x <= kMostCells;
+                member.cell[axis] = fits_ ? static_cast<std::int64_t>(x) : 0;
+            }
+            members_.push_back(member);
+        }
+        std::sort(members_.begin(), members_.end());
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+            if (i == 0 || members_[i].cell != members_[i - 1].cell) {
+                starts_.push_back(i);
+            }
+        }
+        starts_.push_back(members_.size());
+    }
+
+    /// False where rounding is too much for the grid.
+    bool fits() const { return fits_; }
+
+    void join(VertexSets& sets) const {
+        for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+            join_cell(cell, sets);
+        }
+        for (const auto& [x, y] : kRows) {
+            join_row(x, y, sets);
+        }
+    }
+
+  private:
+    struct Member {
+        Cell cell;
+        std::uint32_t vertex;
+        auto operator<=>(const Member&) const = default;
+    };
+
+    // In units of epsilon. Three coordinates of a cell are within it, with some room for rounding,
+    // and what is within it lies two cells away at most.
+    static constexpr double kSide = 0.55;
+    static constexpr std::int64_t kReach = 2;
+    static constexpr double kMostCells = 0x1p44;
+    /// The rows to one side of a cell, near ones first: most cells are joined by then.
+    static constexpr std::pair<int, int> kRows[] = {{0, 0}, {0, 1},  {1, 0},  {1, -1}, {1, 1},
+                                                    {0, 2}, {2, 0},  {1, -2}, {1, 2},  {2, -1},
+                                                    {2, 1}, {2, -2}, {2, 2}};
+
+    std::size_t cell_count() const { return starts_.size() - 1; }
+    const Cell& cell_at(std::size_t cell) const { return members_[starts_[cell]].cell; }
+    std::span<const Member> members_of(std::size_t cell) const {
+        return std::span(members_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
+    }
+
+    bool are_near(std::uint32_t a, std::uint32_t b) const {
+        double sum = 0;
+        for (std::uint32_t axis = 0; axis < mesh_.dimension; ++axis) {
+            const double d = (mesh_.coordinate(a, axis) - mesh_.coordinate(b, axis)) / epsilon_;
+            sum += d * d;
+        }
+        return sum <= 1;
+    }
+
+    void join_cell(std::size_t cell, VertexSets& sets) const {
+        const auto members = members_of(cell);
+        for (std::size_t i = 1; i < members.size(); ++i) {
+            // In three dimensions all of a cell are near each other.
+            const std::size_t most = cells_are_near() ? 1 : i;
+            for (std::size_t k = 0; k < most; ++k) {
+                join_near(members[k].vertex, members[i].vertex, sets);
+            }
+        }
+    }
+
+    /// Each cell with those of the row at this distance, or with those after it in its own.
+    void join_row(std::int64_t x, std::int64_t y, VertexSets& sets) const {
+        const bool is_own = x == 0 && y == 0;
+        std::size_t next = 0;
+        for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+            const Cell at = cell_at(cell);
+            const Cell first{at[0] + x, at[1] + y, is_own ? at[2] + 1 : at[2] - kReach};
+            const Cell last{first[0], first[1], at[2] + kReach};
+            while (next < cell_count() && cell_at(next) < first) {
+                ++next;
+            }
+            for (std::size_t other = next; other < cell_count() && cell_at(other) <= last;
+                 ++other) {
+                join_cells(cell, other, sets);
+            }
+        }
+    }
+
+    void join_cells(std::size_t a, std::size_t b, VertexSets& sets) const {
+        for (const Member& from : members_of(a)) {
+            for (const Member& to : members_of(b)) {
+                if (cells_are_near() && sets.lowest(from.vertex) == sets.lowest(to.vertex)) {
+                    return; // Joined are all of both then.
+                }
+                join_near(from.vertex, to.vertex, sets);
+            }
+        }
+    }
+
+    bool cells_are_near() const { return mesh_.dimension <= 3; }
+
+    void join_near(std::uint32_t a, std::uint32_t b, VertexSets& sets) const {
+        if (are_near(a, b)) {
+            sets.join(a, b);
+        }
+    }
+
+    const MeshView& mesh_;
+    double epsilon_;
+    std::uint32_t axes_;
+    bool fits_ = true;
+    std::vector<Member> members_;     ///< By cell.
+    std::vector<std::size_t> starts_; ///< Of each cell, and the end.
+};
+
+std::vector<std::uint32_t> used_vertices(const MeshView& mesh) {
+    std::vector<bool> used(mesh.vertex_count(), false);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        used[mesh.triangles[i]] = true;
+    }
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (used[v]) {
+            vertices.push_back(v);
+        }
+    }
+    return vertices;
+}
+
+/// Joins vertices in the same place and returns the lowest one of each place.
+std::vector<std::uint32_t> join_equal(const MeshView& mesh, VertexSets& sets) {
+    const std::vector<std::uint32_t> vertices = used_vertices(mesh);
+    PositionTable table(mesh, vertices.size());
+    std::vector<std::uint32_t> places;
+    for (const std::uint32_t v : vertices) {
+        const std::uint32_t first = table.first_at(v);
+        if (first == v) {
+            places.push_back(v);
+        } else {
+            sets.join(first, v);
+        }
+    }
+    return places;
+}
+
+WeldedMesh welded(const MeshView& mesh, VertexSets& sets) {
+    WeldedMesh result;
+    result.vertices.reserve(mesh.vertex_count());
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        result.vertices.push_back(sets.lowest(v));
+        result.merged_vertices += result.vertices[v] != v;
+    }
+    result.triangles.reserve(mesh.triangles.size());
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const auto before = mesh.triangles.face(f);
+        auto face = before;
+        for (std::uint32_t& v : face) {
+            v = result.vertices[v];
+            result.triangles.push_back(v);
+        }
+        result.degenerate_faces += takes_part(before) && !takes_part(face);
+    }
+    return result;
+}
+
+} // namespace
+
+Result<WeldedMesh> weld(const MeshView& mesh, double epsilon) noexcept {
+    return guarded([&]() -> Result<WeldedMesh> {
+        if (!(epsilon >= 0) || !std::isfinite(epsilon)) {
+            return Error{Status::invalid_argument, "epsilon must be finite and not negative"};
+        }
+        if (auto checked = check_mesh(mesh); !checked) {
+            return checked.error();
+        }
+        VertexSets sets(mesh.vertex_count());
+        const std::vector<std::uint32_t> places = join_equal(mesh, sets);
+        if (epsilon > 0) {
+            const NearPairs pairs(mesh, epsilon, places);
+            if (!pairs.fits()) {
+                return Error{Status::invalid_argument,
+                             "epsilon is too small beside the bounding box of the mesh"};
+            }
+            pairs.join(sets);
+        }
+        return welded(mesh, sets);
+    });
+}
+
+} // namespace geodisk

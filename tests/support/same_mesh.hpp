@@ -1,0 +1,11 @@
+// Whether two prepared meshes are the same to the bit.
+#pragma once
+
+#include "geodisk/mesh.hpp"
+
+namespace geodisk::test {
+
+/// Every field of every array, and the statistics.
+bool same_mesh(const PreparedMesh& a, const PreparedMesh& b);
+
+} // namespace geodisk::test
