@@ -13,11 +13,4 @@
 #define GEODISK_CONST const
 #endif
 
-GEODISK_BEGIN_SHARED
-
-// Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 10u;
-
-GEODISK_END_SHARED
-
 #endif

@@ -6,6 +6,9 @@
 
 GEODISK_BEGIN_SHARED
 
+// Raised with every change of a record, a push block or the meaning of a constant.
+GEODISK_CONST uint kAbi = 10u;
+
 // State of a candidate: the two low bits of its state word.
 GEODISK_CONST uint kIdle = 0u;
 GEODISK_CONST uint kActive = 1u;

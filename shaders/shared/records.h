@@ -5,6 +5,7 @@
 #define GEODISK_SHARED_RECORDS_H
 
 #include "constants.h"
+#include "samples.h"
 
 GEODISK_BEGIN_SHARED
 
@@ -34,15 +35,6 @@ struct PartRec {
     float radius; uint first_face; uint spare0; uint spare1;
 };
 
-// A sample where the caller draws it: its position, and its radius in the same units; the normal, of
-// length 1, or 0 of a face without one; its face, of its own surface; the weights of its second and
-// third corner; which of several surfaces it is on; its order in the job.
-struct PlacedRec {
-    float x; float y; float z; float radius;
-    float normal_x; float normal_y; float normal_z; uint face;
-    float weight1; float weight2; uint part; uint order;
-};
-
 struct FanRec {
     uint first_corner; uint corner_count; uint total_angle; uint flags;
 };
@@ -58,13 +50,6 @@ struct AxisRec {
     uint draw_width; // of a cell, in steps; 0 for all 2^32
     uint last_width; // of the last one
     uint per_step;   // cells of the grid for each step, in units of 2^-32
-};
-
-// An accepted candidate. The weights are multiples of 2^-24 and that of the first corner is exactly
-// one minus both. In boxes the words behind the order are the cell it was drawn in, its number there
-// and its stage.
-struct SampleRec {
-    uint order; uint face; float weight1; float weight2;
 };
 
 // One active candidate; or a sample of an earlier chunk, which has no place. Each has a sample's
@@ -169,10 +154,8 @@ static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, around) == 12);
 static_assert(sizeof(FaceLengthsRec) == 16 && offsetof(FaceLengthsRec, cells) == 12);
 static_assert(sizeof(RadiiRec) == 32 && offsetof(RadiiRec, density) == 28);
 static_assert(sizeof(PartRec) == 32 && offsetof(PartRec, spare1) == 28);
-static_assert(sizeof(PlacedRec) == 48 && offsetof(PlacedRec, order) == 44);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
-static_assert(sizeof(SampleRec) == 16 && offsetof(SampleRec, weight2) == 12);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 144 && offsetof(LaneRec, fan_flags) == 140);
 static_assert(sizeof(ControlRec) == 284 && offsetof(ControlRec, calls_high) == 280);

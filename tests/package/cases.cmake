@@ -82,6 +82,19 @@ elseif(CASE STREQUAL "add_subdirectory")
     build("${work}/add subdirectory")
     run_programs("${work}/add subdirectory")
 
+elseif(CASE STREQUAL "engine")
+    # As installed, since users take it from there.
+    configure("${installed}/share/doc/geodisk/examples/engine" "${work}/engine"
+        "-DCMAKE_PREFIX_PATH=${installed}")
+    build("${work}/engine")
+    set(ENV{ASAN_OPTIONS} "detect_leaks=0")
+    file(REMOVE "${work}/engine.png")
+    run("${work}/engine/engine" --validate "${work}/engine.png")
+    file(SIZE "${work}/engine.png" size)
+    if(size LESS 100000) # The torus alone takes less.
+        message(FATAL_ERROR "no samples are drawn in ${work}/engine.png")
+    endif()
+
 elseif(CASE STREQUAL "headers")
     configure("${package_tests}/headers" "${work}/headers" "-DCMAKE_PREFIX_PATH=${installed}")
     build("${work}/headers")
