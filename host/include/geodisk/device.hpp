@@ -35,6 +35,9 @@ struct DeviceRefs {
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     /// Whether VK_EXT_memory_budget is enabled: Runner then keeps to the memory that is free.
     bool memory_budget = false;
+    /// Whether VK_KHR_pipeline_executable_properties is enabled, with its feature: kernels are then
+    /// compiled so that Sampler::report_kernels can tell of them.
+    bool pipeline_statistics = false;
     /// Passed, if set, to each create and destroy call; must outlive the objects as well.
     const VkAllocationCallbacks* host_allocator = nullptr;
 };
