@@ -42,7 +42,7 @@ TEST_CASE("info --kernels tells what the driver does, or that it does not") {
     CHECK(!document.at("device").get<std::string>().empty());
     std::size_t detects = 0;
     for (const Json& kernel : document.at("kernels")) {
-        detects += kernel.at("kernel") == "detect" ? 1 : 0;
+        detects += kernel.at("kernel") == "detect" ? 1u : 0u;
         CHECK(kernel.at("statistics").is_object());
     }
     CHECK(detects >= 4); // One radius or varying ones, with a ring or a heap.
@@ -55,7 +55,7 @@ TEST_CASE("options of info --kernels are checked") {
     const TemporaryFolder folder;
     check_fails(folder, 2, "--device requires --kernels", {"info", "--device", "0"});
     check_fails(folder, 2, "--reads requires --kernels", {"info", "--reads", "texels"});
-    check_fails(folder, 2, "\"books\" is none of auto, storage and texels",
+    check_fails(folder, 2, "'books' is none of auto, storage and texels",
                 {"info", "--kernels", "--reads", "books"});
     check_fails(folder, 5, "abacus", {"info", "--kernels", "--device", "abacus"});
 }
