@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <geodisk/context.hpp>
+#include <geodisk/sampler.hpp>
 
 #include "fake_driver.hpp"
 #include "owned/context_access.hpp"
@@ -300,6 +301,32 @@ TEST_CASE("a context destroys what it created") {
     }
     CHECK(driver.live_instances() == 0);
     CHECK(driver.live_devices() == 0);
+}
+
+TEST_CASE("kernels are reported on where the driver can, else refused by name") {
+    ContextOptions options;
+    options.pipeline_statistics = true;
+    const Result<Context> context = Context::create(options);
+    if (!context) {
+        CHECK(context.error().status == Status::device_lacks);
+        CHECK(contains(context.error().message, "VK_KHR_pipeline_executable_properties"));
+        return;
+    }
+    const Result<Sampler> sampler = Sampler::create(context->device());
+    REQUIRE(sampler);
+    const auto reports = sampler->report_kernels();
+    REQUIRE(reports);
+    CHECK(reports->size() > 50);
+}
+
+TEST_CASE("kernels are not reported on unless statistics are on") {
+    const Context context = create_context();
+    const Result<Sampler> sampler = Sampler::create(context.device());
+    REQUIRE(sampler);
+    const auto reports = sampler->report_kernels();
+    REQUIRE_FALSE(reports);
+    CHECK(reports.error().status == Status::invalid_argument);
+    CHECK(contains(reports.error().message, "pipeline_statistics"));
 }
 
 TEST_CASE("the list of devices holds the one that a context takes") {

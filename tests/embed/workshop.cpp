@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 
 #include "gpu/device_run.hpp"
 #include "vk/barriers.hpp"

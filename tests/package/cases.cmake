@@ -31,6 +31,48 @@ function(build folder)
     run("${CMAKE_COMMAND}" --build "${folder}" --parallel 2 ${ARGN})
 endfunction()
 
+# Compiles both programs of find_package/ by what pkg-config says of an installation, with further
+# flags for it, and runs them. Its own folder is the only one it looks in.
+function(use_by_pkg_config package folder)
+    if(NOT pkg_config)
+        if("$ENV{CI}" STREQUAL "true")
+            message(FATAL_ERROR "pkg-config is not installed")
+        endif()
+        message("skipped: pkg-config is not installed")
+        return()
+    endif()
+    file(GLOB_RECURSE files "${package}/*/geodisk.pc")
+    list(LENGTH files count)
+    if(NOT count EQUAL 1)
+        message(FATAL_ERROR "not one geodisk.pc in ${package}, but ${count}")
+    endif()
+    cmake_path(GET files PARENT_PATH pc_folder)
+    cmake_path(GET pc_folder PARENT_PATH libraries)
+    set(ENV{PKG_CONFIG_LIBDIR} "${pc_folder}")
+    set(ENV{PKG_CONFIG_PATH} "")
+    execute_process(COMMAND "${pkg_config}" --cflags --libs ${ARGN} geodisk
+        OUTPUT_VARIABLE flags ERROR_VARIABLE error RESULT_VARIABLE status)
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "pkg-config: ${error}")
+    endif()
+    if(flags MATCHES "-lvulkan")
+        message(FATAL_ERROR "it links a Vulkan loader: ${flags}")
+    endif()
+    separate_arguments(flags UNIX_COMMAND "${flags}")
+    separate_arguments(compiler_flags UNIX_COMMAND "${cxx_flags} ${linker_flags}")
+    file(REMOVE_RECURSE "${folder}")
+    file(MAKE_DIRECTORY "${folder}")
+    foreach(program main:example check:check)
+        string(REGEX MATCH "^([a-z]+):([a-z]+)$" matched "${program}")
+        run("${cxx_compiler}" -std=c++20 -Wall -Wextra ${compiler_flags}
+            "${package_tests}/find_package/${CMAKE_MATCH_1}.cpp" -o "${folder}/${CMAKE_MATCH_2}"
+            ${flags})
+    endforeach()
+    set(ENV{LD_LIBRARY_PATH} "${libraries}:$ENV{LD_LIBRARY_PATH}")
+    set(ENV{DYLD_LIBRARY_PATH} "${libraries}:$ENV{DYLD_LIBRARY_PATH}")
+    run_programs("${folder}")
+endfunction()
+
 # Runs both programs of find_package/. What drivers write to stderr and leak is not ours.
 function(run_programs folder)
     set(ENV{ASAN_OPTIONS} "detect_leaks=0")
@@ -52,12 +94,26 @@ if(CASE STREQUAL "install")
     if(has_tools)
         run("${installed}/bin/geodisk" --version)
     endif()
+    file(GLOB documents RELATIVE "${source_root}" "${source_root}/*.md" "${source_root}/LICENSE"
+        "${source_root}/host/docs/*.md" "${source_root}/host/docs/*/*")
+    foreach(document IN LISTS documents)
+        if(NOT EXISTS "${installed}/${doc_folder}/${document}")
+            message(FATAL_ERROR "${document} is not installed")
+        endif()
+    endforeach()
 
 elseif(CASE STREQUAL "find_package")
     configure("${package_tests}/find_package" "${work}/find package"
         "-DCMAKE_PREFIX_PATH=${installed}")
     build("${work}/find package")
     run_programs("${work}/find package")
+
+elseif(CASE STREQUAL "pkg_config")
+    # Also after a move, which the file must follow.
+    use_by_pkg_config("${installed}" "${work}/pkg config")
+    file(REMOVE_RECURSE "${work}/moved package")
+    file(COPY "${installed}/" DESTINATION "${work}/moved package")
+    use_by_pkg_config("${work}/moved package" "${work}/moved pkg config" --static)
 
 elseif(CASE STREQUAL "shared")
     configure("${source_root}" "${work}/shared library"
@@ -74,6 +130,7 @@ elseif(CASE STREQUAL "shared")
         "-DCMAKE_PREFIX_PATH=${work}/shared package")
     build("${work}/shared user")
     run_programs("${work}/shared user")
+    use_by_pkg_config("${work}/shared package" "${work}/shared pkg config")
 
 elseif(CASE STREQUAL "add_subdirectory")
     configure("${package_tests}/add_subdirectory" "${work}/add subdirectory"

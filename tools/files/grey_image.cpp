@@ -42,7 +42,7 @@ bool is_cut_jpeg(const std::string& bytes) {
 
 } // namespace
 
-GreyImage::GreyImage(const std::filesystem::path& path) {
+GreyImage::GreyImage(const Path& path) {
     const std::string bytes = read_file(path);
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         fail_input(path, "is too large for an image");

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <vector>
+
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -11,7 +12,7 @@ class GreyImage {
   public:
     /// Reads a PNG or JPEG file. Colours become their luminance, transparency does
     /// not matter. Throws UserError(bad_input) naming the file and the cause.
-    explicit GreyImage(const std::filesystem::path& path);
+    explicit GreyImage(const Path& path);
 
     /// From 0 (black) to 1, bilinear between the centres of pixels. v = 0 is the lower edge; the
     /// image repeats in both directions. Both must be finite.

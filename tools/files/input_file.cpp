@@ -5,6 +5,7 @@
 #include <memory>
 #include <system_error>
 
+#include "files/open_file.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -14,13 +15,13 @@ struct FileCloser {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 
-[[noreturn]] void fail_with_errno(const std::filesystem::path& path, int error) {
+[[noreturn]] void fail_with_errno(const Path& path, int error) {
     fail_input(path, "cannot read: " + std::generic_category().message(error));
 }
 
 } // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const Path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::not_found) {
@@ -36,7 +37,7 @@ std::string read_file(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(status)) {
         fail_input(path, "is not a regular file");
     }
-    const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.string().c_str(), "rb"));
+    const std::unique_ptr<std::FILE, FileCloser> file(open_to_read(path));
     if (!file) {
         fail_with_errno(path, errno);
     }
@@ -53,7 +54,7 @@ std::string read_file(const std::filesystem::path& path) {
     return bytes;
 }
 
-std::string lower_extension(const std::filesystem::path& path) {
+std::string lower_extension(const Path& path) {
     std::string extension = path.extension().string();
     for (char& character : extension) {
         if (character >= 'A' && character <= 'Z') {

@@ -1,16 +1,17 @@
 // Reading a whole input file, with the errors a user can make.
 #pragma once
 
-#include <filesystem>
 #include <string>
+
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
 /// The bytes of the regular file `path`. Throws UserError(bad_input) when it is missing, a folder
 /// or unreadable.
-std::string read_file(const std::filesystem::path& path);
+std::string read_file(const Path& path);
 
 /// The extension of `path` in lower case with its dot (".obj"), or "".
-std::string lower_extension(const std::filesystem::path& path);
+std::string lower_extension(const Path& path);
 
 } // namespace geodisk::tools

@@ -20,8 +20,6 @@
 namespace geodisk::tools {
 namespace {
 
-using Path = std::filesystem::path;
-
 bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
     const auto coordinates =
         std::span(mesh.positions).subspan(vertex * mesh.dimension, mesh.dimension);

@@ -2,11 +2,11 @@
 // PLY files.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -38,6 +38,6 @@ MeshFile read_mesh(const std::string& path);
 /// x y z, and beyond three dimensions also x0 x1 ..., of which x y z repeat the first three so that
 /// viewers show them; element face with vertex_indices. The file appears complete or not at all.
 /// Throws UserError(usage) for another extension, UserError(bad_output) when it cannot be written.
-void write_mesh(const std::filesystem::path& path, const MeshFile& mesh);
+void write_mesh(const Path& path, const MeshFile& mesh);
 
 } // namespace geodisk::tools

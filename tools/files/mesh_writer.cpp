@@ -24,7 +24,7 @@ std::string header_of(const MeshFile& mesh, std::size_t vertices) {
 
 } // namespace
 
-void write_mesh(const std::filesystem::path& path, const MeshFile& mesh) {
+void write_mesh(const Path& path, const MeshFile& mesh) {
     if (lower_extension(path) != ".ply") {
         fail_usage(path.string() + ": meshes are written as .ply only");
     }

@@ -72,8 +72,7 @@ struct CheckedRecords {
     std::vector<std::uint32_t> face_lines;
 };
 
-[[noreturn]] void fail_line(const std::filesystem::path& path, std::uint32_t line,
-                            const std::string& message) {
+[[noreturn]] void fail_line(const Path& path, std::uint32_t line, const std::string& message) {
     fail_input(path, "line " + std::to_string(line) + ": " + message);
 }
 
@@ -149,8 +148,7 @@ std::string face_fault(const std::vector<std::string_view>& tokens) {
     return tokens.size() < 4 ? "a face needs at least 3 corners" : "";
 }
 
-CheckedRecords check_records(const std::filesystem::path& path, std::string_view bytes,
-                             bool has_uvs) {
+CheckedRecords check_records(const Path& path, std::string_view bytes, bool has_uvs) {
     CheckedRecords records;
     LineReader reader(bytes);
     std::string line;
@@ -184,7 +182,7 @@ CheckedRecords check_records(const std::filesystem::path& path, std::string_view
 
 /// Receives tinyobjloader's callbacks.
 struct MeshBuilder {
-    const std::filesystem::path& path;
+    const Path& path;
     PolygonMesh mesh;
     bool has_uvs = false;
     std::int64_t vertices_so_far = 0;
@@ -235,7 +233,7 @@ struct MeshBuilder {
 
 } // namespace
 
-PolygonMesh read_obj(const std::filesystem::path& path, bool has_uvs) {
+PolygonMesh read_obj(const Path& path, bool has_uvs) {
     const std::string bytes = read_file(path);
     if (bytes.empty()) {
         fail_input(path, "is empty");

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "files/open_file.hpp"
 #include "program/failure.hpp"
 
 #ifdef _WIN32
@@ -23,17 +24,13 @@ int sync_to_disk(std::FILE* file) {
 #endif
 }
 
-[[noreturn]] void fail_output(const std::filesystem::path& path, const std::string& reason) {
+[[noreturn]] void fail_output(const Path& path, const std::string& reason) {
     throw UserError(ExitCode::bad_output, path.string() + ": cannot write: " + reason);
-}
-
-std::FILE* create_new(const std::filesystem::path& path) {
-    return std::fopen(path.string().c_str(), "wbx"); // x: never through a file already there
 }
 
 } // namespace
 
-AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
+AtomicFile::AtomicFile(const Path& target) : target_(target) {
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(target, ignored);
     if (std::filesystem::is_directory(status)) {
@@ -115,19 +112,19 @@ void AtomicFile::discard() noexcept {
     }
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
+bool is_same_file(const Path& a, const Path& b) {
     std::error_code ignored;
     if (std::filesystem::equivalent(a, b, ignored)) {
         return true;
     }
     // Paths of files that do not exist yet stay relative unless made absolute first.
-    const auto canonical = [&](const std::string& path) {
+    const auto canonical = [&](const Path& path) {
         return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
     };
     return !canonical(a).empty() && canonical(a) == canonical(b);
 }
 
-void check_writable(const std::filesystem::path& path) {
+void check_writable(const Path& path) {
     const AtomicFile probe(path); // Creates and removes the temporary file.
 }
 

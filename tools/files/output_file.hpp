@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "program/path.hpp"
+
 namespace geodisk::tools {
 
 /// Writes to a temporary file beside `target` that commit() moves into its place. Without commit()
@@ -14,7 +16,7 @@ namespace geodisk::tools {
 class AtomicFile {
   public:
     /// Throws UserError(bad_output), like all members, with the path and the system's reason.
-    explicit AtomicFile(const std::filesystem::path& target);
+    explicit AtomicFile(const Path& target);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -38,9 +40,9 @@ class AtomicFile {
 };
 
 /// Whether both paths lead to the same file, also where neither exists yet.
-bool is_same_file(const std::string& a, const std::string& b);
+bool is_same_file(const Path& a, const Path& b);
 
 /// Throws UserError(bad_output) if no file can be made at `path`. Changes nothing there.
-void check_writable(const std::filesystem::path& path);
+void check_writable(const Path& path);
 
 } // namespace geodisk::tools

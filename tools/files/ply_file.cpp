@@ -69,7 +69,7 @@ std::optional<std::size_t> PlyElement::find_list(std::string_view wanted) const 
     return find_property(*this, wanted, true);
 }
 
-PlyFile::PlyFile(const std::filesystem::path& path) : path_(path), bytes_(read_file(path)) {
+PlyFile::PlyFile(const Path& path) : path_(path), bytes_(read_file(path)) {
     parse_header();
 }
 

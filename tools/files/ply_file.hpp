@@ -6,12 +6,13 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -45,7 +46,7 @@ class PlyFile {
 
     /// Reads `path` and parses its header. Like all members it throws UserError(bad_input) naming
     /// the file and the header line or the element and record (counting from 0).
-    explicit PlyFile(const std::filesystem::path& path);
+    explicit PlyFile(const Path& path);
 
     const std::vector<PlyElement>& elements() const noexcept { return elements_; }
     const std::vector<std::string>& comments() const noexcept { return comments_; }
@@ -77,7 +78,7 @@ class PlyFile {
 
     enum class Format { ascii, little_endian, big_endian };
 
-    std::filesystem::path path_;
+    Path path_;
     std::string bytes_;
     std::size_t position_ = 0; ///< The next byte to read.
     std::size_t line_ = 0;     ///< 1-based, of the header line being parsed.

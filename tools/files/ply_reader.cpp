@@ -15,8 +15,7 @@ namespace geodisk::tools {
 namespace {
 
 /// The properties x0, x1 and so on.
-std::vector<std::size_t> numbered_columns(const std::filesystem::path& path,
-                                          const PlyElement& element) {
+std::vector<std::size_t> numbered_columns(const Path& path, const PlyElement& element) {
     std::vector<std::size_t> columns;
     for (std::uint32_t i = 0; i <= kMostCoordinates; ++i) {
         const char name[] = {'x', static_cast<char>('0' + i), '\0'};
@@ -38,8 +37,8 @@ std::vector<std::size_t> numbered_columns(const std::filesystem::path& path,
 }
 
 /// Where the coordinates stand; nowhere if the element has none and need not.
-std::vector<std::size_t> coordinate_columns(const std::filesystem::path& path,
-                                            const PlyElement& element, bool must_exist) {
+std::vector<std::size_t> coordinate_columns(const Path& path, const PlyElement& element,
+                                            bool must_exist) {
     if (element.find_scalar("x0")) {
         return numbered_columns(path, element);
     }
@@ -58,8 +57,7 @@ std::vector<std::size_t> coordinate_columns(const std::filesystem::path& path,
     return columns;
 }
 
-std::size_t attribute_column(const std::filesystem::path& path, const PlyElement& element,
-                             const std::string& name) {
+std::size_t attribute_column(const Path& path, const PlyElement& element, const std::string& name) {
     const std::optional<std::size_t> column = element.find_scalar(name);
     if (!column) {
         fail_input(path, "element vertex has no " +
@@ -70,7 +68,7 @@ std::size_t attribute_column(const std::filesystem::path& path, const PlyElement
 }
 
 /// The two columns of texture coordinates.
-std::vector<std::size_t> uv_columns(const std::filesystem::path& path, const PlyElement& element) {
+std::vector<std::size_t> uv_columns(const Path& path, const PlyElement& element) {
     for (const auto& [u, v] :
          {std::pair{"s", "t"}, std::pair{"u", "v"}, std::pair{"texture_u", "texture_v"}}) {
         const std::optional<std::size_t> first = element.find_scalar(u);
@@ -83,7 +81,7 @@ std::vector<std::size_t> uv_columns(const std::filesystem::path& path, const Ply
                      "texture_v");
 }
 
-void read_vertices(const std::filesystem::path& path, PlyFile& file, const PlyElement& element,
+void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
                    const PlyWanted& wanted, PolygonMesh& mesh) {
     const std::vector<std::size_t> columns =
         coordinate_columns(path, element, wanted.has_coordinates);
@@ -109,8 +107,7 @@ void read_vertices(const std::filesystem::path& path, PlyFile& file, const PlyEl
     });
 }
 
-void read_faces(const std::filesystem::path& path, PlyFile& file, const PlyElement& element,
-                PolygonMesh& mesh) {
+void read_faces(const Path& path, PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
     std::optional<std::size_t> column = element.find_list("vertex_indices");
     if (!column) {
         column = element.find_list("vertex_index");
@@ -136,7 +133,7 @@ void read_faces(const std::filesystem::path& path, PlyFile& file, const PlyEleme
 
 } // namespace
 
-PolygonMesh read_ply(const std::filesystem::path& path, const PlyWanted& wanted) {
+PolygonMesh read_ply(const Path& path, const PlyWanted& wanted) {
     PlyFile file(path);
     PolygonMesh mesh;
     bool has_vertices = false;

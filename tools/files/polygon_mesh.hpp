@@ -4,11 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -35,7 +36,7 @@ struct PolygonMesh {
 /// Reads the `v`, `f` and, where asked for, `vt` records of an OBJ file; everything else in it is
 /// ignored. Understands every line end, line continuation, a byte order mark, relative
 /// indices and faces of any size. Throws UserError(bad_input) naming the line.
-PolygonMesh read_obj(const std::filesystem::path& path, bool has_uvs = false);
+PolygonMesh read_obj(const Path& path, bool has_uvs = false);
 
 /// What to read of element `vertex`.
 struct PlyWanted {
@@ -48,6 +49,6 @@ struct PlyWanted {
 /// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`,
 /// in any format, type and order; everything else is skipped. Throws UserError(bad_input) naming
 /// the element and record.
-PolygonMesh read_ply(const std::filesystem::path& path, const PlyWanted& wanted);
+PolygonMesh read_ply(const Path& path, const PlyWanted& wanted);
 
 } // namespace geodisk::tools

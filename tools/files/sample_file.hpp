@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -57,37 +58,36 @@ struct SampleFile {
 /// without coordinates, there are neither. XYZ takes 3 alone.
 /// Numbers in text are the shortest that read back exactly. The file appears complete or not at
 /// all. Throws UserError as check_output_path() and check_dimension() do.
-void write_samples(const std::filesystem::path& path, const SampleHeader& header,
-                   std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension = 3);
+void write_samples(const Path& path, const SampleHeader& header, std::span<const SampleRow> rows,
+                   bool ascii_ply, std::uint32_t dimension = 3);
 
 /// The same into `file`, which the caller opened for `path` and commits.
-void write_samples(AtomicFile& file, const std::filesystem::path& path, const SampleHeader& header,
+void write_samples(AtomicFile& file, const Path& path, const SampleHeader& header,
                    std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension = 3);
 
 /// The same for samples in a box of 1 to 6 dimensions: no normals, faces and weights; coordinates
 /// are double. PLY has x y z in any case and XYZ is such a line: 0 for what a box of fewer
 /// dimensions lacks; CSV has just the coordinates there are.
-void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
-                       const SampleHeader& header, std::span<const SampleRow> rows, bool ascii_ply,
-                       std::uint32_t dimension);
+void write_box_samples(AtomicFile& file, const Path& path, const SampleHeader& header,
+                       std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension);
 
 /// Fails before long work where write_samples() would fail after it: UserError(usage) for an
 /// unknown extension, UserError(bad_output) for a folder, a missing folder or no permission.
-void check_output_path(const std::filesystem::path& path);
+void check_output_path(const Path& path);
 
 /// UserError(usage) if the format cannot hold samples of so many coordinates.
-void check_dimension(const std::filesystem::path& path, std::uint32_t dimension);
+void check_dimension(const Path& path, std::uint32_t dimension);
 /// The same for samples in a box.
-void check_box_dimension(const std::filesystem::path& path, std::uint32_t dimension);
+void check_box_dimension(const Path& path, std::uint32_t dimension);
 
 /// Reads a sample file of either PLY format or CSV. Columns may come in any order and type;
 /// face_index bary_u bary_v bary_w must be there, and either x0 x1 ... or x y z or none of these;
 /// the others are 0 if absent, unknown ones are skipped. Throws UserError(bad_input) naming the
 /// file and the line or record.
-SampleFile read_samples(const std::filesystem::path& path);
+SampleFile read_samples(const Path& path);
 
 /// The same for samples in a box, which need have neither faces nor weights, and coordinates x0 x1
 /// ... or x, x y or x y z.
-SampleFile read_box_samples(const std::filesystem::path& path);
+SampleFile read_box_samples(const Path& path);
 
 } // namespace geodisk::tools

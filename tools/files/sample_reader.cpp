@@ -38,8 +38,7 @@ enum class Domain { surface, box };
 /// x0 x1 ... as far as they go; `place_of(name)` is where the column of that name stands, if the
 /// file has it.
 template <typename PlaceOf>
-void find_numbered(const std::filesystem::path& path, const PlaceOf& place_of,
-                   ColumnPlaces& places) {
+void find_numbered(const Path& path, const PlaceOf& place_of, ColumnPlaces& places) {
     for (const std::string_view name : kNumberedColumnNames) {
         const std::optional<std::size_t> place = place_of(name);
         if (!place) {
@@ -56,8 +55,7 @@ void find_numbered(const std::filesystem::path& path, const PlaceOf& place_of,
 
 /// x y z: on a surface all or none, in a box the first ones, as many as it has.
 template <typename PlaceOf>
-void find_named(const std::filesystem::path& path, Domain domain, const PlaceOf& place_of,
-                ColumnPlaces& places) {
+void find_named(const Path& path, Domain domain, const PlaceOf& place_of, ColumnPlaces& places) {
     std::string_view missing;
     for (const SampleColumn column : {SampleColumn::x, SampleColumn::y, SampleColumn::z}) {
         const std::string_view name = kSampleColumnNames[static_cast<std::size_t>(column)];
@@ -78,8 +76,7 @@ void find_named(const std::filesystem::path& path, Domain domain, const PlaceOf&
 }
 
 template <typename PlaceOf>
-ColumnPlaces find_places(const std::filesystem::path& path, Domain domain,
-                         const PlaceOf& place_of) {
+ColumnPlaces find_places(const Path& path, Domain domain, const PlaceOf& place_of) {
     ColumnPlaces places;
     find_numbered(path, place_of, places);
     for (std::size_t i = 0; i < kSampleColumnNames.size(); ++i) {
@@ -147,7 +144,7 @@ void add_entry(SampleHeader& header, std::string_view comment) {
     }
 }
 
-SampleFile read_ply_samples(const std::filesystem::path& path, Domain domain) {
+SampleFile read_ply_samples(const Path& path, Domain domain) {
     PlyFile file(path);
     SampleFile samples;
     for (const std::string& comment : file.comments()) {
@@ -192,7 +189,7 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
 /// Reads a CSV sample file line by line.
 class CsvReader {
   public:
-    CsvReader(const std::filesystem::path& path, Domain domain)
+    CsvReader(const Path& path, Domain domain)
         : path_(path), domain_(domain), bytes_(read_file(path)) {}
 
     SampleFile read() {
@@ -260,7 +257,7 @@ class CsvReader {
         fail_input(path_, "line " + std::to_string(line_) + ": " + message);
     }
 
-    const std::filesystem::path& path_;
+    const Path& path_;
     Domain domain_;
     std::string bytes_;
     std::size_t position_ = 0;
@@ -268,7 +265,7 @@ class CsvReader {
     std::vector<std::string_view> cells_;
 };
 
-SampleFile read_in(const std::filesystem::path& path, Domain domain) {
+SampleFile read_in(const Path& path, Domain domain) {
     const std::string extension = lower_extension(path);
     if (extension == ".ply") {
         return read_ply_samples(path, domain);
@@ -286,11 +283,11 @@ SampleFile read_in(const std::filesystem::path& path, Domain domain) {
 
 } // namespace
 
-SampleFile read_samples(const std::filesystem::path& path) {
+SampleFile read_samples(const Path& path) {
     return read_in(path, Domain::surface);
 }
 
-SampleFile read_box_samples(const std::filesystem::path& path) {
+SampleFile read_box_samples(const Path& path) {
     return read_in(path, Domain::box);
 }
 

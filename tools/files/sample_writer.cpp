@@ -15,7 +15,7 @@ namespace {
 
 enum class Format { ply, csv, xyz };
 
-Format format_of(const std::filesystem::path& path) {
+Format format_of(const Path& path) {
     const std::string extension = lower_extension(path);
     if (extension == ".ply") {
         return Format::ply;
@@ -181,15 +181,15 @@ void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
 
 } // namespace
 
-void write_samples(const std::filesystem::path& path, const SampleHeader& header,
-                   std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension) {
+void write_samples(const Path& path, const SampleHeader& header, std::span<const SampleRow> rows,
+                   bool ascii_ply, std::uint32_t dimension) {
     check_dimension(path, dimension); // Before a file appears.
     AtomicFile file(path);
     write_samples(file, path, header, rows, ascii_ply, dimension);
     file.commit();
 }
 
-void write_samples(AtomicFile& file, const std::filesystem::path& path, const SampleHeader& header,
+void write_samples(AtomicFile& file, const Path& path, const SampleHeader& header,
                    std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension) {
     switch (format_of(path)) {
     case Format::ply:
@@ -207,9 +207,8 @@ void write_samples(AtomicFile& file, const std::filesystem::path& path, const Sa
     }
 }
 
-void write_box_samples(AtomicFile& file, const std::filesystem::path& path,
-                       const SampleHeader& header, std::span<const SampleRow> rows, bool ascii_ply,
-                       std::uint32_t dimension) {
+void write_box_samples(AtomicFile& file, const Path& path, const SampleHeader& header,
+                       std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension) {
     switch (format_of(path)) {
     case Format::ply:
         write_ply(file, header, rows, ascii_ply, {dimension, 3, false, false, false});
@@ -230,12 +229,12 @@ const std::string* SampleHeader::find(std::string_view key) const {
     return entry == entries.end() ? nullptr : &entry->second;
 }
 
-void check_output_path(const std::filesystem::path& path) {
+void check_output_path(const Path& path) {
     format_of(path);
     const AtomicFile probe(path); // Creates and removes the temporary file.
 }
 
-void check_dimension(const std::filesystem::path& path, std::uint32_t dimension) {
+void check_dimension(const Path& path, std::uint32_t dimension) {
     if (format_of(path) == Format::xyz && dimension != 3) {
         fail_usage(path.string() +
                    ": an .xyz file holds three coordinates, and these samples "
@@ -244,7 +243,7 @@ void check_dimension(const std::filesystem::path& path, std::uint32_t dimension)
     }
 }
 
-void check_box_dimension(const std::filesystem::path& path, std::uint32_t dimension) {
+void check_box_dimension(const Path& path, std::uint32_t dimension) {
     if (dimension > 3) {
         check_dimension(path, dimension);
     }

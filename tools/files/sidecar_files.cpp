@@ -14,14 +14,13 @@
 namespace geodisk::tools {
 namespace {
 
-[[noreturn]] void fail_line(const std::filesystem::path& path, std::size_t line,
-                            const std::string& message) {
+[[noreturn]] void fail_line(const Path& path, std::size_t line, const std::string& message) {
     fail_input(path, "line " + std::to_string(line) + ": " + message);
 }
 
 /// Calls visit(line, tokens) for every line that holds any.
 template <typename Visit>
-void for_each_line(const std::filesystem::path& path, const Visit& visit) {
+void for_each_line(const Path& path, const Visit& visit) {
     const std::string bytes = read_file(path);
     std::vector<std::string_view> tokens;
     std::string_view rest = bytes;
@@ -37,7 +36,7 @@ void for_each_line(const std::filesystem::path& path, const Visit& visit) {
     }
 }
 
-double number_at(const std::filesystem::path& path, std::size_t line, std::string_view token) {
+double number_at(const Path& path, std::size_t line, std::string_view token) {
     const std::optional<double> value = parse_real(token);
     if (!value) {
         fail_line(path, line, in_quotes(token) + " is not a number");
@@ -59,7 +58,7 @@ std::string edge_text(std::uint32_t a, std::uint32_t b, std::uint32_t first_vert
 
 } // namespace
 
-Coordinates read_coordinates(const std::filesystem::path& path) {
+Coordinates read_coordinates(const Path& path) {
     Coordinates result;
     for_each_line(path, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
         if (result.dimension == 0) {
@@ -85,7 +84,7 @@ Coordinates read_coordinates(const std::filesystem::path& path) {
     return result;
 }
 
-std::vector<double> read_values(const std::filesystem::path& path) {
+std::vector<double> read_values(const Path& path) {
     std::vector<double> values;
     for_each_line(path, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
         if (tokens.size() != 1) {
@@ -97,7 +96,7 @@ std::vector<double> read_values(const std::filesystem::path& path) {
     return values;
 }
 
-EdgeLengths::EdgeLengths(const std::filesystem::path& path, std::uint32_t first_vertex)
+EdgeLengths::EdgeLengths(const Path& path, std::uint32_t first_vertex)
     : path_(path), first_vertex_(first_vertex) {
     const auto vertex_at = [&](std::size_t line, std::string_view token) {
         const std::optional<std::uint32_t> vertex = parse_integer<std::uint32_t>(token);

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <unordered_map>
 #include <vector>
+
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -17,17 +18,17 @@ struct Coordinates {
 
 /// Reads one line per vertex of 3 to 8 finite numbers, the same on all lines. Throws
 /// UserError(bad_input) naming the file and the line, like the next two.
-Coordinates read_coordinates(const std::filesystem::path& path);
+Coordinates read_coordinates(const Path& path);
 
 /// Reads one finite number per line.
-std::vector<double> read_values(const std::filesystem::path& path);
+std::vector<double> read_values(const Path& path);
 
 /// Lengths by edge. Vertices are numbered from 0 here, whatever the file does.
 class EdgeLengths {
   public:
     /// Reads one line "V0 V1 LENGTH" per edge, in any order. Vertices are numbered from
     /// `first_vertex`, which messages do as well.
-    EdgeLengths(const std::filesystem::path& path, std::uint32_t first_vertex);
+    EdgeLengths(const Path& path, std::uint32_t first_vertex);
 
     /// Throws UserError(bad_input) if the file has no length for the edge.
     double between(std::uint32_t a, std::uint32_t b);
@@ -43,7 +44,7 @@ class EdgeLengths {
     };
     void add(std::size_t line, std::uint32_t a, std::uint32_t b, double length);
 
-    std::filesystem::path path_;
+    Path path_;
     std::uint32_t first_vertex_;
     std::unordered_map<std::uint64_t, Entry> edges_; ///< By both vertices, the lower one high.
 };

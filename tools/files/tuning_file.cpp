@@ -96,8 +96,7 @@ std::filesystem::path writable_tuning_path(const DeviceReport& device) {
     return path;
 }
 
-void store_tuning(const std::filesystem::path& path, const DeviceReport& device,
-                  const Tuning& tuning) {
+void store_tuning(const Path& path, const DeviceReport& device, const Tuning& tuning) {
     const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
                         {"device", device.name},
                         {"driver", driver_text(device)},

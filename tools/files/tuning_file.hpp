@@ -7,6 +7,8 @@
 
 #include <geodisk/sampler.hpp>
 
+#include "program/path.hpp"
+
 namespace geodisk::tools {
 
 /// Where the tuning of this device and driver is kept; empty if the user has no folder for cached
@@ -25,7 +27,6 @@ std::optional<Tuning> load_tuning(const DeviceReport& device);
 std::filesystem::path writable_tuning_path(const DeviceReport& device);
 
 /// Throws UserError(bad_output) if the file cannot be written.
-void store_tuning(const std::filesystem::path& path, const DeviceReport& device,
-                  const Tuning& tuning);
+void store_tuning(const Path& path, const DeviceReport& device, const Tuning& tuning);
 
 } // namespace geodisk::tools

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "bench/log_plot.hpp"
-#include "paper/table.hpp"
+#include "program/table.hpp"
 
 namespace geodisk::paper {
+
+using tools::Table;
 
 /// Files that appear together, NAME.csv and plots.
 class Outputs {

@@ -1,6 +1,8 @@
 #include "program/exact_text.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <system_error>
 
 namespace geodisk::tools {
 

@@ -6,7 +6,7 @@ void fail_usage(const std::string& message) {
     throw UserError(ExitCode::usage, message);
 }
 
-void fail_input(const std::filesystem::path& path, const std::string& message) {
+void fail_input(const Path& path, const std::string& message) {
     throw UserError(ExitCode::bad_input, path.string() + ": " + message);
 }
 

@@ -2,12 +2,13 @@
 // with. The library never throws; only tools do, and only this.
 #pragma once
 
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <geodisk/status.hpp>
+
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -40,7 +41,7 @@ class UserError : public std::runtime_error {
 [[noreturn]] void fail_usage(const std::string& message);
 
 /// Throws UserError(bad_input) with "PATH: MESSAGE".
-[[noreturn]] void fail_input(const std::filesystem::path& path, const std::string& message);
+[[noreturn]] void fail_input(const Path& path, const std::string& message);
 
 /// Throws UserError(bad_output).
 [[noreturn]] void fail_output(const std::string& message);

@@ -1,10 +1,14 @@
 #include "program/program.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "program/failure.hpp"
+#include "program/utf8_arguments.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -39,7 +43,9 @@ std::string usage_message(const CLI::ParseError& error) {
 
 int run_program(CLI::App& app, int argc, char** argv) {
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> arguments = utf8_arguments(argc, argv);
+        std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
+        app.parse(arguments);
         return 0;
     } catch (const CLI::CallForHelp&) {
         std::cout << app.help(); // Of the subcommand if one is chosen.

@@ -29,6 +29,9 @@ struct ContextOptions {
     /// on the thread that made the offending Vulkan call, so possibly on several at once. It must
     /// not call Vulkan; exceptions it throws are dropped.
     std::function<void(std::string_view)> on_validation_message;
+    /// Have the driver keep what Sampler::report_kernels asks it for. For development: kernels take
+    /// longer to compile. Creation fails where the device cannot.
+    bool pipeline_statistics = false;
 };
 
 /// Index into `reports` of the device that `device` names.
@@ -60,8 +63,8 @@ class Context {
     /// Creates a context on the chosen device.
     ///
     /// Errors: `no_device` without loader, driver or matching device; `device_lacks` when the
-    /// device falls short, with every reason, or when the validation layer is missing; else as
-    /// Vulkan fails.
+    /// device falls short, with every reason, or lacks what an option needs, or when the
+    /// validation layer is missing; else as Vulkan fails.
     static Result<Context> create(const ContextOptions& options = {}) noexcept;
 
     Context(Context&&) noexcept;

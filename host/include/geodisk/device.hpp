@@ -66,6 +66,9 @@ struct DeviceRefs {
     bool debug_utils = false;
     /// Where Runner gets the memory of its buffers, if set; must outlive the objects.
     const MemoryHooks* memory_hooks = nullptr;
+    /// Whether VK_KHR_pipeline_executable_properties is enabled, with its feature: kernels are then
+    /// compiled so that Sampler::report_kernels can tell of them.
+    bool pipeline_statistics = false;
     /// Passed, if set, to each create and destroy call; must outlive the objects as well.
     const VkAllocationCallbacks* host_allocator = nullptr;
 };

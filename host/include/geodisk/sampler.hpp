@@ -22,12 +22,14 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <vulkan/vulkan_core.h>
 
 #include <geodisk/device.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
+#include <geodisk/kernel_report.hpp>
 #include <geodisk/status.hpp>
 
 namespace geodisk {
@@ -239,6 +241,11 @@ class GEODISK_API Sampler {
     /// Compiles what jobs of the domain need beyond what `create` compiled, unless it was before;
     /// else make_job does. Errors: as Vulkan fails.
     Result<Done> prepare(const Domain& domain) const noexcept;
+
+    /// Compiles the kernels of all domains, unless they were before, and tells what the driver says
+    /// of each. Errors: `invalid_argument` unless DeviceRefs::pipeline_statistics is set; as Vulkan
+    /// fails.
+    Result<std::vector<KernelReport>> report_kernels() const noexcept;
 
     /// A plan for this device whose pool is at most `pool_bytes` (and one binding) large.
     /// Errors: `workspace_too_small` if not even one lane fits.

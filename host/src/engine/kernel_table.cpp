@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include <geodisk/box.hpp>
+
 namespace geodisk {
 namespace {
 
@@ -192,6 +194,29 @@ const std::array<KernelInfo, kKernels> kTable{{
 }};
 
 } // namespace
+
+std::vector<KernelVariant> all_kernel_variants() {
+    std::vector<KernelVariant> variants;
+    for (const bool adaptive : {false, true}) {
+        for (const bool event_heap : {false, true}) {
+            KernelVariant& variant = variants.emplace_back();
+            variant.adaptive = adaptive;
+            variant.event_heap = event_heap;
+        }
+    }
+    for (std::uint32_t dimension = 1; dimension <= kMostBoxDimensions; ++dimension) {
+        KernelVariant& variant = variants.emplace_back();
+        variant.domain = DomainKind::box;
+        variant.dimension = dimension;
+    }
+    for (const bool curved : {false, true}) {
+        KernelVariant& variant = variants.emplace_back();
+        variant.domain = DomainKind::space;
+        variant.dimension = 3;
+        variant.curved = curved;
+    }
+    return variants;
+}
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept {
     return kTable[static_cast<std::size_t>(kernel)];

@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <vulkan/vulkan_core.h>
 
@@ -65,6 +66,9 @@ struct KernelVariant {
 
     friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;
 };
+
+/// Those of all domains that there may be.
+std::vector<KernelVariant> all_kernel_variants();
 
 /// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
 enum class Access : std::uint8_t {

@@ -24,10 +24,16 @@ std::vector<DeviceReport> take_reports(std::vector<FoundDevice>&& found) {
     return reports;
 }
 
-/// A device with one queue of `family` and no optional feature, robustBufferAccess included: the
-/// kernels check their indices themselves.
+/// Optional extensions that are enabled.
+struct Extensions {
+    bool memory_budget = false;
+    bool pipeline_statistics = false;
+};
+
+/// A device with one queue of `family`, the extensions that `enabled` names, and no optional
+/// feature but theirs, robustBufferAccess included: the kernels check their indices themselves.
 Result<VkDevice> create_device(const InstanceTable& vk, VkPhysicalDevice physical_device,
-                               std::uint32_t family, bool memory_budget) {
+                               std::uint32_t family, const Extensions& enabled) {
     const Result<bool> portability = has_device_extension(vk, physical_device, kPortabilitySubset);
     if (!portability)
         return portability.error();
@@ -48,8 +54,16 @@ Result<VkDevice> create_device(const InstanceTable& vk, VkPhysicalDevice physica
     if (*portability) { // Where it is listed, Vulkan demands that it be enabled.
         extensions.push_back(kPortabilitySubset);
     }
-    if (memory_budget) {
+    if (enabled.memory_budget) {
         extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    }
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{};
+    statistics.sType =
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+    statistics.pipelineExecutableInfo = VK_TRUE; // Every device with the extension has it.
+    if (enabled.pipeline_statistics) {
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        info.pNext = &statistics;
     }
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
@@ -66,7 +80,7 @@ struct Context::Impl {
     std::unique_ptr<Instance> instance;
     DeviceReport report;
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-    bool memory_budget = false; ///< Whether the extension is enabled.
+    Extensions extensions;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     PFN_vkDestroyDevice vkDestroyDevice = nullptr;
@@ -80,21 +94,38 @@ struct Context::Impl {
             vkDestroyDevice(device, nullptr);
     }
 
+    Result<Done> choose_extensions(const ContextOptions& options);
     Result<Done> open_device();
 };
+
+/// Takes those that the device has; those that are asked for it must have.
+Result<Done> Context::Impl::choose_extensions(const ContextOptions& options) {
+    const InstanceTable& vk = instance->functions();
+    const Result<bool> budget =
+        has_device_extension(vk, physical_device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    if (!budget)
+        return budget.error();
+    extensions.memory_budget = *budget;
+    if (options.pipeline_statistics) {
+        constexpr const char* kNeeded = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+        const Result<bool> statistics = has_device_extension(vk, physical_device, kNeeded);
+        if (!statistics)
+            return statistics.error();
+        if (!*statistics)
+            return Error{Status::device_lacks, report.name + " does not offer " + kNeeded +
+                                                   ", by which a driver tells of its kernels"};
+        extensions.pipeline_statistics = true;
+    }
+    return Done{};
+}
 
 /// Creates the device of `physical_device` and `report`.
 Result<Done> Context::Impl::open_device() {
     const InstanceTable& vk = instance->functions();
     const std::uint32_t family = report.compute_queue_family.value_or(0);
-    const Result<bool> budget =
-        has_device_extension(vk, physical_device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
-    if (!budget)
-        return budget.error();
-    const Result<VkDevice> created = create_device(vk, physical_device, family, *budget);
+    const Result<VkDevice> created = create_device(vk, physical_device, family, extensions);
     if (!created)
         return created.error();
-    memory_budget = *budget;
     device = *created;
     vkDestroyDevice =
         reinterpret_cast<PFN_vkDestroyDevice>(vk.vkGetDeviceProcAddr(device, "vkDestroyDevice"));
@@ -128,6 +159,9 @@ Result<Context> ContextAccess::create(Loader loader, const ContextOptions& optio
         impl->instance = std::move(instance).value();
         impl->physical_device = handles[*chosen];
         impl->report = std::move(reports[*chosen]);
+        Result<Done> extensions = impl->choose_extensions(options);
+        if (!extensions)
+            return std::move(extensions).error();
         Result<Done> opened = impl->open_device();
         if (!opened)
             return std::move(opened).error();
@@ -173,7 +207,8 @@ DeviceRefs Context::device() const noexcept {
     refs.device = impl_->device;
     refs.get_instance_proc_addr = impl_->instance->get_instance_proc_addr();
     refs.api_version = Instance::kApiVersion;
-    refs.memory_budget = impl_->memory_budget;
+    refs.memory_budget = impl_->extensions.memory_budget;
+    refs.pipeline_statistics = impl_->extensions.pipeline_statistics;
     refs.debug_utils = impl_->instance->validation_log() != nullptr;
     return refs;
 }

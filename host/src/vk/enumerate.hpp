@@ -8,17 +8,17 @@
 
 namespace geodisk {
 
-/// Fills `out` from `call(std::uint32_t* count, T* elements) -> VkResult`. Returns the first result
-/// that is not success. May throw std::bad_alloc.
+/// Fills `out` from `call(std::uint32_t* count, T* elements) -> VkResult`, whose elements are
+/// `blank` before. Returns the first result that is not success. May throw std::bad_alloc.
 template <class T, class Call>
-VkResult enumerate(std::vector<T>& out, Call&& call) {
+VkResult enumerate(std::vector<T>& out, Call&& call, const T& blank = T{}) {
     VkResult result = VK_INCOMPLETE;
     while (result == VK_INCOMPLETE) { // The list may have grown between the two calls.
         std::uint32_t count = 0;
         result = call(&count, static_cast<T*>(nullptr));
         if (result != VK_SUCCESS)
             break;
-        out.resize(count);
+        out.assign(count, blank);
         result = call(&count, out.data());
         out.resize(count);
     }

@@ -36,4 +36,15 @@ void add_shapes_command(CLI::App& app);
 /// Lists the Vulkan devices and whether they can run geodisk. UserError(no_device) if none can.
 void add_info_command(CLI::App& app);
 
+/// Which kernels `info --kernels` is about.
+struct KernelsOptions {
+    std::string device;
+    std::string reads; ///< "" for what suits the device.
+    bool count_calls = false;
+};
+
+/// What `info --kernels` does: prints what the device's driver tells of the kernels that it has
+/// compiled. UserError(no_device) if it tells nothing.
+void print_kernels(const KernelsOptions& options, bool as_json);
+
 } // namespace geodisk::tools

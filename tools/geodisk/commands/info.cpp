@@ -21,6 +21,12 @@
 namespace geodisk::tools {
 namespace {
 
+struct InfoOptions {
+    bool as_json = false;
+    bool kernels = false;
+    KernelsOptions of_kernels;
+};
+
 std::string version_text(std::uint32_t version) {
     return std::to_string(VK_API_VERSION_MAJOR(version)) + '.' +
            std::to_string(VK_API_VERSION_MINOR(version)) + '.' +
@@ -146,9 +152,32 @@ void run_info(bool as_json) {
 void add_info_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("info", "List the Vulkan devices and whether they can run geodisk");
-    const auto as_json = std::make_shared<bool>(false); // Lives in the callback, like the option.
-    command->add_flag("--json", *as_json, "Write the list as JSON");
-    command->callback([as_json] { run_info(*as_json); });
+    const auto options = std::make_shared<InfoOptions>();
+    command->add_flag("--json", options->as_json, "Write what is told as JSON");
+    CLI::Option* kernels =
+        command
+            ->add_flag("--kernels", options->kernels,
+                       "Instead, compile the kernels on one device and tell the registers,\n"
+                       "spills and so on that its driver reports")
+            ->group("Development");
+    add_option(*command, "--device", options->of_kernels.device, "NAME|INDEX",
+               "The device for --kernels, by name, index or UUID", "Development")
+        ->needs(kernels);
+    add_option(*command, "--reads", options->of_kernels.reads, "WAY",
+               "Kernels that read storage or texels, instead of what suits the device",
+               "Development")
+        ->needs(kernels);
+    command
+        ->add_flag("--count-calls", options->of_kernels.count_calls,
+                   "Kernels as for sample --count-calls")
+        ->group("Development")
+        ->needs(kernels);
+    command->callback([options] { // Owns them, as the options refer to them.
+        if (options->kernels)
+            print_kernels(options->of_kernels, options->as_json);
+        else
+            run_info(options->as_json);
+    });
 }
 
 } // namespace geodisk::tools

@@ -1,10 +1,11 @@
-// A table of results, for people and as CSV.
+// A table, for people and as CSV.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
-namespace geodisk::paper {
+namespace geodisk::tools {
 
 /// Rows of cells under the names of their columns. An empty cell is a value that does not exist.
 class Table {
@@ -16,8 +17,9 @@ class Table {
 
     const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
-    /// Aligned lines: the first column to the left, all others to the right; '-' for an empty cell.
-    std::string text() const;
+    /// Aligned lines: the first columns to the left, all others to the right; '-' for an empty
+    /// cell. The name of a column may have several lines.
+    std::string text(std::size_t left_columns = 1) const;
 
     /// Quoted where needed (RFC 4180).
     std::string csv() const;
@@ -27,4 +29,4 @@ class Table {
     std::vector<std::vector<std::string>> rows_;
 };
 
-} // namespace geodisk::paper
+} // namespace geodisk::tools

@@ -1,0 +1,39 @@
+# geodisk_install_pkg_config(): installs geodisk.pc, with the library of this build and the context.
+# It finds them from where it lies, so that an installation may be moved.
+#
+# C++20 is for the user to ask for: pkg-config has no way to say so that other flags could override.
+function(geodisk_install_pkg_config)
+    set(folder "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+    foreach(name libdir includedir)
+        string(TOUPPER "${name}" variable)
+        cmake_path(IS_ABSOLUTE CMAKE_INSTALL_${variable} is_absolute)
+        set(${name} "${CMAKE_INSTALL_${variable}}")
+        if(NOT is_absolute)
+            set(${name} "\${prefix}/${${name}}")
+        endif()
+    endforeach()
+    cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" OUTPUT_VARIABLE from)
+    cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY "${from}"
+        OUTPUT_VARIABLE prefix_from_here)
+
+    set(cflags "-I\${includedir}")
+    # Headers that the compiler would not find by itself. Vulkan's own pkg-config file would do, but
+    # it links the loader, and is not installed everywhere.
+    if(NOT Vulkan_INCLUDE_DIR IN_LIST CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
+        string(APPEND cflags " -I\"${Vulkan_INCLUDE_DIR}\"")
+    endif()
+    get_target_property(type geodisk TYPE)
+    if(type STREQUAL "SHARED_LIBRARY")
+        string(APPEND cflags " -DGEODISK_SHARED")
+    endif()
+    # Not Libs.private: the context is static in every build, so what it needs is linked in all.
+    set(context_libs ${CMAKE_THREAD_LIBS_INIT})
+    foreach(library IN LISTS CMAKE_DL_LIBS)
+        list(APPEND context_libs "-l${library}")
+    endforeach()
+    list(JOIN context_libs " " context_libs)
+
+    configure_file("${PROJECT_SOURCE_DIR}/tools/cmake/geodisk.pc.in"
+        "${CMAKE_CURRENT_BINARY_DIR}/geodisk.pc" @ONLY)
+    install(FILES "${CMAKE_CURRENT_BINARY_DIR}/geodisk.pc" DESTINATION "${folder}")
+endfunction()

@@ -1,0 +1,60 @@
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geodisk/context.hpp>
+#include <geodisk/sampler.hpp>
+#include <geodisk/version.hpp>
+
+#include "files/tuning_file.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/reports/kernel_report.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+Reads parsed_reads(const std::string& name) {
+    if (name.empty())
+        return Reads::automatic;
+    const std::optional<Reads> reads = reads_named(name);
+    if (!reads)
+        fail_usage("--reads: " + in_quotes(name) + " is none of auto, storage and texels");
+    return *reads;
+}
+
+} // namespace
+
+void print_kernels(const KernelsOptions& options, bool as_json) {
+    SamplerOptions sampler_options;
+    sampler_options.tuning.reads = parsed_reads(options.reads);
+    sampler_options.count_calls = options.count_calls;
+    ContextOptions context_options;
+    context_options.device = options.device;
+    context_options.pipeline_statistics = true;
+    const Context context = take(Context::create(context_options));
+    const DeviceReport& report = context.report();
+    const Tuning kept = load_tuning(report).value_or(Tuning{}); // As `sample` uses it.
+    sampler_options.tuning = overridden(kept, sampler_options.tuning);
+    const Sampler sampler = take(Sampler::create(context.device(), sampler_options));
+    const std::vector<KernelReport> reports = take(sampler.report_kernels());
+    if (as_json) {
+        std::cout << text_of(Json{{"geodisk_version", GEODISK_VERSION_STRING},
+                                  {"device", report.name},
+                                  {"driver", driver_text(report)},
+                                  {"reads", to_string(sampler.tuning().reads)},
+                                  {"kernels", kernels_json(reports)}});
+    } else {
+        std::cout << "device  " << report.name << '\n'
+                  << "driver  " << driver_text(report) << '\n'
+                  << "reads   " << to_string(sampler.tuning().reads) << "\n\n"
+                  << kernels_text(reports);
+    }
+    std::cout.flush();
+    if (!std::cout)
+        fail_output("what is known of the kernels cannot be written");
+}
+
+} // namespace geodisk::tools
