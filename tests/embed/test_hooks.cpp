@@ -22,7 +22,8 @@ namespace {
 class Arena {
   public:
     explicit Arena(const DeviceRefs& refs) : refs_(refs), vk_(expect(load_device_table(refs))) {
-        const auto instance = expect(load_instance_table(refs.get_instance_proc_addr, refs.instance));
+        const auto instance =
+            expect(load_instance_table(refs.get_instance_proc_addr, refs.instance));
         instance.vkGetPhysicalDeviceMemoryProperties(refs.physical_device, &memory_);
     }
     ~Arena() {
@@ -70,8 +71,10 @@ class Arena {
             const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, kBytes,
                                             type};
             Block block{};
-            REQUIRE(vk_.vkAllocateMemory(refs_.device, &info, nullptr, &block.memory) == VK_SUCCESS);
-            if ((memory_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+            REQUIRE(vk_.vkAllocateMemory(refs_.device, &info, nullptr, &block.memory) ==
+                    VK_SUCCESS);
+            if ((memory_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) !=
+                0) {
                 void* mapped = nullptr;
                 REQUIRE(vk_.vkMapMemory(refs_.device, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped) ==
                         VK_SUCCESS);
@@ -109,7 +112,8 @@ std::multiset<std::string> names;
 std::vector<std::string> labels;
 int open_labels = 0;
 
-VKAPI_ATTR VkResult VKAPI_CALL note_name(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info) {
+VKAPI_ATTR VkResult VKAPI_CALL note_name(VkDevice device,
+                                         const VkDebugUtilsObjectNameInfoEXT* info) {
     names.insert(info->pObjectName);
     return set_name(device, info);
 }
@@ -211,7 +215,8 @@ TEST_SUITE("hooks") {
         CHECK(app.messages().empty());
     }
 
-    TEST_CASE("pipelines and buffers have names, and stages labels, where the caller asks for them") {
+    TEST_CASE(
+        "pipelines and buffers have names, and stages labels, where the caller asks for them") {
         AppDevice app;
         real = app.refs().get_instance_proc_addr;
         names.clear();
@@ -229,9 +234,9 @@ TEST_SUITE("hooks") {
         {
             Runner runner = expect(Runner::create(refs, app.queue()));
             job.check(runner);
-            for (const char* name : {"geodisk detect", "geodisk select", "geodisk resolve",
-                                     "geodisk draw", "geodisk faces", "geodisk pool",
-                                     "geodisk staging"}) {
+            for (const char* name :
+                 {"geodisk detect", "geodisk select", "geodisk resolve", "geodisk draw",
+                  "geodisk faces", "geodisk pool", "geodisk staging"}) {
                 CAPTURE(name);
                 CHECK(names.count(name) >= 1);
             }

@@ -105,9 +105,8 @@ void Gpu::choose_device() {
 Gpu::~Gpu() {
     vkDestroyDevice(device_, nullptr);
     if (messenger_ != VK_NULL_HANDLE) {
-        reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-            vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"))(
-            instance_, messenger_, nullptr);
+        reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
+            instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
     }
     vkDestroyInstance(instance_, nullptr);
 }

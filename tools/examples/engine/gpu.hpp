@@ -84,7 +84,8 @@ class Block {
     VkDeviceSize size_ = 0, used_ = 0;
 };
 
-/// Two command buffers that take turns, so that one is recorded while the device works on the other.
+/// Two command buffers that take turns, so that one is recorded while the device works on the
+/// other.
 class Frames {
   public:
     static constexpr std::uint32_t kInFlight = 2;

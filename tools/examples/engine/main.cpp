@@ -27,6 +27,7 @@ namespace {
 
 using namespace engine;
 
+constexpr VkDeviceSize kGeometryBytes = VkDeviceSize{4} << 20;
 constexpr VkDeviceSize kDeviceBytes = VkDeviceSize{64} << 20;
 constexpr VkDeviceSize kHostBytes = VkDeviceSize{16} << 20;
 constexpr double kSamples = 3000;
@@ -45,8 +46,10 @@ Torus make_torus(std::uint32_t around, std::uint32_t across) {
     Torus torus;
     for (std::uint32_t i = 0; i < around; ++i) {
         for (std::uint32_t k = 0; k < across; ++k) {
-            const float u = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(around);
-            const float v = glm::two_pi<float>() * static_cast<float>(k) / static_cast<float>(across);
+            const float u =
+                glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(around);
+            const float v =
+                glm::two_pi<float>() * static_cast<float>(k) / static_cast<float>(across);
             const glm::vec3 out(std::cos(u), std::sin(u), 0);
             const glm::vec3 normal = std::cos(v) * out + std::sin(v) * glm::vec3(0, 0, 1);
             torus.vertices.push_back({out + 0.4f * normal, normal});
@@ -90,20 +93,23 @@ bool run(bool validate, const char* path) {
     params.min_distance = geodisk::distance_for_count(mesh.statistics().area, kSamples);
     const auto domain = take(geodisk::Domain::surface(mesh, params));
 
-    Block device(gpu, kDeviceBytes,
-                 geodisk::kWorkspaceUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                     VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                 VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    // Vertices and indices are storage as well, where geodisk reads them.
+    Block geometry(gpu, kGeometryBytes,
+                   VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                   VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    Block device(gpu, kDeviceBytes, geodisk::kWorkspaceUsage, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     Block host(gpu, kHostBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    const SurfaceDraw surface{device.cut(torus.vertices.size() * sizeof(Vertex)),
-                              device.cut(torus.indices.size() * 4),
+    const SurfaceDraw surface{geometry.cut(torus.vertices.size() * sizeof(Vertex)),
+                              geometry.cut(torus.indices.size() * 4),
                               static_cast<std::uint32_t>(torus.indices.size())};
     Sampling sampling(gpu, domain,
                       {surface.vertices, surface.indices, sizeof(Vertex), 0, sizeof(glm::vec3)},
                       device, host);
     Renderer renderer(gpu, sampling.placed());
-    const geodisk::BufferRange image = host.cut(VkDeviceSize{4} * Renderer::kWidth * Renderer::kHeight);
+    const geodisk::BufferRange image =
+        host.cut(VkDeviceSize{4} * Renderer::kWidth * Renderer::kHeight);
     Frames frames(gpu);
 
     std::uint32_t frame = 0;

@@ -29,10 +29,10 @@ VkShaderModule create_module(const Gpu& gpu, const std::vector<std::uint32_t>& c
 } // namespace
 
 Renderer::Renderer(const Gpu& gpu, const geodisk::BufferRange& placed)
-    : gpu_(gpu), color_(create_image(kColor,
-                                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                     VK_IMAGE_ASPECT_COLOR_BIT)),
+    : gpu_(gpu),
+      color_(create_image(kColor,
+                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                          VK_IMAGE_ASPECT_COLOR_BIT)),
       depth_(create_image(kDepth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                           VK_IMAGE_ASPECT_DEPTH_BIT)) {
     create_render_pass();
@@ -243,8 +243,8 @@ VkPipeline Renderer::create_pipeline(const std::vector<std::uint32_t>& vertex,
     info.layout = layout_;
     info.renderPass = pass_;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result = vkCreateGraphicsPipelines(gpu_.device(), VK_NULL_HANDLE, 1, &info,
-                                                      nullptr, &pipeline);
+    const VkResult result =
+        vkCreateGraphicsPipelines(gpu_.device(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
     for (const VkPipelineShaderStageCreateInfo& stage : stages) {
         vkDestroyShaderModule(gpu_.device(), stage.module, nullptr);
     }

@@ -21,7 +21,8 @@ constexpr geodisk::BufferRole kRoles[] = {geodisk::BufferRole::faces, geodisk::B
 
 Sampling::Sampling(const Gpu& gpu, const geodisk::Domain& domain, const SurfaceBuffers& surface,
                    Block& device_block, Block& host_block)
-    : domain_(domain), host_block_(host_block), sampler_(take(geodisk::Sampler::create(gpu.refs()))),
+    : domain_(domain), host_block_(host_block),
+      sampler_(take(geodisk::Sampler::create(gpu.refs()))),
       plan_(take(sampler_.plan_run(domain, kPoolBytes))) {
     const auto needs = take(sampler_.workspace_needs(domain, plan_));
     for (std::size_t i = 0; i < needs.bytes.size(); ++i) {
@@ -65,8 +66,9 @@ void Sampling::record_upload(VkCommandBuffer commands) {
     }
     // Nothing to draw until samples are placed.
     vkCmdFillBuffer(commands, arguments_.buffer, arguments_.offset, arguments_.size, 0);
-    barrier(commands, kCopy, {geodisk::Sampler::kFirstUse.stages | kDraw.stages,
-                              geodisk::Sampler::kFirstUse.access | kDraw.access});
+    barrier(commands, kCopy,
+            {geodisk::Sampler::kFirstUse.stages | kDraw.stages,
+             geodisk::Sampler::kFirstUse.access | kDraw.access});
 }
 
 void Sampling::record(VkCommandBuffer commands, std::uint32_t turn) {
@@ -99,18 +101,20 @@ void Sampling::record(VkCommandBuffer commands, std::uint32_t turn) {
         throw std::runtime_error("an engine would make larger buffers here, or a new job");
     }
     if (is_begun_ && !is_complete_) {
-        // What is decided so far is final, so it may be drawn in this very frame. Draws of the frame
-        // before come first.
+        // What is decided so far is final, so it may be drawn in this very frame. Draws of the
+        // frame before come first.
         sampler_.record_finish(commands, *job_);
-        barrier(commands, kDraw, {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT});
+        barrier(commands, kDraw,
+                {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT});
         take(placement_->record(commands, *job_));
     }
     barrier(commands, geodisk::Sampler::kLastUse,
             {kCopy.stages | kDraw.stages, kCopy.access | kDraw.access});
     copy(commands, workspace_[static_cast<std::size_t>(geodisk::BufferRole::control)],
          controls_[turn], sizeof control);
-    barrier(commands, kCopy, {kHost.stages | geodisk::Sampler::kFirstUse.stages,
-                              kHost.access | geodisk::Sampler::kFirstUse.access});
+    barrier(commands, kCopy,
+            {kHost.stages | geodisk::Sampler::kFirstUse.stages,
+             kHost.access | geodisk::Sampler::kFirstUse.access});
 }
 
 } // namespace engine
