@@ -172,6 +172,42 @@ TEST_SUITE("workspaces") {
         std::vector<std::byte> none;
         CHECK_FALSE(sampler.write_upload(domain, plan, BufferRole::pool, none));
     }
+
+    TEST_CASE("a workspace may hold what regrowths take") {
+        const Context context = validated_context();
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const Task knot = task(sampler, "torus-knot", 8, 300);
+        const Domain domain = knot.domain();
+        const RunPlan plan = tightened(expect(sampler.plan_run(domain, Workshop::kPoolBytes)));
+        constexpr auto kPool = static_cast<std::size_t>(BufferRole::pool);
+        constexpr auto kSamples = static_cast<std::size_t>(BufferRole::samples);
+        constexpr std::uint32_t kAll =
+            gpu::kOverflowWindows | gpu::kOverflowVertices | gpu::kOverflowConflicts;
+        const WorkspaceNeeds once = expect(sampler.workspace_needs(domain, plan));
+        CHECK(expect(sampler.workspace_needs(domain, plan, 0)).bytes == once.bytes);
+        for (const std::uint32_t regrowths : {1u, 2u}) {
+            CAPTURE(regrowths);
+            const WorkspaceNeeds needs = expect(sampler.workspace_needs(domain, plan, regrowths));
+            RunPlan grown = plan;
+            std::uint64_t samples = plan.sample_capacity;
+            for (std::uint32_t i = 0; i < regrowths; ++i) {
+                grown = expect(sampler.grow_plan(grown, kAll, needs.bytes[kPool]));
+                samples += samples / 2;
+            }
+            CHECK(grown.slots == plan.slots);
+            CHECK(grown.lanes == plan.lanes);
+            CHECK(grown.pool_bytes() == needs.bytes[kPool]);
+            CHECK(needs.bytes[kSamples] == samples * sizeof(gpu::SampleRec));
+            const RunPlan more = expect(sampler.grow_plan(grown, kAll, needs.bytes[kPool]));
+            CHECK(more.lanes < plan.lanes);
+            for (std::size_t i = 0; i < kBufferRoles; ++i) {
+                CHECK(needs.bytes[i] >= once.bytes[i]);
+            }
+        }
+        const auto none = sampler.workspace_needs(domain, plan, 1000);
+        REQUIRE_FALSE(none);
+        CHECK(none.error().status == Status::workspace_too_small);
+    }
 }
 
 } // namespace geodisk::test

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <geodisk/call_histogram.hpp>
@@ -146,7 +148,26 @@ class GEODISK_API Runner {
     Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;
 
-    /// Frees the device memory that runs keep for those to come, of which an error frees it too.
+    // The same without waiting, for one run at a time. sample_and_wait is refused meanwhile.
+
+    /// Begins a run; the domain must outlive it. Errors: `invalid_argument` while one is in
+    /// progress; all others come from poll().
+    Result<Done> start(const Domain& domain, const ProgressCallback& progress = {}) noexcept;
+    /// Goes on with the run where the device is done with what was submitted last: records and
+    /// submits what comes next. Else waits for that, but no longer than `patience`. The samples
+    /// once the run is complete, else nothing. Errors: `invalid_argument` where none is in
+    /// progress; as sample_and_wait, upon which none is any more.
+    Result<std::optional<SampleSet>> poll(std::chrono::milliseconds patience = {}) noexcept;
+    /// Of the submission in flight, to be waited for with others of the caller, by vkWaitForFences
+    /// alone; null where there is none.
+    VkFence fence() const noexcept;
+    /// How far the run is.
+    Progress progress() const noexcept;
+    /// Ends the run, if one is in progress, and waits for the submission in flight.
+    void cancel() noexcept;
+
+    /// Frees the device memory that runs keep for those to come, of which an error frees it too;
+    /// not while one is in progress.
     void release_memory() noexcept;
 
     const Sampler& sampler() const noexcept;

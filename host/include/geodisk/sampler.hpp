@@ -262,10 +262,12 @@ class GEODISK_API Sampler {
     RunPlan widen_plan(const Domain& domain, RunPlan plan,
                        std::uint32_t longest_chain) const noexcept;
 
-    /// Errors: `job_too_large` when a buffer would exceed what the device can bind, naming buffer,
-    /// candidates and bytes.
-    Result<WorkspaceNeeds> workspace_needs(const Domain& domain,
-                                           const RunPlan& plan) const noexcept;
+    /// Buffers for the plan that do as well for the plans of so many regrowths, each with
+    /// capacities of disks twice as large, and half as many samples again. Errors: `job_too_large`
+    /// when a buffer would exceed what the device can bind, naming buffer, candidates and bytes; as
+    /// grow_plan() for regrowths that no pool holds.
+    Result<WorkspaceNeeds> workspace_needs(const Domain& domain, const RunPlan& plan,
+                                           std::uint32_t regrowths = 0) const noexcept;
 
     /// Bytes that the caller is to upload into a buffer; 0 for buffers that need none.
     std::size_t upload_size(const Domain& domain, BufferRole role) const noexcept;

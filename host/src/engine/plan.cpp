@@ -321,9 +321,22 @@ Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
     return needs;
 }
 
-Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain,
-                                                const RunPlan& plan) const noexcept {
-    return guarded([&] { return needs_of(domain, plan, impl_->report); });
+Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain, const RunPlan& plan,
+                                                std::uint32_t regrowths) const noexcept {
+    return guarded([&]() -> Result<WorkspaceNeeds> {
+        constexpr std::uint32_t kAll =
+            gpu::kOverflowWindows | gpu::kOverflowVertices | gpu::kOverflowConflicts;
+        RunPlan larger = plan;
+        for (std::uint32_t i = 0; i < regrowths; ++i) {
+            const auto grown = grown_plan(larger, kAll, ~std::uint64_t{0}, impl_->report);
+            if (!grown) {
+                return grown.error();
+            }
+            larger = *grown;
+            larger.sample_capacity += std::min(larger.sample_capacity / 2, ~larger.sample_capacity);
+        }
+        return needs_of(domain, larger, impl_->report);
+    });
 }
 
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept {

@@ -45,18 +45,18 @@ class Run {
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
     /// The samples, or none where the run is to start over with the plan as it is then.
-    Result<std::optional<SampleSet>> go(const ProgressCallback& progress, RunPlan& plan);
+    Task<Result<std::optional<SampleSet>>> go(const ProgressCallback& progress, RunPlan& plan);
 
   private:
     Result<Done> prepare(const RunPlan& plan);
-    Result<Done> upload();
-    Result<Advice> sample(const ProgressCallback& progress);
-    Result<Done> follow(const Advice& advice);
-    Result<Done> begin_chunk();
-    Result<Done> cut_darts();
-    Result<Done> run_rounds(bool rewind);
+    Task<Result<Done>> upload();
+    Task<Result<Advice>> sample(const ProgressCallback& progress);
+    Task<Result<Done>> follow(Advice advice);
+    Task<Result<Done>> begin_chunk();
+    Task<Result<Done>> cut_darts();
+    Task<Result<Done>> run_rounds(bool rewind);
     Result<Done> check_progress(const gpu::ControlRec& before);
-    Result<Done> gather_chunk();
+    Task<Result<Done>> gather_chunk();
     bool has_all() const { return of_.stop_count != 0 && control_.accepted >= of_.stop_count; }
     Job::Impl& job() { return Job::Impl::of(*job_); }
     const Job::Impl& job() const { return Job::Impl::of(*job_); }
@@ -65,15 +65,17 @@ class Run {
     /// That the pool may take.
     std::uint64_t pool_bytes() const;
     Progress how_far() const;
-    Result<double> submit(const std::function<void(VkCommandBuffer)>& record);
+    Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
+    Result<double> took(Result<Done> end);
     using Passes = bool (*)(VkCommandBuffer, Job::Impl&, Budget&);
-    Result<Done> run_passes(Passes record,
-                            const std::function<void(VkCommandBuffer, Budget&)>& in_one = {});
-    Result<std::uint32_t> count_before(std::uint32_t order);
+    using InOne = void (Run::*)(VkCommandBuffer, Budget&);
+    Task<Result<Done>> run_passes(Passes record, InOne in_one);
+    Task<Result<std::uint32_t>> count_before(std::uint32_t order);
     Result<Done> grow(const RunPlan& grown);
-    Result<Done> enlarge_samples(std::uint32_t capacity);
-    void record_samples(VkCommandBuffer commands);
-    Result<std::vector<gpu::SampleRec>> read_samples();
+    Task<Result<Done>> enlarge_samples(std::uint32_t capacity);
+    void record_all(VkCommandBuffer commands, Budget& budget);
+    void record_samples(VkCommandBuffer commands, Budget&);
+    Task<Result<std::vector<gpu::SampleRec>>> read_samples();
     SampleSet to_set(const std::vector<gpu::SampleRec>& records) const;
 
     Runner::Impl& runner_;
@@ -83,6 +85,7 @@ class Run {
     std::optional<Job>& job_;
     RunPlan wanted_; ///< But for dispatches that have to be shorter.
     Pace passes_, rounds_;
+    double submitted_ = 0;   ///< When.
     std::uint32_t idle_ = 0; ///< Submissions of late that left no trace.
     gpu::ControlRec control_{};
     RunReport report_;
@@ -125,7 +128,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
 }
 
 /// With the first submission where there is room in the staging, else in some of their own.
-Result<Done> Run::upload() {
+Task<Result<Done>> Run::upload() {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         const auto role = static_cast<BufferRole>(i);
         const std::size_t from =
@@ -133,10 +136,13 @@ Result<Done> Run::upload() {
         const std::size_t size = runner_.sampler.upload_size(domain_, role) - from;
         std::span<std::byte> staged = memory_.stage(role, from, size);
         if (staged.empty() && size > 0) {
-            auto before = runner_.submitter->run(
+            auto before = runner_.submitter->submit(
                 [&](VkCommandBuffer commands) { memory_.record_uploads(commands); });
+            if (before) {
+                before = co_await runner_.submitter->ended();
+            }
             if (!before) {
-                return before;
+                co_return before;
             }
             staged = memory_.stage(role, from, size);
         }
@@ -146,66 +152,79 @@ Result<Done> Run::upload() {
                                                           staged.empty() ? large : staged, from)
                            : Result<Done>(Done{});
         if (!written) {
-            return written;
+            co_return written;
         }
-        if (auto uploaded = memory_.upload(role, from, large); !uploaded) {
-            return uploaded;
+        if (auto uploaded = co_await memory_.upload(role, from, large); !uploaded) {
+            co_return uploaded;
         }
         memory_.set_held(role, of_.meshes);
         report_.uploaded += size;
     }
-    return Done{};
+    co_return Done{};
 }
 
-/// Records, and reads the control record afterwards; the seconds it took.
-Result<double> Run::submit(const std::function<void(VkCommandBuffer)>& record) {
-    const double start = runner_.now();
-    auto done = runner_.run_timed([&](VkCommandBuffer commands) {
+Result<Done> Run::submit(const std::function<void(VkCommandBuffer)>& record) {
+    submitted_ = runner_.now();
+    return runner_.submit_timed([&](VkCommandBuffer commands) {
         memory_.record_uploads(commands);
         record(commands);
         memory_.record_control(commands);
     });
-    if (!done) {
-        return done.error();
+}
+
+/// Once it has ended, reads the control record; the seconds it took.
+Result<double> Run::took(Result<Done> end) {
+    if (end && runner_.clock) {
+        end = runner_.clock->collect();
+    }
+    if (!end) {
+        return end.error();
     }
     control_ = memory_.control();
     if (control_.abi != gpu::kAbi && job().begun.is_at_start()) {
         return Error{Status::internal, "the device did not write its control record"};
     }
-    return runner_.now() - start;
+    return runner_.now() - submitted_;
 }
 
 /// Submits passes in as many parts as the time asks for; where one will do, with what `in_one`
 /// records.
-Result<Done> Run::run_passes(Passes record,
-                             const std::function<void(VkCommandBuffer, Budget&)>& in_one) {
+Task<Result<Done>> Run::run_passes(Passes record, InOne in_one) {
     bool is_last = false;
     for (std::uint32_t part = 0; !is_last; ++part) {
         if (auto short_enough = shorten(passes_.items()); !short_enough) {
-            return short_enough;
+            co_return short_enough;
         }
         Budget budget{kAllDispatches, passes_.items()};
-        const auto seconds = submit([&](VkCommandBuffer commands) {
-            is_last = record(commands, job(), budget);
-            if (is_last && part == 0 && in_one) {
-                in_one(commands, budget);
-            }
-        });
+        if (auto done = submit([&](VkCommandBuffer commands) {
+                is_last = record(commands, job(), budget);
+                if (is_last && part == 0) {
+                    (this->*in_one)(commands, budget);
+                }
+            });
+            !done) {
+            co_return done;
+        }
+        const auto seconds = took(co_await runner_.submitter->ended());
         if (!seconds) {
-            return seconds.error();
+            co_return seconds.error();
         }
         passes_.took(*seconds, passes_.items() - budget.items);
     }
-    return Done{};
+    co_return Done{};
 }
 
 /// Candidates of the chunk that are of lower order.
-Result<std::uint32_t> Run::count_before(std::uint32_t order) {
-    auto counted = submit([&](VkCommandBuffer commands) { job().record_count(commands, order); });
-    if (!counted) {
-        return counted.error();
+Task<Result<std::uint32_t>> Run::count_before(std::uint32_t order) {
+    if (auto done = submit([&](VkCommandBuffer commands) { job().record_count(commands, order); });
+        !done) {
+        co_return done.error();
     }
-    return control_.below;
+    const auto counted = took(co_await runner_.submitter->ended());
+    if (!counted) {
+        co_return counted.error();
+    }
+    co_return control_.below;
 }
 
 Result<Done> Run::grow(const RunPlan& grown) {
@@ -220,30 +239,32 @@ Result<Done> Run::grow(const RunPlan& grown) {
     return job_->set_plan(wanted_, memory_.range(BufferRole::pool));
 }
 
-Result<Done> Run::enlarge_samples(std::uint32_t capacity) {
-    if (auto enlarged = memory_.enlarge_samples(job_->sample_bytes(capacity), control_.accepted);
-        !enlarged) {
-        return enlarged;
+Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
+    auto enlarged =
+        co_await memory_.enlarge_samples(job_->sample_bytes(capacity), control_.accepted);
+    if (!enlarged) {
+        co_return enlarged;
     }
     wanted_.sample_capacity = capacity;
-    return job_->set_samples(capacity, memory_.range(BufferRole::samples),
-                             memory_.range(BufferRole::accepted),
-                             memory_.range(BufferRole::buckets));
+    co_return job_->set_samples(capacity, memory_.range(BufferRole::samples),
+                                memory_.range(BufferRole::accepted),
+                                memory_.range(BufferRole::buckets));
 }
 
 /// Until the samples are there, or the run has to start over.
-Result<Advice> Run::sample(const ProgressCallback& progress) {
+Task<Result<Advice>> Run::sample(const ProgressCallback& progress) {
     for (;;) {
         // What is free is asked for only where it matters.
         auto advice = job_->advance(control_, control_.overflow != 0 ? pool_bytes() : 0);
         if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
-            return advice;
+            co_return advice;
         }
-        if (auto done = follow(*advice); !done) {
-            return done.error();
+        if (auto done = co_await follow(*advice); !done) {
+            co_return done.error();
         }
-        if (progress && !progress(how_far())) {
-            return Error{Status::cancelled, "cancelled"};
+        runner_.progress = how_far();
+        if (progress && !progress(runner_.progress)) {
+            co_return Error{Status::cancelled, "cancelled"};
         }
     }
 }
@@ -257,25 +278,23 @@ std::uint64_t Run::pool_bytes() const {
                     memory_.range(BufferRole::pool).size);
 }
 
-Result<Done> Run::follow(const Advice& advice) {
-    switch (advice.next) {
-    case Next::begin:
-        return begin_chunk();
-    case Next::finish:
-        return gather_chunk();
-    case Next::larger_pool:
-        if (auto grown = grow(advice.plan); !grown) {
-            return grown;
-        }
-        return run_rounds(true);
-    case Next::larger_samples:
-        if (auto enlarged = enlarge_samples(advice.sample_capacity); !enlarged) {
-            return enlarged;
-        }
-        return run_rounds(true);
-    default:
-        return run_rounds(false);
+Task<Result<Done>> Run::follow(Advice advice) {
+    if (advice.next == Next::begin) {
+        co_return co_await begin_chunk();
     }
+    if (advice.next == Next::finish) {
+        co_return co_await gather_chunk();
+    }
+    Result<Done> enlarged = Done{};
+    if (advice.next == Next::larger_pool) {
+        enlarged = grow(advice.plan);
+    } else if (advice.next == Next::larger_samples) {
+        enlarged = co_await enlarge_samples(advice.sample_capacity);
+    }
+    if (!enlarged) {
+        co_return enlarged;
+    }
+    co_return co_await run_rounds(advice.next != Next::go_on);
 }
 
 /// Dispatches within the time there is.
@@ -298,26 +317,30 @@ std::uint32_t Run::record_rounds(VkCommandBuffer commands) {
     return count;
 }
 
-/// Draws the candidates, and goes on in the same submission if they are few.
-Result<Done> Run::begin_chunk() {
+/// What goes on in the submission that draws the candidates, if they are few.
+void Run::record_all(VkCommandBuffer commands, Budget& budget) {
+    if (of_.stages.throws == 0 && budget.items >= job_->plan().sample_capacity) {
+        record_rounds(commands);
+        record_finish(commands, job(), budget);
+        record_samples(commands, budget);
+    }
+}
+
+Task<Result<Done>> Run::begin_chunk() {
     ++report_.chunks;
-    auto begun = run_passes(record_begin, [&](VkCommandBuffer commands, Budget& budget) {
-        if (of_.stages.throws == 0 && budget.items >= job_->plan().sample_capacity) {
-            record_rounds(commands);
-            record_finish(commands, job(), budget);
-            record_samples(commands);
-        }
-    });
+    auto begun = co_await run_passes(record_begin, &Run::record_all);
     if (!begun) {
-        return begun;
+        co_return begun;
     }
     const std::uint32_t throws = of_.stages.throws;
-    return throws != 0 && job().thrown + control_.drawn > throws ? cut_darts()
-                                                                 : Result<Done>(Done{});
+    if (throws != 0 && job().thrown + control_.drawn > throws) {
+        co_return co_await cut_darts();
+    }
+    co_return Done{};
 }
 
 /// Finds the order below which there are just as many darts as are to be thrown.
-Result<Done> Run::cut_darts() {
+Task<Result<Done>> Run::cut_darts() {
     const auto wanted = static_cast<std::uint32_t>(of_.stages.throws - job().thrown);
     std::uint64_t low = 0, high = job().push.end_order;
     std::uint64_t low_count = 0, high_count = control_.drawn;
@@ -329,9 +352,9 @@ Result<Done> Run::cut_darts() {
                                 : 0.5;
         const auto step = static_cast<std::uint64_t>(part * static_cast<double>(high - low));
         const std::uint64_t middle = low + std::clamp<std::uint64_t>(step, 1, high - low - 1);
-        const auto count = count_before(static_cast<std::uint32_t>(middle));
+        const auto count = co_await count_before(static_cast<std::uint32_t>(middle));
         if (!count) {
-            return count.error();
+            co_return count.error();
         }
         (*count < wanted ? low : high) = middle;
         (*count < wanted ? low_count : high_count) = *count;
@@ -342,25 +365,32 @@ Result<Done> Run::cut_darts() {
     const bool at_low = low_count == wanted;
     job().cut_darts = at_low ? low_count : high_count;
     job().push.end_order = static_cast<std::uint32_t>(at_low ? low : high);
-    const auto restarted =
-        submit([&](VkCommandBuffer commands) { job().record_restart(commands); });
-    return restarted ? Result<Done>(Done{}) : restarted.error();
+    if (auto done = submit([&](VkCommandBuffer commands) { job().record_restart(commands); });
+        !done) {
+        co_return done;
+    }
+    const auto restarted = took(co_await runner_.submitter->ended());
+    co_return restarted ? Result<Done>(Done{}) : restarted.error();
 }
 
-Result<Done> Run::run_rounds(bool rewind) {
+Task<Result<Done>> Run::run_rounds(bool rewind) {
     if (auto short_enough = shorten(rounds_.items()); !short_enough) {
-        return short_enough;
+        co_return short_enough;
     }
     const gpu::ControlRec before = control_;
     std::uint32_t rounds = 0;
-    const auto seconds = submit([&](VkCommandBuffer commands) {
-        if (rewind) {
-            runner_.sampler.record_rewind(commands, *job_);
-        }
-        rounds = record_rounds(commands);
-    });
+    if (auto done = submit([&](VkCommandBuffer commands) {
+            if (rewind) {
+                runner_.sampler.record_rewind(commands, *job_);
+            }
+            rounds = record_rounds(commands);
+        });
+        !done) {
+        co_return done;
+    }
+    const auto seconds = took(co_await runner_.submitter->ended());
     if (!seconds) {
-        return seconds.error();
+        co_return seconds.error();
     }
     rounds_.took(*seconds, rounds * items_of_round(job_->plan()), control_.steps - before.steps);
     // Batches that take more than a round: fewer of the other dispatches go idle when a round
@@ -369,7 +399,7 @@ Result<Done> Run::run_rounds(bool rewind) {
     if (control_.incomplete > 0 && is_slow && runner_.options.plan.detect_passes == 0) {
         wanted_.detect_passes = std::min(2 * wanted_.detect_passes, kMostPasses);
     }
-    return check_progress(before);
+    co_return check_progress(before);
 }
 
 Result<Done> Run::check_progress(const gpu::ControlRec& before) {
@@ -391,66 +421,65 @@ Progress Run::how_far() const {
             static_cast<std::uint32_t>(all), control_.accepted};
 }
 
-Result<Done> Run::gather_chunk() {
-    return run_passes(record_finish,
-                      [&](VkCommandBuffer commands, Budget&) { record_samples(commands); });
+Task<Result<Done>> Run::gather_chunk() {
+    co_return co_await run_passes(record_finish, &Run::record_samples);
 }
 
 /// All that there may be, so that they come with the control record.
-void Run::record_samples(VkCommandBuffer commands) {
+void Run::record_samples(VkCommandBuffer commands, Budget&) {
     memory_.record_samples(commands,
                            VkDeviceSize{wanted_.sample_capacity} * sizeof(gpu::SampleRec));
 }
 
-Result<std::vector<gpu::SampleRec>> Run::read_samples() {
+Task<Result<std::vector<gpu::SampleRec>>> Run::read_samples() {
     std::vector<gpu::SampleRec> samples(control_.ready);
     const auto bytes = std::as_writable_bytes(std::span(samples));
     if (const auto there = memory_.samples(); there.size() >= bytes.size()) {
         std::copy_n(there.begin(), bytes.size(), bytes.begin());
-        return samples;
+        co_return samples;
     }
-    if (auto read = memory_.read(BufferRole::samples, bytes); !read) {
-        return read.error();
+    if (auto read = co_await memory_.read(BufferRole::samples, bytes); !read) {
+        co_return read.error();
     }
-    return samples;
+    co_return samples;
 }
 
-Result<std::optional<SampleSet>> Run::go(const ProgressCallback& progress, RunPlan& plan) {
+Task<Result<std::optional<SampleSet>>> Run::go(const ProgressCallback& progress, RunPlan& plan) {
     double start = runner_.now();
     if (auto done = runner_.sampler.prepare(domain_); !done) {
-        return done.error();
+        co_return done.error();
     }
     report_.seconds.compile = runner_.now() - start;
     start = runner_.now();
     if (auto done = prepare(plan); !done) {
-        return done.error();
+        co_return done.error();
     }
-    if (auto done = upload(); !done) {
-        return done.error();
+    if (auto done = co_await upload(); !done) {
+        co_return done.error();
     }
     report_.seconds.upload = runner_.now() - start;
     start = runner_.now();
-    const auto advice = sample(progress);
+    const auto advice = co_await sample(progress);
     if (!advice) {
-        return advice.error();
+        co_return advice.error();
     }
     if (advice->next == Next::start_over) {
         plan.error_bound = advice->plan.error_bound;
-        return std::optional<SampleSet>();
+        co_return std::optional<SampleSet>();
     }
     report_.seconds.sample = runner_.now() - start;
     start = runner_.now();
-    auto samples = read_samples();
+    auto samples = co_await read_samples();
     if (!samples) {
-        return samples.error();
+        co_return samples.error();
     }
     report_.seconds.readback = runner_.now() - start;
     std::uint64_t darts = job().darts(control_);
     if (has_all()) {
         // Those up to the last sample.
-        const auto counted = count_before(samples->back().order + 1);
+        const auto counted = co_await count_before(samples->back().order + 1);
         if (!counted) {
-            return counted.error();
+            co_return counted.error();
         }
         darts = *counted;
     }
@@ -474,7 +503,7 @@ Result<std::optional<SampleSet>> Run::go(const ProgressCallback& progress, RunPl
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }
-    return std::optional(to_set(*samples));
+    co_return std::optional(to_set(*samples));
 }
 
 SampleSet Run::to_set(const std::vector<gpu::SampleRec>& records) const {
@@ -501,6 +530,7 @@ struct Releaser {
     bool has_succeeded = false;
     ~Releaser() {
         if (!has_succeeded) {
+            runner.submitter->give_up();
             runner.release();
         }
     }
@@ -508,40 +538,40 @@ struct Releaser {
 
 } // namespace
 
-Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
-                               const ProgressCallback& progress) {
+Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain,
+                            const ProgressCallback progress) {
     if (auto usable = runner.submitter->ready(); !usable) {
-        return usable.error();
+        co_return usable.error();
     }
     Releaser releaser{runner};
     auto plan = plan_within(runner, domain, runner.bytes_allowed());
     while (plan) {
         runner.keep();
         Run run(runner, domain);
-        auto set = run.go(progress, *plan);
+        auto set = co_await run.go(progress, *plan);
         if (set && *set) {
             releaser.has_succeeded = true;
-            return std::move(**set);
+            co_return std::move(**set);
         }
         if (set) {
             continue; // With a wider guard.
         }
         if (!runner.workspace->was_short()) {
-            return set.error();
+            co_return set.error();
         }
         runner.release();
         const auto needs = runner.sampler.workspace_needs(domain, *plan);
         if (!needs) {
-            return set.error();
+            co_return set.error();
         }
         auto smaller = plan_within(runner, domain, bytes_of(runner.sampler, domain, *needs) / 2);
         if (!smaller) {
-            return set.error();
+            co_return set.error();
         }
         smaller->error_bound = plan->error_bound;
         plan = std::move(smaller);
     }
-    return plan.error();
+    co_return plan.error();
 }
 
 } // namespace geodisk

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "engine/runner_impl.hpp"
+#include "engine/task.hpp"
 
 namespace geodisk {
 
-/// Runs until window chains are as short as the guard provides for.
-Result<SampleSet> run_and_wait(Runner::Impl& runner, const Domain& domain,
-                               const ProgressCallback& progress);
+/// Runs until window chains are as short as the guard provides for. Runner and domain must outlive
+/// it. Where it is destroyed before its end, nothing must be running any more.
+Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain, ProgressCallback progress);
 
 } // namespace geodisk

@@ -19,6 +19,19 @@ static_assert(sizeof(gpu::ControlRec) <= kHeadBytes);
 // Of samples that are read before it is known how many there are.
 constexpr VkDeviceSize kMostReadAhead = VkDeviceSize{1} << 20;
 
+/// Buffers that what was submitted may use.
+struct InUse {
+    const Submitter& submitter;
+    std::array<DeviceBuffer, 3> buffers;
+    ~InUse() {
+        if (submitter.abandoned()) {
+            for (DeviceBuffer& buffer : buffers) {
+                buffer.abandon();
+            }
+        }
+    }
+};
+
 } // namespace
 
 RunMemory::~RunMemory() {
@@ -146,40 +159,47 @@ void RunMemory::record_uploads(VkCommandBuffer commands) {
     staged_ = 0;
 }
 
-Result<Done> RunMemory::upload(BufferRole role, VkDeviceSize to, std::span<const std::byte> bytes) {
+Task<Result<Done>> RunMemory::upload(BufferRole role, VkDeviceSize to,
+                                     std::span<const std::byte> bytes) {
     const DeviceTable& vk = sampler_.vk;
     for (std::size_t done = 0; done < bytes.size();) {
         const std::size_t part = std::min(bytes.size() - done, staging_.bytes().size());
         std::memcpy(staging_.bytes().data(), bytes.data() + done, part);
-        auto copied = submitter_.run([&](VkCommandBuffer commands) {
+        auto copied = submitter_.submit([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{0, to + done, part};
             vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer(role).handle(), 1, &copy);
             barrier_transfer_to_compute(vk, commands);
         });
+        if (copied) {
+            copied = co_await submitter_.ended();
+        }
         if (!copied) {
-            return copied;
+            co_return copied;
         }
         done += part;
     }
-    return Done{};
+    co_return Done{};
 }
 
-Result<Done> RunMemory::read(BufferRole role, std::span<std::byte> bytes) {
+Task<Result<Done>> RunMemory::read(BufferRole role, std::span<std::byte> bytes) {
     const DeviceTable& vk = sampler_.vk;
     for (std::size_t done = 0; done < bytes.size();) {
         const std::size_t part = std::min(bytes.size() - done, staging_.bytes().size());
-        auto copied = submitter_.run([&](VkCommandBuffer commands) {
+        auto copied = submitter_.submit([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{done, 0, part};
             vk.vkCmdCopyBuffer(commands, buffer(role).handle(), staging_.handle(), 1, &copy);
             barrier_transfer_to_host(vk, commands);
         });
+        if (copied) {
+            copied = co_await submitter_.ended();
+        }
         if (!copied) {
-            return copied;
+            co_return copied;
         }
         std::memcpy(bytes.data() + done, staging_.bytes().data(), part);
         done += part;
     }
-    return Done{};
+    co_return Done{};
 }
 
 void RunMemory::record_samples(VkCommandBuffer commands, VkDeviceSize bytes) {
@@ -222,40 +242,38 @@ Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
     return Done{};
 }
 
-Result<Done> RunMemory::enlarge_samples(const std::array<VkDeviceSize, 3>& bytes,
-                                        std::uint32_t kept) {
+Task<Result<Done>> RunMemory::enlarge_samples(std::array<VkDeviceSize, 3> bytes,
+                                              std::uint32_t kept) {
     constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
-    std::array<DeviceBuffer, kRoles.size()> larger;
+    InUse larger{submitter_, {}};
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
         auto allocated = create(to_string(kRoles[i]), bytes[i]);
         if (!allocated) {
-            return allocated.error();
+            co_return allocated.error();
         }
-        larger[i] = std::move(*allocated);
+        larger.buffers[i] = std::move(*allocated);
     }
     if (kept > 0) {
         const DeviceTable& vk = sampler_.vk;
-        auto copied = submitter_.run([&](VkCommandBuffer commands) {
+        auto copied = submitter_.submit([&](VkCommandBuffer commands) {
             const VkBufferCopy copy{0, 0, VkDeviceSize{kept} * sizeof(gpu::SampleRec)};
             for (std::size_t i = 0; i < 2; ++i) { // What the buckets held is of no use any more.
-                vk.vkCmdCopyBuffer(commands, buffer(kRoles[i]).handle(), larger[i].handle(), 1,
-                                   &copy);
+                vk.vkCmdCopyBuffer(commands, buffer(kRoles[i]).handle(), larger.buffers[i].handle(),
+                                   1, &copy);
             }
             barrier_transfer_to_compute(vk, commands);
         });
+        if (copied) {
+            copied = co_await submitter_.ended();
+        }
         if (!copied) {
-            if (submitter_.abandoned()) {
-                for (DeviceBuffer& buffer : larger) {
-                    buffer.abandon();
-                }
-            }
-            return copied;
+            co_return copied;
         }
     }
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
-        buffer(kRoles[i]) = std::move(larger[i]);
+        buffer(kRoles[i]) = std::move(larger.buffers[i]);
     }
-    return Done{};
+    co_return Done{};
 }
 
 } // namespace geodisk

@@ -10,6 +10,7 @@
 
 #include "engine/sampler_impl.hpp"
 #include "engine/submitter.hpp"
+#include "engine/task.hpp"
 #include "records.h"
 #include "vk/buffer.hpp"
 
@@ -51,7 +52,7 @@ class RunMemory {
     std::span<std::byte> stage(BufferRole role, VkDeviceSize to, std::size_t size);
     void record_uploads(VkCommandBuffer commands);
     /// In as many parts as it takes, at once.
-    Result<Done> upload(BufferRole role, VkDeviceSize to, std::span<const std::byte> bytes);
+    Task<Result<Done>> upload(BufferRole role, VkDeviceSize to, std::span<const std::byte> bytes);
 
     /// Records that the host gets the control record.
     void record_control(VkCommandBuffer commands) const;
@@ -60,12 +61,12 @@ class RunMemory {
     void record_samples(VkCommandBuffer commands, VkDeviceSize bytes);
     /// What it got since the last record_uploads.
     std::span<const std::byte> samples() const;
-    Result<Done> read(BufferRole role, std::span<std::byte> bytes);
+    Task<Result<Done>> read(BufferRole role, std::span<std::byte> bytes);
 
     /// A pool of at least so many bytes; it loses what it held.
     Result<Done> enlarge_pool(VkDeviceSize bytes);
     /// The buffers of samples, as Job::sample_bytes has them; the first `kept` samples stay.
-    Result<Done> enlarge_samples(const std::array<VkDeviceSize, 3>& bytes, std::uint32_t kept);
+    Task<Result<Done>> enlarge_samples(std::array<VkDeviceSize, 3> bytes, std::uint32_t kept);
 
   private:
     struct Upload {

@@ -18,6 +18,8 @@ constexpr double kSubmissionSeconds = 0.02;
 constexpr double kCpuSubmissionSeconds = 0.1;
 constexpr double kStallSeconds = 120;
 constexpr double kCpuStallSeconds = 600;
+// Of a look for the end of a submission.
+constexpr std::chrono::milliseconds kPatience(50);
 
 Result<VkQueueFamilyProperties>
 check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const QueueRef& queue) {
@@ -66,7 +68,9 @@ Runner& Runner::operator=(Runner&&) noexcept = default;
 Runner::~Runner() = default;
 
 void Runner::release_memory() noexcept {
-    impl_->release();
+    if (!impl_->run) {
+        impl_->release();
+    }
 }
 
 const Sampler& Runner::sampler() const noexcept {
@@ -101,15 +105,21 @@ std::uint64_t Runner::Impl::bytes_allowed() const {
     return most_free > 0 ? std::min(bytes, most_free + kept) : bytes;
 }
 
-Result<Done> Runner::Impl::run_timed(const std::function<void(VkCommandBuffer)>& record) {
+Result<Done> Runner::Impl::submit_timed(const std::function<void(VkCommandBuffer)>& record) {
     if (!clock) {
-        return submitter->run(record);
+        return submitter->submit(record);
     }
-    auto done = submitter->run([&](VkCommandBuffer commands) {
+    return submitter->submit([&](VkCommandBuffer commands) {
         clock->begin(commands);
         record(commands);
     });
-    return done ? clock->collect() : done;
+}
+
+void Runner::Impl::cancel() noexcept {
+    if (run) {
+        submitter->give_up();
+        run.reset();
+    }
 }
 
 Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
@@ -169,7 +179,21 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
 
 Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
                                           const ProgressCallback& progress) noexcept {
-    return guarded([&] { return run_and_wait(*impl_, domain, progress); });
+    auto set = guarded([&]() -> Result<SampleSet> {
+        if (auto started = start(domain, progress); !started) {
+            return started.error();
+        }
+        for (;;) {
+            auto ended = poll(kPatience);
+            if (!ended) {
+                return ended.error();
+            }
+            if (*ended) {
+                return std::move(**ended);
+            }
+        }
+    });
+    return set;
 }
 
 Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
@@ -179,8 +203,56 @@ Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const Sample
         if (!domain) {
             return domain.error();
         }
-        return run_and_wait(*impl_, *domain, progress);
+        return sample_and_wait(*domain, progress);
     });
+}
+
+Result<Done> Runner::start(const Domain& domain, const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (impl_->run) {
+            return Error{Status::invalid_argument, "a run is in progress"};
+        }
+        impl_->progress = {};
+        impl_->run.emplace(geodisk::run(*impl_, domain, progress));
+        impl_->run->resume();
+        return Done{};
+    });
+}
+
+Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience) noexcept {
+    auto polled = guarded([&]() -> Result<std::optional<SampleSet>> {
+        if (!impl_->run) {
+            return Error{Status::invalid_argument, "no run is in progress"};
+        }
+        Submitter& submitter = *impl_->submitter;
+        if (submitter.is_awaited() && submitter.is_over(std::max(patience, {}))) {
+            submitter.resume();
+        }
+        if (!impl_->run->is_done()) {
+            return std::optional<SampleSet>();
+        }
+        auto set = impl_->run->take();
+        if (!set) {
+            return set.error();
+        }
+        return std::optional<SampleSet>(std::move(*set));
+    });
+    if (!polled || *polled) {
+        impl_->cancel();
+    }
+    return polled;
+}
+
+void Runner::cancel() noexcept {
+    impl_->cancel();
+}
+
+Progress Runner::progress() const noexcept {
+    return impl_->progress;
+}
+
+VkFence Runner::fence() const noexcept {
+    return impl_->submitter->is_awaited() ? impl_->submitter->fence() : VK_NULL_HANDLE;
 }
 
 } // namespace geodisk

@@ -14,6 +14,7 @@
 #include "engine/sampler_impl.hpp"
 #include "engine/stage_clock.hpp"
 #include "engine/submitter.hpp"
+#include "engine/task.hpp"
 #include "records.h"
 #include "vk/buffer.hpp"
 
@@ -30,12 +31,18 @@ struct Runner::Impl {
     // Kept from run to run.
     std::optional<RunMemory> workspace;
     std::optional<Job> job;
+    // Of the run that was started.
+    std::optional<Task<Result<SampleSet>>> run;
+    Progress progress{};
 
     /// Seconds since some moment; of a test where it says so.
     std::function<double()> now;
 
     explicit Impl(std::shared_ptr<const Sampler> s);
-    ~Impl() { settle(); }
+    ~Impl() {
+        cancel();
+        settle();
+    }
 
     /// Once a submission was given up, keeps all that it may still use from being destroyed. The
     /// buffers are left to whoever owns them.
@@ -62,8 +69,10 @@ struct Runner::Impl {
         workspace.reset();
     }
     const Sampler::Impl& engine() const { return *sampler.impl_; }
-    /// As Submitter::run, for what a job records.
-    Result<Done> run_timed(const std::function<void(VkCommandBuffer)>& record);
+    /// As Submitter::submit, for what a job records; StageClock::collect tells its times.
+    Result<Done> submit_timed(const std::function<void(VkCommandBuffer)>& record);
+    /// Ends a run that was started, whatever it has come to.
+    void cancel() noexcept;
     bool is_cpu() const { return engine().report.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     std::chrono::duration<double> stall_limit() const;
     /// That a submission is to take.

@@ -1,5 +1,7 @@
 #include "engine/submitter.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <thread>
 #include <utility>
 
@@ -7,6 +9,11 @@
 #include "vk/result.hpp"
 
 namespace geodisk {
+namespace {
+
+constexpr std::chrono::milliseconds kSlice(50);
+
+} // namespace
 
 Result<Submitter> Submitter::create(const DeviceRefs& device, const DeviceTable& vk,
                                     const QueueRef& queue,
@@ -74,6 +81,14 @@ Result<Done> Submitter::ready() const {
 }
 
 Result<Done> Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
+    if (auto submitted = submit(record); !submitted) {
+        return submitted;
+    }
+    wait();
+    return std::move(end_);
+}
+
+Result<Done> Submitter::submit(const std::function<void(VkCommandBuffer)>& record) {
     if (auto usable = ready(); !usable) {
         return usable;
     }
@@ -113,34 +128,55 @@ Result<Done> Submitter::run(const std::function<void(VkCommandBuffer)>& record) 
     if (status != VK_SUCCESS) {
         return failed("vkQueueSubmit", status);
     }
-    return wait();
+    waited_ = {};
+    last_look_ = std::chrono::steady_clock::now();
+    end_ = Done{};
+    in_flight_ = true;
+    return Done{};
 }
 
-Result<Done> Submitter::wait() {
-    constexpr std::chrono::milliseconds kSlice(50);
+bool Submitter::is_over(std::chrono::milliseconds patience) {
+    const auto nanoseconds = static_cast<std::uint64_t>(std::chrono::nanoseconds(patience).count());
+    const VkResult status = vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE, nanoseconds);
+    in_flight_ = false;
+    if (status == VK_SUCCESS) {
+        return true;
+    }
+    if (status == VK_ERROR_DEVICE_LOST) {
+        end_ = failed("vkWaitForFences", status);
+        return true;
+    }
+    // A lack of memory ends the waiting but not the work, whose memory must not be freed yet.
+    if (status != VK_TIMEOUT) {
+        std::this_thread::sleep_for(patience);
+    }
     // Counted in slices: the clock goes on while the process is stopped.
-    std::chrono::duration<double> waited{};
-    for (;;) {
-        const VkResult status = vk_->vkWaitForFences(device_->device, 1, &fence_, VK_TRUE,
-                                                     std::chrono::nanoseconds(kSlice).count());
-        if (status == VK_SUCCESS) {
-            return Done{};
-        }
-        if (status == VK_ERROR_DEVICE_LOST) {
-            return failed("vkWaitForFences", status);
-        }
-        // A lack of memory ends the waiting but not the work, whose memory must not be freed yet.
-        if (status != VK_TIMEOUT) {
-            std::this_thread::sleep_for(kSlice);
-        }
-        waited += kSlice;
-        if (waited > stall_limit_) {
-            abandoned_ = true;
-            return Error{Status::device_lost,
-                         "the device has not answered for " + number_text(stall_limit_.count()) +
-                             " seconds",
-                         kNoElement, status};
-        }
+    const auto now = std::chrono::steady_clock::now();
+    using Seconds = std::chrono::duration<double>;
+    waited_ +=
+        patience.count() > 0 ? Seconds(patience) : std::min<Seconds>(now - last_look_, kSlice);
+    last_look_ = now;
+    if (waited_ > stall_limit_) {
+        abandoned_ = true;
+        end_ = Error{Status::device_lost,
+                     "the device has not answered for " + number_text(stall_limit_.count()) +
+                         " seconds",
+                     kNoElement, status};
+        return true;
+    }
+    in_flight_ = true;
+    return false;
+}
+
+void Submitter::wait() {
+    while (!is_over(kSlice)) {
+    }
+}
+
+void Submitter::give_up() {
+    waiting_ = nullptr;
+    if (in_flight_) {
+        wait();
     }
 }
 

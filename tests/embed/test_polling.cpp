@@ -1,0 +1,164 @@
+// Runs that do not block.
+#include <doctest/doctest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "watched_bench.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// Polls to the end of a run; what came, and how often it was asked for.
+struct Polled {
+    SampleSet set;
+    std::uint32_t polls = 0;
+};
+
+Polled polled(Runner& runner, std::chrono::milliseconds patience = std::chrono::milliseconds(1)) {
+    for (std::uint32_t polls = 1;; ++polls) {
+        auto set = expect(runner.poll(patience));
+        if (set) {
+            return {std::move(*set), polls};
+        }
+    }
+}
+
+std::string refusal(const Result<Done>& result) {
+    REQUIRE_FALSE(result);
+    CHECK(result.error().status == Status::invalid_argument);
+    return result.error().message;
+}
+
+} // namespace
+
+TEST_SUITE("polling") {
+    TEST_CASE("a run goes on poll by poll, and gives the same set") {
+        Bench bench;
+        RunnerOptions options;
+        SUBCASE("as planned") {}
+        SUBCASE("with memory that grows, chunk by chunk") {
+            options.plan.stages = 1;
+            options.plan.slots = 8;
+            options.plan.sample_capacity = 9;
+            options.plan.window_capacity = 2;
+            options.plan.table_capacity = 4;
+            options.plan.list_capacity = 4;
+        }
+        SUBCASE("with timestamps") { options.time_stages = true; }
+        Runner runner = expect(bench.create(options));
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        for (int turn = 0; turn < 2; ++turn) {
+            CHECK(runner.fence() == VK_NULL_HANDLE);
+            expect(runner.start(domain));
+            CHECK(runner.fence() != VK_NULL_HANDLE);
+            bench.check_set(polled(runner).set);
+            CHECK(runner.fence() == VK_NULL_HANDLE);
+        }
+        bench.check_run(runner);
+    }
+
+    TEST_CASE("a poll without patience returns while the device is at work") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        expect(runner.start(domain));
+        bench.spy.never_signal = true;
+        for (int i = 0; i < 100; ++i) {
+            CHECK_FALSE(expect(runner.poll()));
+        }
+        bench.spy.never_signal = false;
+        bench.check_set(polled(runner).set);
+    }
+
+    TEST_CASE("runners on one queue take turns") {
+        Bench bench;
+        const auto sampler = std::make_shared<const Sampler>(
+            expect(Sampler::create(bench.context.device(), {})));
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        std::vector<Runner> runners;
+        for (int i = 0; i < 3; ++i) {
+            runners.push_back(expect(Runner::create(sampler, bench.context.queue())));
+            expect(runners.back().start(domain));
+        }
+        std::uint32_t complete = 0;
+        std::vector<bool> done(runners.size(), false);
+        while (complete < runners.size()) {
+            for (std::size_t i = 0; i < runners.size(); ++i) {
+                if (done[i]) {
+                    continue;
+                }
+                auto set = expect(runners[i].poll());
+                if (set) {
+                    bench.check_set(std::move(*set));
+                    done[i] = true;
+                    ++complete;
+                }
+            }
+        }
+    }
+
+    TEST_CASE("a run may be cancelled, or go with its runner, at any time") {
+        Bench bench;
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        RunnerOptions options;
+        options.plan.stages = 1; // More submissions.
+        for (std::uint32_t polls = 0; polls < 12; ++polls) {
+            CAPTURE(polls);
+            Runner runner = expect(bench.create(options));
+            expect(runner.start(domain));
+            for (std::uint32_t i = 0; i < polls; ++i) {
+                if (expect(runner.poll())) {
+                    break;
+                }
+            }
+            runner.cancel();
+            runner.cancel();
+            CHECK(runner.fence() == VK_NULL_HANDLE);
+            bench.check_run(runner);
+            expect(runner.start(domain));
+            runner.release_memory(); // Not now.
+        }
+        CHECK(bench.spy.alive().empty());
+        CHECK(bench.spy.strangers() == 0);
+    }
+
+    TEST_CASE("what a progress callback stops, and what fails, ends the run") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        expect(runner.start(domain, [](const Progress&) { return false; }));
+        Result<std::optional<SampleSet>> set = std::optional<SampleSet>();
+        while (set && !*set) {
+            set = runner.poll(std::chrono::milliseconds(1));
+        }
+        REQUIRE_FALSE(set);
+        CHECK(set.error().status == Status::cancelled);
+        CHECK(runner.progress().candidates > 0);
+        bench.spy.fail("vkQueueSubmit", 0, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        expect(runner.start(domain));
+        set = runner.poll();
+        REQUIRE_FALSE(set);
+        CHECK(set.error().status == Status::out_of_device_memory);
+        CHECK(bench.spy.end_of_fault());
+        bench.check_run(runner);
+    }
+
+    TEST_CASE("one run at a time") {
+        Bench bench;
+        Runner runner = expect(bench.create());
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        const auto none = runner.poll();
+        REQUIRE_FALSE(none);
+        CHECK(none.error().message == "no run is in progress");
+        expect(runner.start(domain));
+        CHECK(refusal(runner.start(domain)) == "a run is in progress");
+        const auto waiting = runner.sample_and_wait(bench.mesh, bench.params);
+        REQUIRE_FALSE(waiting);
+        CHECK(waiting.error().message == "a run is in progress");
+        bench.check_set(polled(runner).set);
+    }
+}
+
+} // namespace geodisk::test
