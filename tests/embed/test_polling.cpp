@@ -46,7 +46,9 @@ TEST_SUITE("polling") {
             options.plan.table_capacity = 4;
             options.plan.list_capacity = 4;
         }
-        SUBCASE("with timestamps") { options.time_stages = true; }
+        SUBCASE("with timestamps") {
+            options.time_stages = true;
+        }
         Runner runner = expect(bench.create(options));
         const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
         for (int turn = 0; turn < 2; ++turn) {
@@ -74,8 +76,8 @@ TEST_SUITE("polling") {
 
     TEST_CASE("runners on one queue take turns") {
         Bench bench;
-        const auto sampler = std::make_shared<const Sampler>(
-            expect(Sampler::create(bench.context.device(), {})));
+        const auto sampler =
+            std::make_shared<const Sampler>(expect(Sampler::create(bench.context.device(), {})));
         const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
         std::vector<Runner> runners;
         for (int i = 0; i < 3; ++i) {

@@ -1,17 +1,11 @@
-# geodisk_add_kernel(TARGET NAME): compiles shaders/kernels/NAME.comp to SPIR-V 1.3, once as it is and
-# once to read through texel buffers, and writes both as C arrays to the build tree, where TARGET
-# includes them as "NAME.spv.inc" and "NAME_texels.spv.inc".
+# geodisk_add_kernel(TARGET NAME VARIANT [OPTION...]): compiles shaders/kernels/NAME.comp to SPIR-V 1.3
+# with these options of the compiler, and writes it as a C array to the build tree, where TARGET includes
+# it as "VARIANT.spv.inc".
 find_program(GEODISK_GLSLANG NAMES glslangValidator glslang REQUIRED
     DOC "The GLSL compiler (package glslang-tools)")
 find_program(GEODISK_SPIRV_VAL NAMES spirv-val DOC "The SPIR-V validator (package spirv-tools)")
 
-function(geodisk_add_kernel target name)
-    geodisk_add_kernel_variant(${target} ${name} ${name})
-    geodisk_add_kernel_variant(${target} ${name} ${name}_texels -DGEODISK_TEXELS)
-endfunction()
-
-# Further arguments are options of the compiler.
-function(geodisk_add_kernel_variant target name variant)
+function(geodisk_add_kernel target name variant)
     set(source "${PROJECT_SOURCE_DIR}/shaders/kernels/${name}.comp")
     set(folder "${CMAKE_CURRENT_BINARY_DIR}/kernels")
     set(binary "${folder}/${variant}.spv")

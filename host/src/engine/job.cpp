@@ -132,12 +132,17 @@ std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
     }
 }
 
-/// Whether some kernel reads this buffer as texels.
+/// Whether some kernel reads this buffer as texels, by whatever binding.
 bool read_as_texels(std::size_t buffer) {
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
-            if (binding.number == buffer && binding.access == Access::read) {
-                return true;
+            for (std::size_t role = 0; role < 2 * kSetRoles; ++role) {
+                const bool all_single = role >= kSetRoles;
+                if (binding.access != Access::storage &&
+                    bound_as(static_cast<SetRole>(role % kSetRoles), binding.number, all_single) ==
+                        buffer) {
+                    return true;
+                }
             }
         }
     }

@@ -8,7 +8,6 @@ namespace geodisk {
 namespace {
 
 #include "begin_chunk.spv.inc"
-#include "begin_chunk_texels.spv.inc"
 #include "bin.spv.inc"
 #include "bin_texels.spv.inc"
 #include "box_bin.spv.inc"
@@ -21,9 +20,7 @@ namespace {
 #include "box_select_texels.spv.inc"
 #include "count.spv.inc"
 #include "count_calls.spv.inc"
-#include "count_calls_texels.spv.inc"
 #include "count_orders.spv.inc"
-#include "count_orders_texels.spv.inc"
 #include "count_texels.spv.inc"
 #include "detect.spv.inc"
 #include "detect_texels.spv.inc"
@@ -32,27 +29,18 @@ namespace {
 #include "grid_detect.spv.inc"
 #include "grid_detect_texels.spv.inc"
 #include "order_count.spv.inc"
-#include "order_count_texels.spv.inc"
 #include "order_place.spv.inc"
-#include "order_place_texels.spv.inc"
 #include "order_write.spv.inc"
-#include "order_write_texels.spv.inc"
 #include "place.spv.inc"
-#include "place_texels.spv.inc"
 #include "resolve.spv.inc"
-#include "resolve_texels.spv.inc"
 #include "resume.spv.inc"
-#include "resume_texels.spv.inc"
 #include "rewind.spv.inc"
-#include "rewind_texels.spv.inc"
 #include "scan_blocks.spv.inc"
 #include "scan_blocks_texels.spv.inc"
 #include "scan_sums.spv.inc"
-#include "scan_sums_texels.spv.inc"
 #include "select.spv.inc"
 #include "select_texels.spv.inc"
 #include "self_test.spv.inc"
-#include "self_test_texels.spv.inc"
 #include "space_bin.spv.inc"
 #include "space_bin_texels.spv.inc"
 #include "space_count.spv.inc"
@@ -89,7 +77,7 @@ constexpr Binding kDraw[] = {
     {kBindFaces, read},     {kBindFans, read},       {kBindKeys, read},      {kBindCells, storage},
     {kBindStates, storage}, {kBindWeights, storage}, {kBindOrders, storage}, {kBindStarts, read}};
 constexpr Binding kBeginChunk[] = {
-    {kBindStarts, read}, {kBindControl, storage}, {kBindList, storage}};
+    {kBindStarts, storage}, {kBindControl, storage}, {kBindList, storage}};
 constexpr Binding kSelect[] = {{kBindStates, storage},          {kBindWeights, read},
                                {kBindOrders, storage},          {kBindStarts, read},
                                {kBindControl, storage},         {kBindList, storage},
@@ -100,24 +88,26 @@ constexpr Binding kDetect[] = {
     {kBindStates, read},  {kBindWeights, read},    {kBindOrders, read},
     {kBindPool, storage}, {kBindControl, storage}, {kBindPoolTexels, read_own}};
 constexpr Binding kResolve[] = {{kBindStates, storage}, {kBindOrders, storage},
-                                {kBindPool, read},      {kBindControl, storage},
+                                {kBindPool, storage},   {kBindControl, storage},
                                 {kBindList, storage},   {kBindAccepted, storage}};
-constexpr Binding kCountCalls[] = {{kBindStates, read},
+constexpr Binding kCountCalls[] = {{kBindStates, storage},
                                    {kBindOrders, storage},
-                                   {kBindPool, read},
+                                   {kBindPool, storage},
                                    {kBindControl, storage},
                                    {kBindList, storage}};
 constexpr Binding kRewind[] = {
     {kBindStates, storage}, {kBindOrders, storage}, {kBindControl, storage}};
 constexpr Binding kResume[] = {{kBindControl, storage}, {kBindList, storage}};
-constexpr Binding kCountOrders[] = {{kBindOrders, read}, {kBindControl, storage}};
+constexpr Binding kCountOrders[] = {{kBindOrders, storage}, {kBindControl, storage}};
 constexpr Binding kOrderCount[] = {
-    {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
+    {kBindControl, storage}, {kBindAccepted, storage}, {kBindBuckets, storage}};
 constexpr Binding kOrderPlace[] = {
-    {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
-constexpr Binding kOrderWrite[] = {
-    {kBindControl, storage}, {kBindSamples, storage}, {kBindAccepted, read}, {kBindBuckets, read}};
-constexpr Binding kPlace[] = {{kBindFans, read},        {kBindKeys, read},
+    {kBindControl, storage}, {kBindAccepted, storage}, {kBindBuckets, storage}};
+constexpr Binding kOrderWrite[] = {{kBindControl, storage},
+                                   {kBindSamples, storage},
+                                   {kBindAccepted, storage},
+                                   {kBindBuckets, storage}};
+constexpr Binding kPlace[] = {{kBindFans, storage},     {kBindKeys, storage},
                               {kBindControl, storage},  {kBindSamples, storage},
                               {kBindVertices, storage}, {kBindIndices, storage},
                               {kBindPlaced, storage},   {kBindArguments, storage}};
@@ -160,23 +150,23 @@ constexpr Binding kGridDetect[] = {
 const std::array<KernelInfo, kKernels> kTable{{
     {"count", k_count_spirv, k_count_texels_spirv, kCount, false, DomainKind::surface},
     {"sum_blocks", k_sum_blocks_spirv, k_sum_blocks_texels_spirv, kSumBlocks, false},
-    {"scan_sums", k_scan_sums_spirv, k_scan_sums_texels_spirv, kScanSums, false},
+    {"scan_sums", k_scan_sums_spirv, k_scan_sums_spirv, kScanSums, false},
     {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanBlocks, false},
     {"bin", k_bin_spirv, k_bin_texels_spirv, kBin, false, DomainKind::surface},
     {"draw", k_draw_spirv, k_draw_texels_spirv, kDraw, false, DomainKind::surface},
-    {"begin_chunk", k_begin_chunk_spirv, k_begin_chunk_texels_spirv, kBeginChunk, true},
+    {"begin_chunk", k_begin_chunk_spirv, k_begin_chunk_spirv, kBeginChunk, true},
     {"select", k_select_spirv, k_select_texels_spirv, kSelect, true, DomainKind::surface},
     {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true, DomainKind::surface},
-    {"resolve", k_resolve_spirv, k_resolve_texels_spirv, kResolve, true},
-    {"count_calls", k_count_calls_spirv, k_count_calls_texels_spirv, kCountCalls, true},
-    {"rewind", k_rewind_spirv, k_rewind_texels_spirv, kRewind, true},
-    {"resume", k_resume_spirv, k_resume_texels_spirv, kResume, true},
-    {"count_orders", k_count_orders_spirv, k_count_orders_texels_spirv, kCountOrders, false},
-    {"order_count", k_order_count_spirv, k_order_count_texels_spirv, kOrderCount, false},
-    {"order_place", k_order_place_spirv, k_order_place_texels_spirv, kOrderPlace, false},
-    {"order_write", k_order_write_spirv, k_order_write_texels_spirv, kOrderWrite, false},
-    {"place", k_place_spirv, k_place_texels_spirv, kPlace, false, DomainKind::placement},
-    {"self_test", k_self_test_spirv, k_self_test_texels_spirv, kSelfTest, false},
+    {"resolve", k_resolve_spirv, k_resolve_spirv, kResolve, true},
+    {"count_calls", k_count_calls_spirv, k_count_calls_spirv, kCountCalls, true},
+    {"rewind", k_rewind_spirv, k_rewind_spirv, kRewind, true},
+    {"resume", k_resume_spirv, k_resume_spirv, kResume, true},
+    {"count_orders", k_count_orders_spirv, k_count_orders_spirv, kCountOrders, false},
+    {"order_count", k_order_count_spirv, k_order_count_spirv, kOrderCount, false},
+    {"order_place", k_order_place_spirv, k_order_place_spirv, kOrderPlace, false},
+    {"order_write", k_order_write_spirv, k_order_write_spirv, kOrderWrite, false},
+    {"place", k_place_spirv, k_place_spirv, kPlace, false, DomainKind::placement},
+    {"self_test", k_self_test_spirv, k_self_test_spirv, kSelfTest, false},
     {"box_count", k_box_count_spirv, k_box_count_texels_spirv, kBoxCount, false, DomainKind::box},
     {"box_bin", k_box_bin_spirv, k_box_bin_texels_spirv, kBoxBin, false, DomainKind::box},
     {"box_draw", k_box_draw_spirv, k_box_draw_texels_spirv, kBoxDraw, false, DomainKind::box},

@@ -87,7 +87,8 @@ struct Binding {
 struct KernelInfo {
     const char* name;
     std::span<const std::uint32_t> spirv;        ///< Reads from storage buffers.
-    std::span<const std::uint32_t> texels_spirv; ///< Reads from texel buffers.
+    std::span<const std::uint32_t> texels_spirv; ///< Reads from texel buffers, where that is
+                                                 ///< faster on llvmpipe; else the same.
     std::span<const Binding> bindings;           ///< Ascending; at most eight storage buffers.
     bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
     DomainKind domain = DomainKind::any;
@@ -122,7 +123,6 @@ constexpr VkFormat texel_format(std::uint32_t buffer) noexcept {
     case gpu::kBindFaces:
     case gpu::kBindFans:
     case gpu::kBindPool:
-    case gpu::kBindAccepted:
         return VK_FORMAT_R32G32B32A32_UINT;
     default:
         return VK_FORMAT_R32_UINT;

@@ -112,13 +112,12 @@ struct Placement::Impl {
 
 Result<Done> Placement::Impl::allocate_set() {
     const DeviceTable& vk = sampler->vk;
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8}, {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 2}}};
+    constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8};
     VkDescriptorPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool_info.maxSets = 1;
-    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
+    pool_info.poolSizeCount = 1;
+    pool_info.pPoolSizes = &kSize;
     VkResult result =
         null_unless_success(vk.vkCreateDescriptorPool(sampler->device.device, &pool_info,
                                                       sampler->device.host_allocator, &pool),
@@ -138,25 +137,21 @@ Result<Done> Placement::Impl::allocate_set() {
 }
 
 void Placement::Impl::bind(const Job::Impl& job, const CallersRanges& ranges) const {
-    const auto write = [&](std::uint32_t binding, const BufferRange& range, Access access) {
-        const VkDescriptorBufferInfo info{range.buffer, range.offset, range.size};
-        VkWriteDescriptorSet descriptor{};
-        descriptor.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        descriptor.dstSet = set;
-        descriptor.dstBinding = binding;
-        descriptor.descriptorCount = 1;
-        descriptor.descriptorType = descriptor_type(access, sampler->reads_texels());
-        descriptor.pBufferInfo = &info;
-        descriptor.pTexelBufferView = binding < kBufferRoles ? &job.views[binding] : nullptr;
-        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &descriptor, 0, nullptr);
-    };
     for (const Binding& binding : kernel_info(Kernel::place).bindings) {
         const auto* const callers =
             std::find_if(ranges.begin(), ranges.end(),
                          [&](const NamedRange& own) { return own.binding == binding.number; });
-        write(binding.number,
-              callers != ranges.end() ? callers->range : job.workspace[binding.number],
-              binding.access);
+        const BufferRange& range =
+            callers != ranges.end() ? callers->range : job.workspace[binding.number];
+        const VkDescriptorBufferInfo info{range.buffer, range.offset, range.size};
+        VkWriteDescriptorSet descriptor{};
+        descriptor.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        descriptor.dstSet = set;
+        descriptor.dstBinding = binding.number;
+        descriptor.descriptorCount = 1;
+        descriptor.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        descriptor.pBufferInfo = &info;
+        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &descriptor, 0, nullptr);
     }
 }
 

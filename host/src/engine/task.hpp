@@ -8,9 +8,9 @@
 
 namespace geodisk {
 
-/// Owns a coroutine that returns a T. It runs when it is first resumed or awaited; whoever awaits it
-/// goes on when it has returned, or with its exception. Destroying it destroys all that its frame
-/// holds, wherever it stands.
+/// Owns a coroutine that returns a T. It runs when it is first resumed or awaited; whoever awaits
+/// it goes on when it has returned, or with its exception. Destroying it destroys all that its
+/// frame holds, wherever it stands.
 template <class T>
 class [[nodiscard]] Task {
   public:
