@@ -66,7 +66,7 @@ function(check_kernels name family least_kernels)
 endfunction()
 
 # GFX9, and GFX10.3 also with what only some runs have.
-check_kernels(vega10 vega10 72)
-check_kernels(navi21 navi21 72)
-check_kernels(navi21-texels navi21 73 --reads texels --count-calls)
+check_kernels(vega10 vega10 86)
+check_kernels(navi21 navi21 86)
+check_kernels(navi21-texels navi21 87 --reads texels --count-calls)
 message("figures are in ${OUTPUT}")

@@ -35,10 +35,13 @@ Result<ReportTable> load_report_table(const DeviceRefs& refs) {
 
 /// What a kernel is specialized for, in words.
 std::string text_of(const KernelVariant& variant) {
+    const std::string surfaces = std::string(variant.several ? "surfaces, " : "surface, ") +
+                                 (variant.adaptive ? "varying radii" : "one radius");
     switch (variant.domain) {
     case DomainKind::surface:
-        return std::string("surface, ") + (variant.adaptive ? "varying radii, " : "one radius, ") +
-               (variant.event_heap ? "heap" : "ring");
+        return surfaces + (variant.event_heap ? ", heap" : ", ring");
+    case DomainKind::placement:
+        return surfaces;
     case DomainKind::box:
         return "box, dimension " + std::to_string(variant.dimension);
     case DomainKind::space:

@@ -193,6 +193,15 @@ std::vector<KernelVariant> all_kernel_variants() {
             variant.adaptive = adaptive;
             variant.event_heap = event_heap;
         }
+        KernelVariant& several = variants.emplace_back();
+        several.adaptive = adaptive;
+        several.several = true;
+        for (const bool of_several : {false, true}) {
+            KernelVariant& placement = variants.emplace_back();
+            placement.domain = DomainKind::placement;
+            placement.adaptive = adaptive;
+            placement.several = of_several;
+        }
     }
     for (std::uint32_t dimension = 1; dimension <= kMostBoxDimensions; ++dimension) {
         KernelVariant& variant = variants.emplace_back();

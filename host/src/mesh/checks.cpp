@@ -15,6 +15,8 @@ namespace {
 
 // Half-edge indices carry two flag bits in places, faces two in their cell word.
 constexpr std::uint64_t kMaxFaces = (std::uint64_t{1} << 30) / 3;
+// Above a vertex's number the kernels keep two flags.
+constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
 // Beyond them squared lengths could leave the range of double.
 constexpr double kLargestCoordinate = 1e100;
 constexpr double kSmallestExtent = 1e-100;
@@ -171,8 +173,9 @@ Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices) {
     if (faces == 0) {
         return rejected("the mesh has no faces");
     }
-    if (faces > kMaxFaces || vertices >= (std::uint64_t{1} << 31)) {
-        return rejected("the mesh is too large: at most 357,913,941 faces can be indexed");
+    if (faces > kMaxFaces || vertices > kMaxVertices) {
+        return rejected("the mesh is too large: at most 357,913,941 faces and 1,073,741,824 "
+                        "vertices can be indexed");
     }
     return Done{};
 }
