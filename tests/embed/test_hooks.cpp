@@ -70,18 +70,28 @@ struct SmallJob {
     }
 };
 
+/// A device whose buffers lie in the arena.
+struct HookedDevice {
+    AppDevice app;
+    Arena arena{app.refs()};
+    MemoryHooks hooks = arena.hooks();
+
+    Result<Runner> create() const {
+        DeviceRefs refs = app.refs();
+        refs.memory_hooks = &hooks;
+        return Runner::create(refs, app.queue());
+    }
+};
+
 } // namespace
 
 TEST_SUITE("hooks") {
     TEST_CASE("buffers lie in the caller's memory, and go back to it") {
-        AppDevice app;
-        Arena arena(app.refs());
-        const MemoryHooks hooks = arena.hooks();
-        DeviceRefs refs = app.refs();
-        refs.memory_hooks = &hooks;
+        HookedDevice device;
+        Arena& arena = device.arena;
         const SmallJob job;
         {
-            Runner runner = expect(Runner::create(refs, app.queue()));
+            Runner runner = expect(device.create());
             job.check(runner);
             const std::uint32_t asked = arena.asked;
             CHECK(asked > 0);
@@ -93,17 +103,14 @@ TEST_SUITE("hooks") {
             CHECK_FALSE(arena.alive.empty());
         }
         CHECK(arena.alive.empty());
-        CHECK(app.messages().empty());
+        CHECK(device.app.messages().empty());
     }
 
     TEST_CASE("a caller without memory is an error that names the bytes, whichever it lacks") {
-        AppDevice app;
-        Arena arena(app.refs());
-        const MemoryHooks hooks = arena.hooks();
-        DeviceRefs refs = app.refs();
-        refs.memory_hooks = &hooks;
+        HookedDevice device;
+        Arena& arena = device.arena;
         const SmallJob job;
-        Runner runner = expect(Runner::create(refs, app.queue()));
+        Runner runner = expect(device.create());
         arena.asked = 0;
         job.check(runner);
         const std::uint32_t needed = arena.asked;
@@ -127,7 +134,7 @@ TEST_SUITE("hooks") {
         CHECK(arena.alive.empty());
         arena.forget_to_map = false;
         job.check(runner);
-        CHECK(app.messages().empty());
+        CHECK(device.app.messages().empty());
     }
 
     TEST_CASE(

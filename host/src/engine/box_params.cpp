@@ -11,6 +11,7 @@
 #include "engine/stages.hpp"
 #include "geodisk/philox.hpp"
 #include "support/guard.hpp"
+#include "support/invalid.hpp"
 #include "support/number_text.hpp"
 
 namespace geodisk {
@@ -31,10 +32,6 @@ constexpr double kLargestIntensity = 0x1p126;
 constexpr double kHalfStep = 1.4142135623730951;
 // A distance then still has 256 steps of a coordinate.
 constexpr double kLongestSide = 0x1p24;
-
-Error invalid(std::string message) {
-    return {Status::invalid_argument, std::move(message)};
-}
 
 double shortest_side(const BoxParams& box) {
     return *std::min_element(box.extents.begin(), box.extents.end());

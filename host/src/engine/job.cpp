@@ -14,6 +14,7 @@
 #include "records.h"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
+#include "vk/descriptors.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
@@ -394,17 +395,9 @@ Result<Done> Job::Impl::allocate_sets() {
                                    sampler->device.host_allocator);
         sets = {};
     }
-    VkDescriptorPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool_info.maxSets = kSets;
-    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
-    VkResult result = null_unless_success(vk.vkCreateDescriptorPool(device, &pool_info,
-                                                                    sampler->device.host_allocator,
-                                                                    &descriptor_pool),
-                                          descriptor_pool);
-    if (result != VK_SUCCESS) {
-        return vk_error("vkCreateDescriptorPool", result);
+    if (auto created = create_descriptor_pool(sampler->device, vk, sizes, kSets, descriptor_pool);
+        !created) {
+        return created;
     }
     std::vector<std::size_t> kernels;
     std::vector<VkDescriptorSetLayout> layouts;
@@ -415,15 +408,11 @@ Result<Done> Job::Impl::allocate_sets() {
         }
     }
     for (std::uint32_t role = 0; role < kSetRoles; ++role) {
-        VkDescriptorSetAllocateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-        info.descriptorPool = descriptor_pool;
-        info.descriptorSetCount = static_cast<std::uint32_t>(layouts.size());
-        info.pSetLayouts = layouts.data();
         std::vector<VkDescriptorSet> allocated(layouts.size());
-        result = vk.vkAllocateDescriptorSets(device, &info, allocated.data());
-        if (result != VK_SUCCESS) {
-            return vk_error("vkAllocateDescriptorSets", result);
+        if (auto done =
+                allocate_descriptor_sets(sampler->device, vk, descriptor_pool, layouts, allocated);
+            !done) {
+            return done;
         }
         for (std::size_t i = 0; i < kernels.size(); ++i) {
             sets[role][kernels[i]] = allocated[i];

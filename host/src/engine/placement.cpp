@@ -15,8 +15,9 @@
 #include "push.h"
 #include "records.h"
 #include "support/guard.hpp"
+#include "support/invalid.hpp"
 #include "vk/barriers.hpp"
-#include "vk/result.hpp"
+#include "vk/descriptors.hpp"
 
 namespace geodisk {
 namespace {
@@ -35,10 +36,6 @@ struct NamedRange {
     VkDeviceSize needed;
 };
 using CallersRanges = std::array<NamedRange, 4>;
-
-Error invalid(std::string message) {
-    return {Status::invalid_argument, std::move(message)};
-}
 
 /// Bytes up to the end of the last of so many vertices.
 VkDeviceSize vertex_bytes(const PlacementSource& source, std::uint64_t vertices) {
@@ -111,29 +108,12 @@ struct Placement::Impl {
 };
 
 Result<Done> Placement::Impl::allocate_set() {
-    const DeviceTable& vk = sampler->vk;
-    constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8};
-    VkDescriptorPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool_info.maxSets = 1;
-    pool_info.poolSizeCount = 1;
-    pool_info.pPoolSizes = &kSize;
-    VkResult result =
-        null_unless_success(vk.vkCreateDescriptorPool(sampler->device.device, &pool_info,
-                                                      sampler->device.host_allocator, &pool),
-                            pool);
-    if (result != VK_SUCCESS) {
-        return vk_error("vkCreateDescriptorPool", result);
-    }
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8};
     const VkDescriptorSetLayout layout = sampler->pipelines.set_layout(kPlace);
-    VkDescriptorSetAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    info.descriptorPool = pool;
-    info.descriptorSetCount = 1;
-    info.pSetLayouts = &layout;
-    result = vk.vkAllocateDescriptorSets(sampler->device.device, &info, &set);
-    return result == VK_SUCCESS ? Result<Done>(Done{})
-                                : vk_error("vkAllocateDescriptorSets", result);
+    auto created = create_descriptor_pool(sampler->device, sampler->vk, {&size, 1}, 1, pool);
+    return created ? allocate_descriptor_sets(sampler->device, sampler->vk, pool, {&layout, 1},
+                                              {&set, 1})
+                   : created;
 }
 
 void Placement::Impl::bind(const Job::Impl& job, const CallersRanges& ranges) const {
@@ -143,15 +123,8 @@ void Placement::Impl::bind(const Job::Impl& job, const CallersRanges& ranges) co
                          [&](const NamedRange& own) { return own.binding == binding.number; });
         const BufferRange& range =
             callers != ranges.end() ? callers->range : job.workspace[binding.number];
-        const VkDescriptorBufferInfo info{range.buffer, range.offset, range.size};
-        VkWriteDescriptorSet descriptor{};
-        descriptor.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        descriptor.dstSet = set;
-        descriptor.dstBinding = binding.number;
-        descriptor.descriptorCount = 1;
-        descriptor.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        descriptor.pBufferInfo = &info;
-        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &descriptor, 0, nullptr);
+        write_storage_buffer(sampler->device, sampler->vk, set, binding.number,
+                             {range.buffer, range.offset, range.size});
     }
 }
 

@@ -179,7 +179,7 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
 
 Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
                                           const ProgressCallback& progress) noexcept {
-    auto set = guarded([&]() -> Result<SampleSet> {
+    return guarded([&]() -> Result<SampleSet> {
         if (auto started = start(domain, progress); !started) {
             return started.error();
         }
@@ -193,7 +193,6 @@ Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
             }
         }
     });
-    return set;
 }
 
 Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,

@@ -9,7 +9,7 @@
 
 #include "engine/runner_impl.hpp"
 #include "vk/barriers.hpp"
-#include "vk/result.hpp"
+#include "vk/descriptors.hpp"
 
 namespace geodisk {
 namespace {
@@ -81,36 +81,20 @@ Result<Done> Runner::Impl::check_rounding() {
     const VkDescriptorSetLayout set_layout = sampler_impl.pipelines.set_layout(k);
     const VkPipelineLayout layout = sampler_impl.pipelines.layout(k);
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
-    VkDescriptorPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool_info.maxSets = 1;
-    pool_info.poolSizeCount = 1;
-    pool_info.pPoolSizes = &size;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    VkResult status = vk.vkCreateDescriptorPool(device, &pool_info, allocator, &pool);
-    if (status != VK_SUCCESS) {
-        return vk_error("vkCreateDescriptorPool", status);
+    if (auto created = create_descriptor_pool(sampler_impl.device, vk, {&size, 1}, 1, pool);
+        !created) {
+        return created;
     }
-    VkDescriptorSetAllocateInfo set_info{};
-    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    set_info.descriptorPool = pool;
-    set_info.descriptorSetCount = 1;
-    set_info.pSetLayouts = &set_layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    status = vk.vkAllocateDescriptorSets(device, &set_info, &set);
-    if (status != VK_SUCCESS) {
+    if (auto allocated =
+            allocate_descriptor_sets(sampler_impl.device, vk, pool, {&set_layout, 1}, {&set, 1});
+        !allocated) {
         vk.vkDestroyDescriptorPool(device, pool, allocator);
-        return vk_error("vkAllocateDescriptorSets", status);
+        return allocated;
     }
-    const VkDescriptorBufferInfo buffer{results->handle(), 0, results->size()};
-    VkWriteDescriptorSet write{};
-    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    write.dstSet = set;
-    write.dstBinding = gpu::kBindSums;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    write.pBufferInfo = &buffer;
-    vk.vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
+    write_storage_buffer(sampler_impl.device, vk, set, gpu::kBindSums,
+                         {results->handle(), 0, results->size()});
     gpu::Push push{};
     push.scan_count = kVectors;
     const auto record = [&](VkCommandBuffer commands) {

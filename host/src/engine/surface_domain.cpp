@@ -10,6 +10,7 @@
 #include "engine/plan.hpp"
 #include "engine/stages.hpp"
 #include "support/guard.hpp"
+#include "support/invalid.hpp"
 
 namespace geodisk {
 namespace {
@@ -55,10 +56,6 @@ Result<Domain> wrapped(Result<std::unique_ptr<const Domain::Impl>> made) {
 
 PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params) {
     return {&mesh, params, working_distance(mesh, params), 0, 0, 0};
-}
-
-Error invalid(std::string message) {
-    return {Status::invalid_argument, std::move(message)};
 }
 
 Error in_part(std::size_t part, Error error) {

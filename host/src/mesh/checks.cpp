@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/connectivity.hpp"
+#include "support/invalid.hpp"
 #include "support/number_text.hpp"
 
 namespace geodisk {
@@ -32,10 +33,6 @@ Error index_rejected(std::size_t corner, std::uint32_t vertex, std::uint64_t ver
     return rejected("face " + std::to_string(corner / 3) + " names vertex " +
                         std::to_string(vertex) + ", but there are only " + std::to_string(vertices),
                     corner / 3);
-}
-
-Error invalid(std::string message) {
-    return Error{Status::invalid_argument, std::move(message)};
 }
 
 /// Elements of some bytes, each a stride after the one before, made of parts of a type's size.

@@ -17,6 +17,7 @@
 #include "mesh/vertex_fans.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
+#include "support/invalid.hpp"
 
 namespace geodisk {
 namespace {
@@ -44,10 +45,6 @@ using Checksum = std::uint64_t;
 static_assert(std::has_unique_object_representations_v<Link>);
 static_assert(std::has_unique_object_representations_v<VertexFan>);
 static_assert(sizeof(Header) == 64 && sizeof(Shape) == 24);
-
-Error invalid(std::string message, std::uint64_t element = kNoElement) {
-    return Error{Status::invalid_argument, std::move(message), element};
-}
 
 /// Any change of eight bytes changes it, as each step can be undone. Four sums, which a processor
 /// can add to at once.
