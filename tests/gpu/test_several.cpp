@@ -154,6 +154,10 @@ TEST_SUITE("several") {
             CHECK(refusal({{&ball, good}, {&ball, counted}}) ==
                   "surface 1: of several surfaces, darts and samples are not counted");
         }
+        const std::string cells =
+            refusal({{&ball, good}, {&ball, with_pool(params_for(ball, 3e8), 1)}});
+        CHECK(cells.starts_with("surface 1: the minimum distance is too small: face "));
+        CHECK(cells.ends_with(" or with those before it takes more than 2^30 grid cells"));
     }
 }
 

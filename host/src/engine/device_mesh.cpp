@@ -135,8 +135,11 @@ Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
             const Grid grid = face_grid(*surface.mesh, surface.params, f, surface.unit);
             cells += grid.columns * grid.rows; // At most 2^62, and 2^30 before.
             if (cells > gpu::kFirstCellMask) {
+                const auto part = &surface - surfaces.data();
                 return Error{Status::invalid_argument,
-                             "the minimum distance is too small: face " + std::to_string(f) +
+                             (surfaces.size() == 1 ? ""
+                                                   : "surface " + std::to_string(part) + ": ") +
+                                 "the minimum distance is too small: face " + std::to_string(f) +
                                  " alone or with those before it takes more than 2^30 grid cells",
                              f};
             }
