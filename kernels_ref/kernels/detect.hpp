@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -230,9 +231,7 @@ class Detector {
         if (!(distance < limit_)) {
             return static_cast<Real>(kFar);
         }
-        const Real steps = distance * static_cast<Real>(0x1p15);
-        return static_cast<Real>(static_cast<std::uint32_t>(steps) + 1) *
-               static_cast<Real>(0x1p-15);
+        return (std::floor(distance * static_cast<Real>(0x1p15)) + 1) * static_cast<Real>(0x1p-15);
     }
 
     /// Whether `known` plus a straight way of length `way` beats the window's own distance to a

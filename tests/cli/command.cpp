@@ -65,8 +65,15 @@ Channel open_channel(bool is_terminal) {
         const rlimit limit{*setting.file_size_limit, *setting.file_size_limit};
         setrlimit(RLIMIT_FSIZE, &limit);
     }
+    // Whoever starts the tests may ignore signals, which programs then go on to do.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
+        std::signal(signal, SIG_DFL);
+    }
     if (chdir((folder / "").c_str()) == 0 && dup2(out, STDOUT_FILENO) >= 0 &&
         dup2(err, STDERR_FILENO) >= 0) {
+        for (const int stream : setting.closed) {
+            close(stream);
+        }
         execv(setting.program.c_str(), pointers.data());
     }
     _exit(127);
@@ -113,6 +120,9 @@ Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& argum
             const Setting& setting) {
     const Channel out = open_channel(false);
     const Channel err = open_channel(setting.has_terminal);
+    if (!setting.stdout_has_reader) {
+        close(out.reader);
+    }
     const pid_t child = fork();
     if (child == 0) {
         close(out.reader);
@@ -122,8 +132,10 @@ Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& argum
     close(out.writer);
     close(err.writer);
     Outcome outcome;
-    collect(out.reader, err.reader, child, setting, outcome);
-    close(out.reader);
+    collect(setting.stdout_has_reader ? out.reader : -1, err.reader, child, setting, outcome);
+    if (setting.stdout_has_reader) {
+        close(out.reader);
+    }
     close(err.reader);
     int status = 0;
     waitpid(child, &status, 0);

@@ -32,6 +32,8 @@ struct Setting {
     std::vector<std::pair<std::string, std::string>> environment; ///< Added to that of the tests.
     std::optional<std::size_t> file_size_limit;
     std::string stdout_path; ///< A file for standard output instead of a pipe.
+    bool stdout_has_reader = true;
+    std::vector<int> closed; ///< Numbers of streams that are closed.
 
     /// Standard error is a terminal; once it shows `signal_at`, the program gets `signal`.
     bool has_terminal = false;

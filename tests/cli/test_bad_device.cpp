@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -46,6 +48,20 @@ std::string real_driver() {
     return "";
 }
 
+/// With the driver of weak_driver.cpp; nothing if there is none to build it on.
+std::optional<Setting> with_weak_driver(const TemporaryFolder& folder) {
+    const std::string driver = real_driver();
+    if (driver.empty()) {
+        MESSAGE("skipped: no driver manifest found to build a weak driver on");
+        return std::nullopt;
+    }
+    folder.write("weak.json", R"({"file_format_version": "1.0.0", "ICD": {"api_version": "1.1.0",
+                                  "library_path": ")" GEODISK_WEAK_DRIVER R"("}})");
+    Setting setting = with_driver((folder / "weak.json").string());
+    setting.environment.emplace_back("GEODISK_TEST_DRIVER", driver);
+    return setting;
+}
+
 } // namespace
 
 TEST_CASE("no driver") {
@@ -69,22 +85,37 @@ TEST_CASE("a device can be chosen by index") {
 }
 
 TEST_CASE("a device that is too weak") {
-    const std::string driver = real_driver();
-    if (driver.empty()) {
-        MESSAGE("skipped: no driver manifest found to build a weak driver on");
+    const TemporaryFolder folder;
+    const std::optional<Setting> setting = with_weak_driver(folder);
+    if (!setting) {
         return;
     }
-    const TemporaryFolder folder;
-    folder.write("weak.json", R"({"file_format_version": "1.0.0", "ICD": {"api_version": "1.1.0",
-                                  "library_path": ")" GEODISK_WEAK_DRIVER R"("}})");
-    Setting setting = with_driver((folder / "weak.json").string());
-    setting.environment.emplace_back("GEODISK_TEST_DRIVER", driver);
-    check_fails(folder, 5, "maxComputeWorkGroupInvocations is 16", kSample, setting);
-    const Outcome info = run(folder, {"info"}, setting);
+    check_fails(folder, 5, "maxComputeWorkGroupInvocations is 16", kSample, *setting);
+    const Outcome info = run(folder, {"info"}, *setting);
     CHECK(info.status == 5);
     CHECK(contains(info.out, "runs geodisk     no:"));
     CHECK(contains(info.err, "none of the Vulkan devices"));
 }
+
+#ifdef __linux__
+TEST_CASE("a driver that crashes is told from geodisk") {
+    const TemporaryFolder folder;
+    const std::optional<Setting> setting = with_weak_driver(folder);
+    if (!setting) {
+        return;
+    }
+    for (const auto& [crash, message] : {std::pair{"access", "crashed (SIGSEGV)"},
+                                         {"abort", "crashed (SIGABRT)"},
+                                         {"exit", "the process was ended"}}) {
+        Setting crashing = *setting;
+        crashing.environment.emplace_back("GEODISK_TEST_CRASH", crash);
+        check_fails(folder, 7,
+                    std::string(message) + " in libgeodisk_weak_driver.so, not in geodisk: "
+                                           "the Vulkan driver or what it uses",
+                    kSample, crashing);
+    }
+}
+#endif
 
 TEST_CASE("verify needs no device") {
     const TemporaryFolder folder;

@@ -1,6 +1,8 @@
 // Files that cannot be read or written.
 #include <doctest/doctest.h>
 
+#include <unistd.h>
+
 #include "cli/command.hpp"
 
 namespace geodisk::test {
@@ -97,6 +99,28 @@ TEST_CASE("when the report cannot be written, the samples are not either") {
     closed.stdout_path = "/dev/full";
     check_fails(folder, 4, "standard output",
                 {"sample", "builtin:cube", "-o", "a.xyz", "-n", "1", "--json", "-"}, closed);
+}
+
+TEST_CASE("what standard output does not take leaves no file") {
+    const TemporaryFolder folder;
+    const Arguments sample{"sample", "builtin:cube", "-o", "a.ply", "-n", "9"};
+    Setting full, unread, closed;
+    full.stdout_path = "/dev/full";
+    unread.stdout_has_reader = false;
+    closed.closed = {STDIN_FILENO, STDOUT_FILENO};
+    for (const Setting& setting : {full, unread, closed}) {
+        check_fails(folder, 4, "the summary cannot be written to standard output", sample, setting);
+        check_fails(folder, 4, "the report cannot be written to standard output",
+                    joined(sample, {"--json", "-"}), setting);
+        check_fails(folder, 4, "standard output", {"--help"}, setting);
+        const Outcome quiet = run(folder, joined(sample, {"--quiet"}), setting);
+        CHECK(quiet.status == 0);
+        std::filesystem::remove(folder / "a.ply");
+    }
+    Setting silent;
+    silent.closed = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
+    CHECK(run(folder, joined(sample, {"--json", "a.json"}), silent).status == 4);
+    CHECK(files_in(folder).empty());
 }
 
 TEST_CASE("oddities of a mesh are warnings, also when quiet") {

@@ -68,6 +68,12 @@ TEST_CASE("wrong usage is explained") {
     check_fails(folder, 2, "surplus", sample({"surplus", "-n", "9"}));
     check_fails(folder, 2, "--count needs a value", sample({"-n"}));
     check_fails(folder, 2, "--count is given more than once", sample({"-n", "9", "-n", "8"}));
+    check_fails(folder, 2, "--json needs a value", sample({"-n", "9", "--json=", "--seed=3"}));
+    check_fails(folder, 2, "--json: needs a value before --seed=3",
+                sample({"-n", "9", "--json", "--seed=3"}));
+    check_fails(folder, 2, "--json: needs a value before -q", sample({"-n", "9", "--json", "-q"}));
+    check_fails(folder, 2, "--json: needs a value", sample({"-n", "9", "--json", ""}));
+    check_fails(folder, 2, "--seed: needs a value", sample({"-n", "9", "--seed", ""}));
 }
 
 TEST_CASE("the distance must be given once and make sense") {

@@ -81,6 +81,21 @@ TEST_CASE("a larger distance is violated by many pairs, each counted once") {
     CHECK(contains(plain, "violations    " + std::to_string(n * (n - 1) / 2) + "\n"));
 }
 
+TEST_CASE("a distance beyond all proportion to the mesh finds the same closest pair") {
+    const TemporaryFolder folder;
+    make_samples(folder);
+    nlohmann::json smallest;
+    for (const char* const distance : {"1000", "1e12", "1e300"}) {
+        const Outcome outcome =
+            run(folder, {"verify", kMesh, "a.ply", "-d", distance, "--json", "-"});
+        CHECK(outcome.status == 1);
+        nlohmann::json found = nlohmann::json::parse(outcome.out).at("smallest");
+        CHECK(found.at("distance").get<double>() < 10);
+        CHECK((smallest.is_null() || found == smallest));
+        smallest = found;
+    }
+}
+
 TEST_CASE("the report has pairs and samples, whatever the exit status") {
     const TemporaryFolder folder;
     tools::SampleFile samples = make_samples(folder);

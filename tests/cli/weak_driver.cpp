@@ -1,5 +1,6 @@
 // A Vulkan driver that passes every call on to the driver of GEODISK_TEST_DRIVER, but reports
-// limits too small for geodisk.
+// limits too small for geodisk, or does not even come to that, as GEODISK_TEST_CRASH says.
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -25,6 +26,14 @@ PFN_vkVoidFunction real_function(VkInstance instance, const char* name) {
 VkInstance current_instance = VK_NULL_HANDLE; // The program under test makes one at a time.
 
 void weaken(VkPhysicalDeviceLimits& limits) {
+    const char* const crash = std::getenv("GEODISK_TEST_CRASH");
+    if (crash != nullptr && std::strcmp(crash, "access") == 0) {
+        std::raise(SIGSEGV);
+    } else if (crash != nullptr && std::strcmp(crash, "abort") == 0) {
+        std::abort();
+    } else if (crash != nullptr) {
+        std::exit(1);
+    }
     limits.maxPerStageDescriptorStorageBuffers = 4;
     limits.maxComputeWorkGroupInvocations = 16;
 }

@@ -102,6 +102,13 @@ if(CASE STREQUAL "install")
         endif()
     endforeach()
 
+elseif(CASE STREQUAL "hardening")
+    include("${package_tests}/hardening.cmake")
+    file(GLOB programs "${build_root}/bin/*" "${installed}/bin/*")
+    foreach(program IN LISTS programs)
+        check_hardening("${program}")
+    endforeach()
+
 elseif(CASE STREQUAL "find_package")
     configure("${package_tests}/find_package" "${work}/find package"
         "-DCMAKE_PREFIX_PATH=${installed}")

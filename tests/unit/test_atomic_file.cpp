@@ -5,6 +5,8 @@
 #ifndef _WIN32
 #include <csignal>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #endif
 
 using namespace geodisk::tools;
@@ -56,6 +58,78 @@ TEST_CASE("targets that cannot be files are refused") {
 
 #ifndef _WIN32
 
+TEST_CASE("a file keeps its rights") {
+    const TemporaryFolder folder;
+    const std::filesystem::path target = folder.write("secret", "old");
+    using std::filesystem::perms;
+    constexpr perms kOwn = perms::owner_read | perms::owner_write;
+    std::filesystem::permissions(target, kOwn);
+    AtomicFile file(target);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "")) {
+        CHECK(entry.status().permissions() == kOwn); // The temporary one as well.
+    }
+    file.write("new");
+    file.commit();
+    CHECK(bytes_of(target) == "new");
+    CHECK(std::filesystem::status(target).permissions() == kOwn);
+}
+
+TEST_CASE("files that are write-protected or have other names are refused") {
+    const TemporaryFolder folder;
+    const std::filesystem::path target = folder.write("one", "old");
+    std::filesystem::create_hard_link(target, folder / "two");
+    check_fails(ExitCode::bad_output, "one: cannot write: has another name (a hard link)",
+                [&] { AtomicFile file(target); });
+    std::filesystem::remove(folder / "two");
+    if (geteuid() != 0) { // Who may write to everything.
+        std::filesystem::permissions(target, std::filesystem::perms::owner_read);
+        check_fails(ExitCode::bad_output, "one: cannot write: is write-protected",
+                    [&] { AtomicFile file(target); });
+    }
+    CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("a name may be as long as names can be") {
+    const TemporaryFolder folder;
+    AtomicFile file(folder / std::string(255, 'x'));
+    file.commit();
+    CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("the file of a process that was killed goes with the next, that of a live one stays") {
+    const TemporaryFolder folder;
+    const pid_t child = fork();
+    if (child == 0) {
+        AtomicFile file(folder / "out");
+        file.write("half");
+        file.sync();
+        _exit(0); // As a kill would, without destructors.
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(folder.file_count() == 1);
+    const AtomicFile live(folder / "out");
+    CHECK(folder.file_count() == 1);
+    AtomicFile next(folder / "out");
+    CHECK(folder.file_count() == 2);
+    next.commit();
+    CHECK(folder.file_count() == 2);
+    CHECK(bytes_of(folder / "out").empty());
+}
+
+TEST_CASE("temporary files that are noted can all be removed") {
+    const TemporaryFolder folder;
+    const pid_t child = fork();
+    if (child == 0) {
+        const AtomicFile one(folder / "one"), two(folder / "two");
+        remove_noted_temporaries();
+        _exit(0);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(folder.file_count() == 0);
+}
+
 TEST_CASE("devices and links are not replaced") {
     check_fails(ExitCode::bad_output, "not a regular file", [] { AtomicFile file("/dev/null"); });
     const TemporaryFolder folder;
@@ -66,6 +140,14 @@ TEST_CASE("devices and links are not replaced") {
     file.commit();
     CHECK(std::filesystem::is_symlink(folder / "link"));
     CHECK(bytes_of(folder / "real") == "new");
+    // Also where there is nothing yet that the link leads to.
+    std::filesystem::create_symlink("later", folder / "dangling");
+    AtomicFile(folder / "dangling").commit();
+    CHECK(std::filesystem::is_symlink(folder / "dangling"));
+    CHECK(std::filesystem::is_regular_file(folder / "later"));
+    std::filesystem::create_symlink("circle", folder / "circle");
+    check_fails(ExitCode::bad_output, "circle: cannot write: its symbolic links lead nowhere",
+                [&] { AtomicFile circle(folder / "circle"); });
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include "files/sample_file.hpp"
 #include "files/sidecar_files.hpp"
 #include "geometry/mean_curvature.hpp"
+#include "jpeg_bytes.hpp"
 #include "png_bytes.hpp"
 #include "shapes/builtin_shapes.hpp"
 #include "test_files.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 /// Two rows of three pixels.
 const std::string kImage = png_bytes(3, 2, std::string_view("\x00\x33\x66\x99\xcc\xff", 6));
+
+const std::string kJpeg = jpeg_bytes();
 
 MeshFile mesh_with_uvs(std::string_view name, std::string_view bytes) {
     const TemporaryFolder folder;
@@ -86,15 +89,31 @@ TEST_CASE("what is no image is refused") {
         check_fails(ExitCode::bad_input, part, [&] { const GreyImage image(path); });
     };
     fails(folder / "none.png", "no such file");
-    fails(folder.write("empty.png", ""), "cannot be read as a PNG or JPEG image");
-    fails(folder.write("text.png", "v 0 0 0\n"), "cannot be read as a PNG or JPEG image");
-    for (const std::size_t size : {8u, 20u, 45u, 60u}) {
+    fails(folder.write("empty.png", ""), "is neither a PNG nor a JPEG image");
+    fails(folder.write("text.png", "v 0 0 0\n"), "is neither a PNG nor a JPEG image");
+    fails(folder.write("a.pgm", "P5 1 1 255 a"), "is neither a PNG nor a JPEG image");
+    for (std::size_t size = 4; size < kImage.size(); ++size) {
         fails(folder.write("cut.png", std::string_view(kImage).substr(0, size)),
-              "cannot be read as");
+              "cannot be read as a PNG image: ");
     }
-    fails(folder.write("cut.jpg", "\xff\xd8\xff\xd9\xff\xda\x01"),
-          "is a JPEG image that is cut short");
-    fails(folder.write("a.pgm", "P5 1 1 255 a"), "cannot be read as a PNG or JPEG image");
+    for (std::size_t size = 2; size < kJpeg.size() - 2; ++size) {
+        CAPTURE(size);
+        fails(folder.write("cut.jpg", std::string_view(kJpeg).substr(0, size)),
+              "cannot be read as a JPEG image: ");
+    }
+    // What it says of itself takes 12 GB.
+    std::string huge = png_bytes(3, 2, std::string(6, 'x'));
+    const std::string size =
+        big_endian(100000) + big_endian(60000) + std::string("\x08\0\0\0\0", 5);
+    huge.replace(8, 25, png_chunk("IHDR", size));
+    fails(folder.write("huge.png", huge), "it has more than 2^26 pixels");
+}
+
+TEST_CASE("JPEG images are read") {
+    const TemporaryFolder folder;
+    const GreyImage image(folder.write("a.jpg", kJpeg));
+    CHECK(image.at(0.25, 0.5) == doctest::Approx(0.25).epsilon(0.05));
+    CHECK(image.at(0.75, 0.5) == doctest::Approx(0.75).epsilon(0.05));
 }
 
 TEST_CASE("texture coordinates of OBJ files belong to corners") {

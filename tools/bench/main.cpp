@@ -19,7 +19,6 @@
 #include "bench/tune.hpp"
 #include "files/tuning_file.hpp"
 #include "program/failure.hpp"
-#include "program/interrupt.hpp"
 #include "program/program.hpp"
 
 namespace {
@@ -98,7 +97,6 @@ void run(const bench::Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    tools::install_signal_handlers();
     CLI::App app("Times the sampler beside a sequential reference that returns the same samples",
                  "geodisk_bench");
     app.set_version_flag("--version", "geodisk_bench " GEODISK_VERSION_STRING);

@@ -20,6 +20,19 @@ function(geodisk_target name)
         if(GEODISK_WERROR)
             target_compile_options(${name} PRIVATE -Werror)
         endif()
+        geodisk_harden(${name})
+    endif()
+endfunction()
+
+# geodisk_harden(NAME): programs read files from anywhere. What compilers and linkers can do against
+# errors in that; tests/package/hardening.cmake looks whether it is there.
+include(CheckPIESupported)
+check_pie_supported()
+function(geodisk_harden name)
+    target_compile_options(${name} PRIVATE -fstack-protector-strong
+        "$<$<CONFIG:Release,RelWithDebInfo>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
+    if(UNIX AND NOT APPLE)
+        target_link_options(${name} PRIVATE -Wl,-z,relro,-z,now,-z,noexecstack)
     endif()
 endfunction()
 

@@ -2,9 +2,9 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
-#include "files/open_file.hpp"
-#include "program/failure.hpp"
+#include "files/temporary_file.hpp"
 
 #ifdef _WIN32
 #include <io.h>
@@ -24,37 +24,20 @@ int sync_to_disk(std::FILE* file) {
 #endif
 }
 
-[[noreturn]] void fail_output(const Path& path, const std::string& reason) {
-    throw UserError(ExitCode::bad_output, path.string() + ": cannot write: " + reason);
-}
-
 } // namespace
 
-AtomicFile::AtomicFile(const Path& target) : target_(target) {
-    std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(target, ignored);
-    if (std::filesystem::is_directory(status)) {
-        fail_output(target, "is a folder");
-    }
-    // Renaming over a device or pipe would replace it instead of writing into it.
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        fail_output(target, "is not a regular file");
-    }
-    // The rename must replace what a symbolic link points to, not the link.
-    if (std::filesystem::is_symlink(std::filesystem::symlink_status(target, ignored))) {
-        const std::filesystem::path resolved = std::filesystem::weakly_canonical(target, ignored);
-        target_ = resolved.empty() ? target : resolved;
-    }
-    for (int attempt = 0; file_ == nullptr && attempt < 1000; ++attempt) {
-        temporary_ = target_;
-        temporary_ += ".tmp" + std::to_string(attempt);
-        file_ = create_new(temporary_);
-        if (file_ == nullptr && errno != EEXIST) {
-            break;
-        }
-    }
+AtomicFile::AtomicFile(const Path& path) : given_(path), target_(output_target(path)) {
+    TemporaryFile made = make_temporary(target_.path);
+    file_ = made.file;
     if (file_ == nullptr) {
         fail(errno);
+    }
+    temporary_ = std::move(made.path);
+    noted_ = NotedTemporary(temporary_);
+    const int error = target_.replaced ? take_rights(file_, *target_.replaced) : 0;
+    if (error != 0) {
+        discard();
+        fail_to_write(given_, "belongs to somebody else, and would no longer");
     }
 }
 
@@ -81,35 +64,40 @@ void AtomicFile::sync() {
 
 void AtomicFile::commit() {
     sync();
-    std::FILE* const file = file_;
-    file_ = nullptr;
+#ifdef _WIN32
+    close(); // Open files cannot be renamed there.
+#endif
     std::error_code error;
-    if (std::fclose(file) != 0) {
-        error = std::error_code(errno, std::generic_category());
-    } else {
-        std::filesystem::rename(temporary_, target_, error);
-    }
+    std::filesystem::rename(temporary_, target_.path, error);
     if (error) {
         discard();
-        fail_output(target_, error.message());
+        fail_to_write(given_, error.message());
     }
     temporary_.clear();
+    close();
 }
 
 void AtomicFile::fail(int error) const {
-    fail_output(target_, std::generic_category().message(error));
+    fail_to_write(given_, std::generic_category().message(error));
 }
 
-void AtomicFile::discard() noexcept {
+void AtomicFile::close() noexcept {
     if (file_ != nullptr) {
         std::fclose(file_);
         file_ = nullptr;
     }
+}
+
+void AtomicFile::discard() noexcept {
+#ifdef _WIN32
+    close();
+#endif
     if (!temporary_.empty()) {
         std::error_code ignored;
         std::filesystem::remove(temporary_, ignored);
         temporary_.clear();
     }
+    close(); // Only now, as it ends the lock.
 }
 
 bool is_same_file(const Path& a, const Path& b) {

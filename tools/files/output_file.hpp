@@ -7,16 +7,20 @@
 #include <string>
 #include <string_view>
 
+#include "files/output_target.hpp"
 #include "program/path.hpp"
+#include "program/temporary_files.hpp"
 
 namespace geodisk::tools {
 
-/// Writes to a temporary file beside `target` that commit() moves into its place. Without commit()
-/// the temporary file is removed and an existing target stays as it was.
+/// Writes to a temporary file beside the target that commit() moves into its place, with the rights
+/// of what it replaces. Without commit() the temporary file is removed, if not by this process then
+/// by the next that writes the same target, and an existing target stays as it was.
 class AtomicFile {
   public:
-    /// Throws UserError(bad_output), like all members, with the path and the system's reason.
-    explicit AtomicFile(const Path& target);
+    /// Throws UserError(bad_output), like all members, with the path and the system's reason, and
+    /// for what output_target() refuses.
+    explicit AtomicFile(const Path& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -27,15 +31,18 @@ class AtomicFile {
     /// written.
     void sync();
 
-    /// Syncs, closes and renames. The last call.
+    /// Syncs, renames and closes. The last call.
     void commit();
 
   private:
     [[noreturn]] void fail(int error) const;
+    void close() noexcept;
     void discard() noexcept;
 
-    std::filesystem::path target_;
+    Path given_;
+    OutputTarget target_;
     std::filesystem::path temporary_;
+    NotedTemporary noted_;
     std::FILE* file_ = nullptr;
 };
 

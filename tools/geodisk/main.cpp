@@ -4,7 +4,6 @@
 #include <geodisk/version.hpp>
 
 #include "geodisk/commands/commands.hpp"
-#include "program/interrupt.hpp"
 #include "program/program.hpp"
 
 namespace {
@@ -27,15 +26,14 @@ Exit status:
   4    an output cannot be written
   5    no Vulkan device that can run geodisk
   6    the work does not fit into the memory of the host or the device
-  7    the device was lost, or an error inside geodisk or the driver
+  7    the device was lost, or an error or crash inside geodisk or the driver
   130  interrupted (SIGINT)
-  143  terminated (SIGTERM)
+  143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
 Whenever the status is 2 or more, no output file is written or replaced.)";
 
 } // namespace
 
 int main(int argc, char** argv) {
-    geodisk::tools::install_signal_handlers();
     CLI::App app(
         "Random points on a triangle mesh, no two closer than a minimum distance along the "
         "surface",

@@ -5,7 +5,6 @@
 #include <geodisk/version.hpp>
 
 #include "paper/commands.hpp"
-#include "program/interrupt.hpp"
 #include "program/program.hpp"
 
 namespace {
@@ -25,7 +24,6 @@ The exit status is that of geodisk_bench. Whenever it is not 0, no file is writt
 } // namespace
 
 int main(int argc, char** argv) {
-    geodisk::tools::install_signal_handlers();
     CLI::App app("Measures what the paper's tables and figures show", "geodisk_paper");
     app.set_version_flag("--version", "geodisk_paper " GEODISK_VERSION_STRING);
     app.footer(kFooter);

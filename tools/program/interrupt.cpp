@@ -1,26 +1,101 @@
 #include "program/interrupt.hpp"
 
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string>
 
 #include "program/failure.hpp"
+#include "program/temporary_files.hpp"
+
+#ifndef _WIN32
+#include <sys/time.h>
+#include <unistd.h>
+#endif
 
 namespace geodisk::tools {
 namespace {
 
-volatile std::sig_atomic_t received_signal = 0; // All that a signal handler may write to.
+// All that a signal handler may touch.
+volatile std::sig_atomic_t received_signal = 0;
+volatile std::sig_atomic_t is_uninterrupted = 0;
+const char* program_name = "";
 
+const char* what_happened(int signal) {
+    switch (signal) {
+    case SIGINT:
+        return "interrupted";
+#ifndef _WIN32
+    case SIGHUP:
+        return "hung up";
+    case SIGQUIT:
+        return "quit";
+#endif
+    default:
+        return "terminated";
+    }
+}
+
+#ifdef _WIN32
 extern "C" void on_signal(int signal) {
     received_signal = signal;
-    // Stages without a callback can take long: whoever asks twice need not wait for their end.
-    std::signal(signal, SIG_DFL);
+    std::signal(signal, SIG_DFL); // Whoever asks twice need not wait for the end of a stage.
 }
+#else
+/// Half a second, as the memory of a large job takes time to give back as well.
+constexpr itimerval kTimeToStop{{0, 0}, {0, 500000}};
+
+void write_error(const char* text) {
+    // Nothing can be done where it fails.
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+}
+
+/// As the error of check_interrupted() would end the program, but at once.
+[[noreturn]] void end_now() {
+    remove_noted_temporaries();
+    if (isatty(STDERR_FILENO) == 1) { // There may be a line of progress.
+        write_error("\r                                        "
+                    "                                       \r");
+    }
+    write_error(program_name);
+    write_error(": ");
+    write_error(what_happened(received_signal));
+    write_error("\n");
+    _exit(128 + received_signal);
+}
+
+extern "C" void on_signal(int signal) {
+    const bool is_first = received_signal == 0;
+    if (signal != SIGALRM) {
+        received_signal = signal;
+    }
+    if (is_first || is_uninterrupted != 0) {
+        setitimer(ITIMER_REAL, &kTimeToStop, nullptr); // A system call and nothing more.
+    } else {
+        end_now();
+    }
+}
+#endif
 
 } // namespace
 
-void install_signal_handlers() {
+void install_signal_handlers(const char* program) {
+    program_name = program;
+#ifdef _WIN32
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
-#ifdef SIGXFSZ
+#else
+    struct sigaction handled {};
+    handled.sa_handler = on_signal;
+    handled.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &handled, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+        struct sigaction before {};
+        if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) {
+            sigaction(signal, &handled, nullptr);
+        }
+    }
+    std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
 #endif
 }
@@ -30,12 +105,17 @@ bool is_interrupted() {
 }
 
 void check_interrupted() {
-    if (received_signal == SIGINT) {
-        throw UserError(ExitCode::interrupted, "interrupted");
-    }
     if (received_signal != 0) {
-        throw UserError(ExitCode::terminated, "terminated");
+        throw UserError(ExitCode{128 + received_signal}, what_happened(received_signal));
     }
+}
+
+Uninterrupted::Uninterrupted() {
+    is_uninterrupted = 1;
+}
+
+Uninterrupted::~Uninterrupted() {
+    is_uninterrupted = 0;
 }
 
 } // namespace geodisk::tools

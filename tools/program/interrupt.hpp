@@ -1,15 +1,27 @@
-// Stopping cleanly on SIGINT and SIGTERM.
+// Stopping cleanly, and soon, on signals that ask for it.
 #pragma once
 
 namespace geodisk::tools {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; a second one ends the program as ever.
-/// Also makes writing past a file size limit an error like a full disk instead of a signal.
-void install_signal_handlers();
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT set a flag, which check_interrupted() turns into
+/// an error. Whoever does not look for half a second, or gets a second signal, is ended by the
+/// handler, which removes temporary files and says the same. Signals that were ignored stay so, as
+/// nohup wants it. Writing into a closed pipe or past a file size limit becomes an error like a
+/// full disk. `program` is named in messages and must stay.
+void install_signal_handlers(const char* program);
 
 bool is_interrupted();
 
 /// Throws UserError with the exit status 128 + signal if a signal came.
 void check_interrupted();
+
+/// While it lives, no signal ends the program: files appear under their names.
+class Uninterrupted {
+  public:
+    Uninterrupted();
+    ~Uninterrupted();
+    Uninterrupted(const Uninterrupted&) = delete;
+    Uninterrupted& operator=(const Uninterrupted&) = delete;
+};
 
 } // namespace geodisk::tools

@@ -10,18 +10,25 @@
 
 namespace geodisk::tools {
 
+/// What is wrong with what was given as the value of an option, or "": nothing, or another option,
+/// which CLI11 would take for it.
+std::string fault_of_value(const std::string& given);
+
 /// Adds an option: its names, where its value goes, what help calls the value (TYPE), what it is
 /// for, and under which heading help lists it.
 template <class Value>
 CLI::Option* add_option(CLI::App& command, const std::string& names, Value& value,
                         const std::string& type, const std::string& text,
                         const std::string& group = "Options") {
-    return command.add_option(names, value, text)->type_name(type)->group(group);
+    return command.add_option(names, value, text)
+        ->type_name(type)
+        ->group(group)
+        ->check(fault_of_value, "", "");
 }
 
 /// Parses the arguments with `app`, whose callbacks do the work, and returns the exit status of the
-/// process. Prints help and version to standard output, and "NAME: MESSAGE" to standard error for
-/// any exception.
+/// process, for main() to return. Prints help and version to standard output, and "NAME: MESSAGE"
+/// to standard error for any exception, signal and crash.
 int run_program(CLI::App& app, int argc, char** argv);
 
 } // namespace geodisk::tools

@@ -136,12 +136,12 @@ Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
             cells += grid.columns * grid.rows; // At most 2^62, and 2^30 before.
             if (cells > gpu::kFirstCellMask) {
                 const auto part = &surface - surfaces.data();
-                return Error{Status::invalid_argument,
-                             (surfaces.size() == 1 ? ""
-                                                   : "surface " + std::to_string(part) + ": ") +
-                                 "the minimum distance is too small: face " + std::to_string(f) +
-                                 " alone or with those before it takes more than 2^30 grid cells",
-                             f};
+                return Error{
+                    Status::invalid_argument,
+                    (surfaces.size() == 1 ? "" : "surface " + std::to_string(part) + ": ") +
+                        "the minimum distance is too small: face " + std::to_string(f) +
+                        " alone or with those before it takes more than 2^30 grid cells",
+                    f};
             }
         }
     }

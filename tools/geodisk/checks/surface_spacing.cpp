@@ -53,6 +53,15 @@ double choose_unit(const PreparedMesh& mesh, double min_distance) {
     return unit;
 }
 
+/// No shortest path is longer: it meets each edge and each triangle at most once.
+double longest_path(const PreparedMesh& mesh) {
+    double length = 0;
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        length += edge.length;
+    }
+    return length;
+}
+
 std::vector<ref::FacePoint<double>> points_of(std::span<const SampleRow> rows) {
     std::vector<ref::FacePoint<double>> points;
     points.reserve(rows.size());
@@ -71,6 +80,8 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
     const ref::Surface<double> surface(mesh.prepared, unit);
     const ref::Bins<double> bins(surface, points_of(rows));
     ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);
+    // The reference takes lengths beyond all proportion to the mesh for unknown ones.
+    const double longest = 2 * longest_path(mesh.prepared);
 
     std::vector<double> distances(rows.size(), kUnknown); // By place, of the current source.
     std::vector<std::uint32_t> near;                      // Places with a distance.
@@ -79,7 +90,7 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
         check_interrupted();
         progress.update(static_cast<double>(source) / static_cast<double>(rows.size()),
                         grouped(source) + " samples");
-        detector.set_limit(cut_of(bins.order[source]) / unit);
+        detector.set_limit(std::min(cut_of(bins.order[source]), longest) / unit);
         detector.run(
             bins.points[source], [&](std::uint32_t place) { return place != source; },
             [&](std::uint32_t place, double distance) {
@@ -96,15 +107,6 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
         near.clear();
     }
     progress.clear();
-}
-
-/// No shortest path is longer: it meets each edge and each triangle at most once.
-double longest_path(const PreparedMesh& mesh) {
-    double length = 0;
-    for (const HalfEdge& edge : mesh.half_edges()) {
-        length += edge.length;
-    }
-    return length;
 }
 
 } // namespace

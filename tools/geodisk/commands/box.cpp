@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,16 +23,26 @@ namespace {
 
 /// As given on the command line.
 struct BoxOptions {
-    std::string dimension, min_distance, count;
-    std::vector<std::string> extents;
+    std::string dimension, min_distance, count, extents;
     bool is_periodic = false;
     MethodOptions method;
     OutputOptions out;
     RunOptions run;
 };
 
+/// The parts between commas, empty ones as well; none of "".
+std::vector<std::string> parts_of(const std::string& text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text.empty() ? text : text + ',');
+    for (std::string part; std::getline(stream, part, ',');) {
+        parts.push_back(part);
+    }
+    return parts;
+}
+
 std::vector<double> parse_sides(const BoxOptions& options) {
-    std::size_t dimension = options.extents.size();
+    const std::vector<std::string> extents = parts_of(options.extents);
+    std::size_t dimension = extents.size();
     if (!options.dimension.empty()) {
         const double given = parse_count("--dim", options.dimension);
         if (given > kMostBoxDimensions) {
@@ -50,10 +61,10 @@ std::vector<double> parse_sides(const BoxOptions& options) {
         fail_usage("--extents: boxes have 1 to 6 sides, not " + std::to_string(dimension));
     }
     std::vector<double> sides(dimension, 1.0);
-    for (std::size_t axis = 0; axis < options.extents.size(); ++axis) {
-        const auto side = parse_real(trimmed(options.extents[axis]));
+    for (std::size_t axis = 0; axis < extents.size(); ++axis) {
+        const auto side = parse_real(trimmed(extents[axis]));
         if (!side || !(*side > 0) || !std::isfinite(*side)) {
-            fail_usage("--extents: " + in_quotes(options.extents[axis]) +
+            fail_usage("--extents: " + in_quotes(extents[axis]) +
                        " is not a positive, finite length");
         }
         sides[axis] = *side;
@@ -126,8 +137,7 @@ void add_box_command(CLI::App& app) {
     const char* const box = "Box";
     add_option(*command, "--dim", options->dimension, "N", "Dimensions, 1 to 6; sides of 1", box);
     add_option(*command, "--extents", options->extents, "A,...",
-               "Sides instead; the box begins at the origin", box)
-        ->delimiter(',');
+               "Sides instead; the box begins at the origin", box);
     command
         ->add_flag("--periodic", options->is_periodic,
                    "Glue opposite sides together: distances go around")

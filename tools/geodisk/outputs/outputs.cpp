@@ -22,31 +22,19 @@ void check_pair(const NamedFile& written, const NamedFile& other) {
     }
 }
 
-/// A report for programs: goes to a file, or to standard output for "-", or nowhere for "".
-class ReportFile {
-  public:
-    ReportFile(const std::string& path, const std::string& text) {
-        if (path == "-") {
-            std::cout << text;
-            flush_or_fail("the report");
-        } else if (is_file(path)) {
-            file_.emplace(path).write(text);
-            file_->sync();
-        }
+/// Brings the report to the disk, as `file`, and all else to standard output. The file appears
+/// under its name once nothing can fail any more.
+void bring_out(const OutputOptions& options, std::optional<AtomicFile>& file,
+               const std::string& report, const std::string& text, const char* what) {
+    if (is_file(options.json)) {
+        file.emplace(options.json).write(report);
+        file->sync();
     }
-
-    /// A file does not appear before.
-    void commit() {
-        if (file_) {
-            file_->commit();
-        }
+    check_interrupted();
+    if (options.json == "-") {
+        std::cout << report;
+        flush_or_fail("the report");
     }
-
-  private:
-    std::optional<AtomicFile> file_;
-};
-
-void print(const OutputOptions& options, const std::string& text, const char* what) {
     if (options.has_summary()) {
         std::cout << text;
         flush_or_fail(what);
@@ -76,16 +64,21 @@ void check_outputs(const OutputOptions& options, const std::string& what,
 
 void publish(const OutputOptions& options, AtomicFile& samples, const std::string& report,
              const std::string& summary) {
-    ReportFile json(options.json, report);
-    check_interrupted();
+    std::optional<AtomicFile> json;
+    bring_out(options, json, report, summary, "the summary");
+    const Uninterrupted both;
     samples.commit();
-    json.commit();
-    print(options, summary, "the summary");
+    if (json) {
+        json->commit();
+    }
 }
 
 void publish(const OutputOptions& options, const std::string& report, const std::string& result) {
-    ReportFile(options.json, report).commit();
-    print(options, result, "the result");
+    std::optional<AtomicFile> json;
+    bring_out(options, json, report, result, "the result");
+    if (json) {
+        json->commit();
+    }
 }
 
 void flush_or_fail(const std::string& what) {

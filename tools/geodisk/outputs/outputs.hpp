@@ -17,8 +17,8 @@ namespace geodisk::tools {
 void check_outputs(const OutputOptions& options, const std::string& what,
                    const std::vector<NamedFile>& read);
 
-/// Brings the report for programs to the disk, where `samples` are already, before either appears
-/// under its name; then prints the summary for people. Throws UserError(bad_output).
+/// Brings the report for programs to the disk, where `samples` are already, and prints the summary
+/// for people; only then do files appear under their names. Throws UserError(bad_output).
 void publish(const OutputOptions& options, AtomicFile& samples, const std::string& report,
              const std::string& summary);
 

@@ -1,0 +1,34 @@
+// Where an output file goes, and what it replaces there.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "program/path.hpp"
+
+namespace geodisk::tools {
+
+/// Whose a file is and who may use it. Of no meaning on Windows.
+struct FileRights {
+    unsigned mode = 0, owner = 0, group = 0;
+};
+
+struct OutputTarget {
+    std::filesystem::path path; ///< With symbolic links followed, also where they lead to nothing.
+    std::optional<FileRights> replaced; ///< Of the file that is there.
+};
+
+/// Throws UserError(bad_output) for what cannot be replaced as a whole or should not be: folders,
+/// devices and pipes, files that are write-protected, and those that have further names (hard
+/// links), which would keep the old content.
+OutputTarget output_target(const Path& path);
+
+/// Gives an open file the rights of the one that it is to replace. 0, or an errno value if it is
+/// somebody else's and cannot become so.
+int take_rights(std::FILE* file, const FileRights& rights);
+
+/// Throws UserError(bad_output) with "PATH: cannot write: REASON".
+[[noreturn]] void fail_to_write(const Path& path, const std::string& reason);
+
+} // namespace geodisk::tools

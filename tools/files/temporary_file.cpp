@@ -1,0 +1,126 @@
+#include "files/temporary_file.hpp"
+
+#include <cerrno>
+#include <cstdint>
+#include <string>
+
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#include <share.h>
+#include <sys/stat.h>
+#else
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+namespace geodisk::tools {
+namespace {
+
+/// The name without the number. Short, as that of the target may be as long as names can be.
+std::filesystem::path name_for(const std::filesystem::path& target) {
+    std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a
+    const std::filesystem::path target_name = target.filename();
+    for (const auto unit : target_name.native()) {
+        hash = (hash ^ static_cast<std::uint64_t>(unit)) * 0x100000001b3;
+    }
+    std::string digits;
+    for (int shift = 60; shift >= 0; shift -= 4) {
+        digits += "0123456789abcdef"[hash >> shift & 15u];
+    }
+    return target.parent_path() / ("geodisk-" + digits + ".tmp");
+}
+
+#ifdef _WIN32
+// What a process has open so, others cannot open or remove. The C runtime of old knows no mode "x".
+std::FILE* open_new(const std::filesystem::path& path) {
+    int descriptor = -1;
+    const int error = _wsopen_s(&descriptor, path.c_str(),
+                                _O_CREAT | _O_EXCL | _O_WRONLY | _O_BINARY | _O_NOINHERIT,
+                                _SH_DENYRW, _S_IREAD | _S_IWRITE);
+    if (error != 0) {
+        errno = error;
+        return nullptr;
+    }
+    std::FILE* const file = _fdopen(descriptor, "wb");
+    if (file == nullptr) {
+        _close(descriptor);
+    }
+    return file;
+}
+
+void remove_if_abandoned(const std::filesystem::path& path) {
+    _wremove(path.c_str());
+}
+#else
+bool is_at(int descriptor, const std::filesystem::path& path) {
+    struct stat opened {
+    }, named{};
+    return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
+           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// Whoever holds the lock owns the file.
+std::FILE* open_new(const std::filesystem::path& path) {
+    const int descriptor =
+        open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor < 0) {
+        return nullptr;
+    }
+    // File systems without locks have none that could be taken for abandoned either.
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        close(descriptor); // Another process has taken it for abandoned meanwhile, and removes it.
+        errno = EEXIST;
+        return nullptr;
+    }
+    if (!is_at(descriptor, path)) {
+        close(descriptor); // And here has removed it.
+        errno = EEXIST;
+        return nullptr;
+    }
+    std::FILE* const file = fdopen(descriptor, "wb");
+    if (file == nullptr) {
+        unlink(path.c_str());
+        close(descriptor);
+    }
+    return file;
+}
+
+void remove_if_abandoned(const std::filesystem::path& path) {
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0) {
+        return;
+    }
+    struct stat status {};
+    if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+        flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_at(descriptor, path)) {
+        unlink(path.c_str());
+    }
+    close(descriptor);
+}
+#endif
+
+} // namespace
+
+TemporaryFile make_temporary(const std::filesystem::path& target) {
+    constexpr int kMostWriters = 1000; // Of one target at a time.
+    const std::filesystem::path name = name_for(target);
+    TemporaryFile made;
+    for (int number = 0; made.file == nullptr && number < kMostWriters; ++number) {
+        made.path = name;
+        made.path += std::to_string(number);
+        made.file = open_new(made.path);
+        if (made.file == nullptr && errno == EEXIST) {
+            remove_if_abandoned(made.path);
+            made.file = open_new(made.path);
+        }
+        if (made.file == nullptr && errno != EEXIST) {
+            break;
+        }
+    }
+    return made;
+}
+
+} // namespace geodisk::tools
