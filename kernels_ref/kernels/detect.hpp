@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -87,6 +88,8 @@ class Detector {
         Real x, y, b0, b1, sigma;
         std::uint32_t chain;
         Real start, end; ///< What was known of the edge's ends, rounded up.
+        std::uint32_t
+            remembered; ///< A half-edge of a face that the window came through, see turns_back().
     };
     /// A vertex reached by a path of length sigma that came in through `corner`.
     struct Event {
@@ -191,10 +194,22 @@ class Detector {
         }
     }
 
+    /// Whether a window entering the face of h comes back to a face that it has been in: a shortest
+    /// path does not, where faces are straight. It remembers one face, that in which its chain was
+    /// last a power of two, and so finds every cycle (Brent 1980).
+    bool turns_back(std::uint32_t h, const Window& window) const {
+        return surface_.straight_faces && h / 3 == window.remembered / 3;
+    }
+
+    /// What a window with this chain remembers once it has left the face of h.
+    static std::uint32_t remember(std::uint32_t h, std::uint32_t chain, std::uint32_t remembered) {
+        return std::has_single_bit(chain) ? h : remembered;
+    }
+
     /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e; `start`
     /// and `end` are what is known of the edge's ends.
     Child leave(std::uint32_t e, Real start, Real end, Real x, Real y, Real b0, Real b1, Real sigma,
-                std::uint32_t chain) {
+                std::uint32_t chain, std::uint32_t remembered) {
         if (around_half_edge(surface_.edges[e].around) == e || !(b0 < b1)) {
             return {};
         }
@@ -217,7 +232,7 @@ class Detector {
         const bool many = shared_by_many(e);
         return {distance,
                 {e, x, y, b0, b1, sigma, chain, many ? static_cast<Real>(kFar) : rounded_up(start),
-                 many ? static_cast<Real>(kFar) : rounded_up(end)}};
+                 many ? static_cast<Real>(kFar) : rounded_up(end), remembered}};
     }
 
     bool shared_by_many(std::uint32_t e) const {
@@ -253,7 +268,7 @@ class Detector {
                   distance <= static_cast<Real>(kNearVertex), 1);
             push(leave(e, distance_at(surface_.edges[e].origin),
                        distance_at(surface_.edges[next_in_face(e)].origin), p.x, p.y, 0,
-                       surface_.edges[e].length, 0, 1));
+                       surface_.edges[e].length, 0, 1, e));
         }
     }
 
@@ -305,7 +320,7 @@ class Detector {
             reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back,
                   kNoEdge, 0, false, event.chain + 1);
             push(leave(e, distance_at(edge.origin), distance_at(surface_.edges[back].origin),
-                       edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1));
+                       edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1, e));
             scan_face(e, edge.apex_x, edge.apex_y, event.sigma, wanted, hit);
         }
     }
@@ -323,6 +338,9 @@ class Detector {
             h = around_half_edge(around);
             if (h == window.edge) {
                 return;
+            }
+            if (turns_back(h, window)) {
+                continue;
             }
             if (same_way) {
                 entering = window;
@@ -422,7 +440,8 @@ class Detector {
             return {};
         }
         return leave(e, left ? apex : window.end, left ? window.start : apex, px, child_y, b0, b1,
-                     window.sigma, window.chain + 1);
+                     window.sigma, window.chain + 1,
+                     remember(h, window.chain + 1, window.remembered));
     }
 
     /// Points of h's face at straight distance from (x, y) in the frame of h.

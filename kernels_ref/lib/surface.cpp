@@ -11,7 +11,8 @@ namespace geodisk::ref {
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
     : unit(working_distance(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()),
-      splits_once(mesh.statistics().nonmanifold_edges == 0) {
+      splits_once(mesh.statistics().nonmanifold_edges == 0),
+      straight_faces(mesh.statistics().diagonal > 0) {
     place_edges(mesh);
 }
 
@@ -19,7 +20,7 @@ template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params)
     : unit(working_distance(mesh, params)), fans(mesh.fans()), corners(mesh.corners()),
       splits_once(mesh.statistics().nonmanifold_edges == 0),
-      one_cell_each(has_small_faces(mesh, params)) {
+      straight_faces(mesh.statistics().diagonal > 0), one_cell_each(has_small_faces(mesh, params)) {
     place_edges(mesh);
     if (params.radii == nullptr) {
         return;

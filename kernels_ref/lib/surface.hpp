@@ -47,6 +47,9 @@ struct Surface {
     /// No edge has three faces. Only then a vertex lies between any two ways into an edge, and the
     /// order of their rays tells which window serves which side ("one angle, one split").
     bool splits_once;
+    /// Faces are triangles of a space, so that within a face no way is shorter than the straight
+    /// one: a shortest path enters none twice.
+    bool straight_faces;
     /// Whatever the size of faces, see has_small_faces().
     bool one_cell_each = false;
     /// By face, where radii vary, and in units of `unit`; else empty, and all radii are half of it.

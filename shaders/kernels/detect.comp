@@ -155,6 +155,7 @@ void take_window() {
     lane.sigma = uintBitsToFloat(row1.y);
     lane.chain = row1.z;
     lane.known = row1.w;
+    lane.remembered = own_row_at(pool, remembered_row(lane.windows))[lane.windows & 3u];
     lane.phase = kPhaseCross;
 }
 
@@ -263,7 +264,7 @@ void follow_up() {
 void trip() {
     bool due = !scanning() && next_operation();
     load_face();
-    if (due) {
+    if (due && !turns_back()) {
         float source_square = place_source();
         spread(source_square);
         if (lane.phase != kPhaseSource || lane.cursor == 1u) {

@@ -6,6 +6,7 @@ LaneRec lane;
 uint overflow;     // kOverflow* bits
 uint slice;        // first row of the lane in the pool
 uint first_event;  // among the rows of the lane
+uint first_remembered;
 uint first_vertex;
 
 // A row of this lane in the pool.
@@ -15,7 +16,8 @@ uint own_row(uint at) { return slice + at * kPoolBlock; }
 void load_lane(uint index) {
     slice = first_row(index);
     first_event = kLaneRows + kWindowRows * P.window_capacity;
-    first_vertex = first_event + P.window_capacity;
+    first_remembered = first_event + P.window_capacity;
+    first_vertex = first_remembered + ((P.window_capacity + 3u) >> 2);
     overflow = 0u;
     uvec4 a = own_row_at(pool, own_row(0u));
     uvec4 b = own_row_at(pool, own_row(1u));
@@ -35,7 +37,7 @@ void load_lane(uint index) {
     lane.known = e.x, lane.cursor = e.y, lane.cursor_end = e.z, lane.corner_ahead = e.w;
     lane.scan_place = f.x, lane.scan_end = f.y, lane.scan_row = f.z, lane.scan_row_end = f.w;
     lane.scan_columns = g.x, lane.scan_stride = g.y, lane.tested = g.z, lane.pushed = g.w;
-    lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z;
+    lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z, lane.remembered = h.w;
     lane.entered_by = i.x, lane.entry_angles = i.y, lane.fan_angle = i.z, lane.fan_flags = i.w;
 }
 
@@ -50,7 +52,8 @@ void save_lane() {
     pool[own_row(4u)] = uvec4(lane.known, lane.cursor, lane.cursor_end, lane.corner_ahead);
     pool[own_row(5u)] = uvec4(lane.scan_place, lane.scan_end, lane.scan_row, lane.scan_row_end);
     pool[own_row(6u)] = uvec4(lane.scan_columns, lane.scan_stride, lane.tested, lane.pushed);
-    pool[own_row(7u)] = uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, 0u);
+    pool[own_row(7u)] =
+        uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, lane.remembered);
     pool[own_row(8u)] =
         uvec4(lane.entered_by, lane.entry_angles, lane.fan_angle, lane.fan_flags);
 }

@@ -85,7 +85,7 @@ Meeting meet_apex(float sx, vec2 lit) {
 // window's own side can matter. Rays that cross at one place within rounding do not tell which side
 // is whose.
 void split_once(inout Meeting m, VertexRow row) {
-    if (P.splits_once != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
+    if ((P.path_rules & kRuleSplitsOnce) != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
         row.through == lane.half_edge) {
         precise float beaten_from = row.distance + P.margin;
         precise float left_of = row.crossing - P.slack;
@@ -235,6 +235,21 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
                                                     : steps_up(ends.x) | steps_up(ends.y) << 16));
 }
 
+// Whether the window in flight comes back to a face that it has been in: a shortest path does not,
+// where faces are straight. It remembers one face, that in which its chain was last a power of two,
+// and so finds every cycle (Brent 1980).
+bool turns_back() {
+    return (P.path_rules & kRuleStraightFaces) != 0u && lane.phase == kPhaseCross &&
+           lane.half_edge / 3u == lane.remembered / 3u;
+}
+
+// What the windows remember that the operation in flight leaves behind.
+uint remember() {
+    uint chain = lane.chain + 1u;
+    bool renews = lane.mode == kModeInside || (chain & (chain - 1u)) == 0u;
+    return renews ? lane.half_edge : lane.remembered;
+}
+
 // What the operation in flight does to vertices and edges. The nearer child of a window comes last,
 // so that the stack gives it back first.
 void spread(float source_square) {
@@ -243,6 +258,7 @@ void spread(float source_square) {
     vec2 lit = entry_interval();
     Meeting m = meet_apex(sx, lit);
     vec3 distances = reach_vertices(m, source_square);
+    uint remembered = remember();
     Window first = kNoWindow;
     Window second = kNoWindow;
     for (uint i = 0u; i < (inside ? 1u : 2u); ++i) {
@@ -257,7 +273,7 @@ void spread(float source_square) {
         Window next = swapped == (i == 0u) ? second : first;
         if (next.distance >= 0.0) {
             lane.longest_chain = max(lane.longest_chain, lane.chain + 1u);
-            push_window(next.row0, next.row1);
+            push_window(next.row0, next.row1, remembered);
         }
     }
 }

@@ -2,6 +2,7 @@
 //   a slice per lane:  LaneRec, then
 //     windows  kWindowRows each
 //     events   a row each
+//     what windows remember, four to a row
 //     table    a row per vertex
 //   a list per slot:   conflicts, four to a row: idle ones from the front, active ones from the back
 // The slices of kPoolBlock lanes alternate row by row, so that lanes that step together read side by

@@ -13,7 +13,10 @@ uint event_row(uint event) {
     return own_row(first_event + (event & (P.window_capacity - 1u)));
 }
 
-void push_window(uvec4 row0, uvec4 row1) {
+// What a window remembers is in this row, as the component of its number modulo 4.
+uint remembered_row(uint window) { return own_row(first_remembered + (window >> 2)); }
+
+void push_window(uvec4 row0, uvec4 row1, uint remembered) {
     if (lane.windows >= P.window_capacity) {
         overflow |= kOverflowWindows;
         return;
@@ -21,6 +24,7 @@ void push_window(uvec4 row0, uvec4 row1) {
     uint at = window_at(lane.windows);
     pool[own_row(at)] = row0;
     pool[own_row(at + 1u)] = row1;
+    pool[remembered_row(lane.windows)][lane.windows & 3u] = remembered;
     ++lane.windows;
     ++lane.pushed;
     lane.most_waiting = max(lane.most_waiting, lane.windows);

@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 10u;
+GEODISK_CONST uint kAbi = 11u;
 
 // State of a candidate: the two low bits of its state word.
 GEODISK_CONST uint kIdle = 0u;
@@ -48,6 +48,11 @@ GEODISK_CONST uint kOverflowConflicts = 4u;
 // Not an overflow but an error: a window has crossed kLongestChain edges, which no disk needs.
 GEODISK_CONST uint kOverflowChain = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
+
+// Push::path_rules. No edge has three faces, see split_once() in lib/propagate.glsl.
+GEODISK_CONST uint kRuleSplitsOnce = 1u;
+// Within a face no way is shorter than the straight one, see turns_back() there.
+GEODISK_CONST uint kRuleStraightFaces = 2u;
 // Nor this: the samples' buffer is too small, the set itself is complete.
 GEODISK_CONST uint kOverflowSamples = 16u;
 

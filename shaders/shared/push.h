@@ -18,7 +18,7 @@ struct Push {
                           // boxes its square
     float margin;         // by how much a window must be beaten before it is dropped
     float slack;          // by how much an interval is widened for hits
-    uint splits_once;     // 1 unless an edge has three faces, see lib/propagate.glsl
+    uint path_rules;      // kRule* bits that hold of shortest paths
     uint slots;           // most candidates active at a time
     uint lanes;           // invocations that compute their disks
     uint window_capacity; // windows one lane can hold, and events; a power of two

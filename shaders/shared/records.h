@@ -81,7 +81,8 @@ struct LaneRec {
     // that of the row after the last; cells of a row within reach, and of a whole row.
     uint scan_place; uint scan_end; uint scan_row; uint scan_row_end;
     uint scan_columns; uint scan_stride; uint tested; uint pushed; // candidates; windows and events
-    uint most_waiting; uint longest_chain; uint vertices; uint spare; // on the stack or of events
+    uint most_waiting; uint longest_chain; uint vertices; // on the stack or of events
+    uint remembered; // a half-edge of a face that the window came through, see turns_back()
     // The vertex whose fan is walked: the corner its path came in through, or kWholeFan.
     uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
 };

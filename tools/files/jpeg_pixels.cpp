@@ -22,7 +22,9 @@ struct JpegReader {
     std::jmp_buf on_error;
     char error[JMSG_LENGTH_MAX] = {};
 
-    static JpegReader& of(j_common_ptr jpeg) { return *static_cast<JpegReader*>(jpeg->client_data); }
+    static JpegReader& of(j_common_ptr jpeg) {
+        return *static_cast<JpegReader*>(jpeg->client_data);
+    }
 
     [[noreturn]] static void fail(j_common_ptr jpeg) {
         JpegReader& reader = of(jpeg);
@@ -61,7 +63,8 @@ bool decode(JpegReader& reader, const std::string& bytes, GreyPixels& pixels,
     jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     jpeg_read_header(&jpeg, TRUE);
     if (std::uint64_t{jpeg.image_width} * jpeg.image_height > kMostPixels) {
-        JpegReader::fail_with(reinterpret_cast<j_common_ptr>(&jpeg), "it has more than 2^26 pixels");
+        JpegReader::fail_with(reinterpret_cast<j_common_ptr>(&jpeg),
+                              "it has more than 2^26 pixels");
     }
     jpeg.out_color_space = JCS_GRAYSCALE;
     jpeg.dct_method = JDCT_ISLOW; // The same bits everywhere.

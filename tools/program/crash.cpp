@@ -114,7 +114,8 @@ void on_exit_call() {
 
 void install_crash_handlers(const char* program) {
     program_name = program;
-    own_bases = {base_of(&expect_exit), base_of(static_cast<double (*)(double, double)>(&expected_count))};
+    own_bases = {base_of(&expect_exit),
+                 base_of(static_cast<double (*)(double, double)>(&expected_count))};
     std::array<void*, 1> warm;
     backtrace(warm.data(), 1); // The first call loads a library, which a handler should not.
     stack_t stack{};

@@ -63,6 +63,11 @@ MeshFile make_crossed_sheet(int resolution);
 MeshFile make_uncrossed_sheet(int resolution);
 MeshFile make_terrain(int resolution);
 
+// thin.cpp: surfaces that shortest paths could wind around many times
+MeshFile make_tube(int resolution);
+MeshFile make_spike(int resolution);
+MeshFile make_cone(int resolution);
+
 // r4.cpp: closed surfaces with four coordinates
 MeshFile make_clifford_torus(int resolution);
 MeshFile make_klein_bottle(int resolution);

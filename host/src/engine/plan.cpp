@@ -208,7 +208,8 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
 }
 
 std::uint32_t RunPlan::lane_rows() const noexcept {
-    return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity;
+    return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + (window_capacity + 3) / 4 +
+           table_capacity;
 }
 
 std::uint64_t RunPlan::first_list_row() const noexcept {

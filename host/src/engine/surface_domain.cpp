@@ -227,12 +227,12 @@ void SurfaceDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
     push.has_keys = surfaces_[0].params.face_keys.empty() ? 0 : 1;
     push.all_single = cells_ == 0 ? 1 : 0;
     push.vertices = vertex_count(surfaces_);
-    push.splits_once = std::all_of(surfaces_.begin(), surfaces_.end(),
-                                   [](const PlacedSurface& surface) {
-                                       return surface.mesh->statistics().nonmanifold_edges == 0;
-                                   })
-                           ? 1
-                           : 0;
+    push.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
+    for (const PlacedSurface& surface : surfaces_) {
+        const MeshStatistics& mesh = surface.mesh->statistics();
+        push.path_rules &= (mesh.nonmanifold_edges == 0 ? ~0u : ~gpu::kRuleSplitsOnce) &
+                           (mesh.diagonal > 0 ? ~0u : ~gpu::kRuleStraightFaces);
+    }
 }
 
 std::size_t SurfaceDomain::upload_size(BufferRole role) const {

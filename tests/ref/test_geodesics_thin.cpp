@@ -1,0 +1,75 @@
+// Surfaces that paths can wind around: thin tubes, tips and needles; and a surface of lengths that no
+// space holds, where a shortest path may enter a face twice.
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "engine/tolerances.hpp"
+#include "ref/distance_check.hpp"
+#include "support/oracle_geodesic.hpp"
+
+using namespace geodisk;
+using namespace geodisk::test;
+
+namespace {
+
+/// In each face, however small.
+std::vector<Point> points_in_faces(const TestMesh& mesh) {
+    std::vector<Point> points;
+    for (std::uint32_t f = 0; f < prepared(mesh).face_count(); ++f) {
+        points.push_back(face_point(f, 0.25, 0.4));
+    }
+    return points;
+}
+
+} // namespace
+
+TEST_CASE("thin surfaces against CGAL, with few windows") {
+    struct Case {
+        const char* name;
+        int resolution;
+        std::uint32_t most_windows_per_face; // Without turns_back(), tens of thousands on the cone.
+    };
+    for (const Case& c : {Case{"tube", 6, 450}, {"cone", 8, 500}, {"spike", 6, 150}}) {
+        const TestMesh mesh = builtin(c.name, c.resolution);
+        const PreparedMesh surface = prepared(mesh);
+        const std::vector<Point> points = points_in_faces(mesh);
+        GeodesicOracle oracle(mesh);
+        for (std::size_t s = 0; s < points.size(); s += 7) {
+            const std::vector<double> truth = oracle.distances(points[s], points);
+            const Truth lookup = [&](const Point&, std::size_t i) { return truth[i]; };
+            for (const double reach : {0.05, 0.4, 1.0}) {
+                CAPTURE(reach);
+                check_distances({c.name, mesh, reach, {points[s]}, points, 1e-7}, lookup);
+                GeodesicQuery<float> query(surface, reach, points,
+                                           first_tolerances(surface, reach));
+                query.from(points[s]);
+                CHECK(query.count().windows <= c.most_windows_per_face * surface.face_count());
+            }
+        }
+    }
+}
+
+TEST_CASE("a face of given lengths is entered twice where that is shorter") {
+    // Around vertex 0 a wide face and two narrow ones, which are the shorter way from one side of the
+    // wide one to the other: no space holds three triangles like these.
+    constexpr double kSide = 1, kWide = 1.8, kNarrow = 0.2;
+    const std::vector<std::uint32_t> triangles{0, 1, 2, 0, 2, 3, 0, 3, 1};
+    const std::vector<double> lengths{kSide, kWide,   kSide, kSide, kNarrow,
+                                      kSide, kSide, kNarrow, kSide};
+    const PreparedMesh surface = PreparedMesh::prepare({triangles, lengths, 4}).value();
+    // Both halfway out, at the same small angle from the sides of the wide face.
+    constexpr double kInside = 0.05, kOut = 0.5;
+    const Point source = face_point(0, kOut * (1 - kInside), kOut * kInside);
+    const Point target = face_point(0, kOut * kInside, kOut * (1 - kInside));
+    const double half = std::asin(kWide / 2 / kSide);
+    const double x = kSide * std::cos(half), y = kWide / 2; // Vertices 1 and 2, from vertex 0.
+    const double px = kOut * x, py = kOut * (1 - 2 * kInside) * y;
+    const double from_side = half - std::atan2(py, px);
+    const double turn = 2 * from_side + 4 * std::asin(kNarrow / 2 / kSide);
+    const double expected = 2 * std::hypot(px, py) * std::sin(turn / 2);
+    REQUIRE(expected < 2 * py);
+    GeodesicQuery<double> query(surface, 1, {target}, tight_tolerances());
+    CHECK(query.from(source).front() == doctest::Approx(expected).epsilon(1e-6));
+}
