@@ -74,8 +74,11 @@ TEST_CASE("OBJ coordinates are exact doubles") {
 TEST_CASE("OBJ faces are taken in order and split in place") {
     const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
                                            "f -4 -1 -3 # first\nf 1/7 2//9 3/1/1 4/\nf 5 3 2\n");
-    CHECK(mesh.triangles == std::vector<std::uint32_t>{1, 4, 2, 0, 1, 2, 0, 2, 3});
-    CHECK(mesh.warnings.size() == 1); // The last face copies the first.
+    // The last face copies the first.
+    CHECK(mesh.triangles == std::vector<std::uint32_t>{1, 4, 2, 0, 1, 2, 0, 2, 3, 1, 1, 1});
+    CHECK(mesh.polygons == std::vector<std::uint32_t>{0, 1, 1, 2});
+    CHECK(mesh.polygon_count == 3);
+    CHECK(mesh.warnings.size() == 1);
 }
 
 TEST_CASE("OBJ faults are reported with their line") {
@@ -95,9 +98,31 @@ TEST_CASE("OBJ faults are reported with their line") {
 TEST_CASE("repeated corners are dropped or simplified with one warning") {
     const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                            "f 1 2 2\nf 1 2 3 3\nf 1 1 3 4 1\nf 1 2 1 2\n");
-    CHECK(mesh.triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3});
     REQUIRE(mesh.warnings.size() == 1);
     CHECK(contains(mesh.warnings[0], ": 4"));
+    CHECK(taking_part(mesh) == 2);
+    CHECK(std::vector(mesh.triangles.begin() + 3, mesh.triangles.begin() + 6) ==
+          std::vector<std::uint32_t>{0, 1, 2});
+    CHECK(mesh.polygons == std::vector<std::uint32_t>{0, 1, 1, 2, 2, 2, 3, 3});
+}
+
+TEST_CASE("triangles keep the numbers that the file gives them, whatever is dropped") {
+    const MeshFile mesh = mesh_of("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\n"
+                                           "property float x\nproperty float y\n"
+                                           "property float z\nelement face 8\n"
+                                           "property list uchar int vertex_indices\nend_header\n"
+                                           "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n"
+                                           "3 0 1 2\n2 0 1\n3 2 1 0\n0\n3 1 1 2\n"
+                                           "4 3 3 2 0\n3 0 1 4\n4 1 2 3 4\n");
+    CHECK(mesh.polygon_count == 8);
+    CHECK(mesh.polygons == std::vector<std::uint32_t>{0, 2, 4, 5, 5, 6, 7, 7});
+    REQUIRE(mesh.triangle_count() == 8);
+    const std::vector<bool> takes_part{true, false, false, true, false, true, true, true};
+    for (std::size_t t = 0; t < takes_part.size(); ++t) {
+        CAPTURE(t);
+        CHECK(mesh.takes_part(t) == takes_part[t]);
+    }
+    CHECK(mesh_of("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nf 1 2 3\n").polygons.empty());
 }
 
 TEST_CASE("PLY headers are read strictly") {

@@ -70,6 +70,17 @@ SampleRow row_of(std::uint32_t dimension) {
 
 } // namespace
 
+TEST_CASE("a dropped triangle has no say in the normals of a lift") {
+    const MeshFile mesh = mesh_of("a.obj",
+                                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\n"
+                                  "f 1 1 4\nf 1 2 3\nf 3 2 1\n",
+                                  "", "");
+    const std::vector<Lift> lifts{{"", 2}};
+    const LiftedPositions lifted = lifted_positions("a.obj", mesh, lifts);
+    CHECK(std::vector(lifted.positions.begin(), lifted.positions.begin() + 6) ==
+          std::vector<double>{0, 0, 0, 0, 0, 2});
+}
+
 TEST_CASE("PLY vertices may have x0 to x7") {
     const MeshFile mesh = mesh_of("a.ply", ply_with(numbered(4), kLines4), "", "");
     CHECK(mesh.dimension == 4);
@@ -180,6 +191,9 @@ TEST_CASE("a sidecar file gives the lengths of edges") {
                 "property list uchar uint vertex_indices\nend_header\n3 0 1 4000000000\n",
                 "", "0 1 1\n");
     });
+
+    const MeshFile dropped = mesh_of("a.obj", "f 1 2 3\nf 3 2 1\nf 2 2 4\nf 1 3 4\n", "", kLengths);
+    CHECK(dropped.lengths == std::vector<double>{3, 4, 5, 0, 0, 0, 0, 0, 0, 5, 3, 4});
 }
 
 TEST_CASE("lifts are read strictly") {

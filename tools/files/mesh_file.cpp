@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
+#include "files/face_splitting.hpp"
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sidecar_files.hpp"
-#include "geometry/polygon_triangulation.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -99,72 +99,6 @@ void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh
     warn(mesh, "unused vertices that are not finite", not_finite);
 }
 
-/// Splits all faces. Faces that repeat a vertex keep what is left of them without the repetition.
-void split_faces(const PolygonMesh& polygons, MeshFile& mesh) {
-    std::size_t too_small = 0;
-    std::size_t repeating = 0;
-    std::vector<std::uint32_t> corners;
-    std::vector<std::uint32_t> parts;
-    std::size_t begin = 0;
-    for (const std::size_t end : polygons.face_ends) {
-        const std::span<const std::uint32_t> face(&polygons.corners[0] + begin, end - begin);
-        begin = end;
-        if (face.size() < 3) {
-            ++too_small;
-            continue;
-        }
-        corners.assign(face.begin(), face.end());
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        while (corners.size() > 1 && corners.front() == corners.back()) {
-            corners.pop_back();
-        }
-        parts.clear();
-        triangulate_polygon(polygons.positions, corners, parts, polygons.dimension);
-        const std::size_t size_before = mesh.triangles.size();
-        for (std::size_t i = 0; i < parts.size(); i += 3) {
-            const std::uint32_t a = parts[i], b = parts[i + 1], c = parts[i + 2];
-            if (a != b && b != c && c != a) {
-                mesh.triangles.insert(mesh.triangles.end(), {a, b, c});
-            }
-        }
-        repeating += mesh.triangles.size() - size_before < 3 * (face.size() - 2) ? 1u : 0u;
-    }
-    warn(mesh, "faces with fewer than 3 corners dropped", too_small);
-    warn(mesh, "faces with a repeated vertex dropped or simplified", repeating);
-}
-
-/// Drops every triangle whose three vertices an earlier triangle has, whichever way round.
-void drop_copies(MeshFile& mesh) {
-    using Key = std::array<std::uint32_t, 4>; // sorted vertices, then the triangle
-    const std::size_t count = mesh.triangles.size() / 3;
-    std::vector<Key> keys(count);
-    for (std::size_t t = 0; t < count; ++t) {
-        const std::uint32_t* corner = &mesh.triangles[3 * t];
-        keys[t] = {corner[0], corner[1], corner[2], static_cast<std::uint32_t>(t)};
-        std::sort(keys[t].begin(), keys[t].begin() + 3);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<bool> is_copy(count, false);
-    std::size_t copies = 0;
-    for (std::size_t i = 1; i < count; ++i) {
-        if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin())) {
-            is_copy[keys[i][3]] = true;
-            ++copies;
-        }
-    }
-    if (copies == 0) {
-        return;
-    }
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < count; ++t) {
-        if (!is_copy[t]) {
-            std::copy_n(&mesh.triangles[3 * t], 3, &mesh.triangles[3 * kept++]);
-        }
-    }
-    mesh.triangles.resize(3 * kept);
-    warn(mesh, "duplicate triangles dropped", copies);
-}
-
 /// Whether the triangle is more than a line or point, up to rounding, at any scale.
 bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
     const auto coordinate = [&](int k, std::size_t axis) {
@@ -204,11 +138,13 @@ bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
 
 /// Refuses a mesh all of whose faces are flat.
 void check_areas(const Path& path, MeshFile& mesh) {
-    std::size_t without_area = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        without_area += has_area(mesh, &mesh.triangles[i]) ? 0u : 1u;
+    std::size_t without_area = 0, with_area = 0;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (mesh.takes_part(t)) {
+            ++(has_area(mesh, &mesh.triangles[3 * t]) ? with_area : without_area);
+        }
     }
-    if (3 * without_area == mesh.triangles.size()) {
+    if (with_area == 0) {
         fail_input(path, "has no face with an area");
     }
     warn(mesh, "triangles without area kept", without_area);
@@ -216,22 +152,32 @@ void check_areas(const Path& path, MeshFile& mesh) {
 
 /// Polygons have sides but no diagonals.
 void check_triangles(const Path& path, const PolygonMesh& polygons) {
-    std::size_t begin = 0;
     for (std::size_t face = 0; face < polygons.face_ends.size(); ++face) {
-        const std::size_t size = polygons.face_ends[face] - begin;
-        begin = polygons.face_ends[face];
-        if (size > 3) {
+        if (const std::size_t size = polygons.face(face).size(); size > 3) {
             fail_input(path, place_of_face(polygons, face) + ": has " + std::to_string(size) +
                                  " corners; with edge lengths all faces must be triangles");
         }
     }
 }
 
+void check_size(const Path& path, const PolygonMesh& polygons) {
+    const std::uint64_t triangles = triangles_of(polygons);
+    if (triangles == 0) {
+        fail_input(path, "has no faces of 3 or more corners");
+    }
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (triangles > kMost || polygons.face_ends.size() > kMost) {
+        fail_input(path, "has more faces than can be numbered");
+    }
+}
+
 void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    mesh.lengths.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const std::uint32_t* const corner = &mesh.triangles[3 * t];
         for (std::size_t k = 0; k < 3; ++k) {
             mesh.lengths.push_back(
-                lengths.between(mesh.triangles[i + k], mesh.triangles[i + (k + 1) % 3]));
+                mesh.takes_part(t) ? lengths.between(corner[k], corner[(k + 1) % 3]) : 0);
         }
     }
     warn(mesh, "lengths of edges that no face has ignored", lengths.unused());
@@ -299,14 +245,14 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     if (sources.has_uvs) {
         take_uvs(path, polygons, mesh);
     }
-    split_faces(polygons, mesh);
-    if (mesh.triangles.size() / 3 > std::numeric_limits<std::uint32_t>::max()) {
-        fail_input(path, "has too many triangles");
-    }
+    check_size(path, polygons);
+    const SplitCounts split = split_faces(polygons, mesh);
+    warn(mesh, "faces with fewer than 3 corners dropped", split.small_faces);
+    warn(mesh, "faces with a repeated vertex dropped or simplified", split.repeating_faces);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;
     mesh.attributes = std::move(polygons.attributes);
-    drop_copies(mesh);
+    warn(mesh, "duplicate triangles dropped", drop_copies(mesh));
     if (has_lengths) {
         EdgeLengths lengths(sources.edge_lengths, first_vertex_of(polygons));
         take_lengths(lengths, mesh);

@@ -21,10 +21,10 @@ struct MeshSources {
 
 /// Reads a mesh.
 ///
-/// Every index is in range, every used vertex is finite, at least one triangle has an area (but
-/// with edge lengths, which are not judged), and no triangle repeats a vertex or is a copy of an
-/// earlier one: such faces are dropped with a warning. Triangles without area are kept, as paths
-/// may lead through them.
+/// Every index is in range, every used vertex is finite, and at least one triangle has an area (but
+/// with edge lengths, which are not judged). Triangles that repeat a vertex or copy an earlier one
+/// are dropped with a warning: they keep their number but take no part. Triangles without area are
+/// kept, as paths may lead through them.
 ///
 /// Throws UserError(bad_input) that names the file, the cause, and the line or element;
 /// UserError(usage) for an unknown built-in name or resolution, or sources that contradict each

@@ -31,6 +31,11 @@ struct PolygonMesh {
     static constexpr std::uint32_t kNoUv = std::numeric_limits<std::uint32_t>::max();
 
     std::size_t vertex_count() const { return positions.size() / dimension; }
+    /// The corners of a face.
+    std::span<const std::uint32_t> face(std::size_t index) const {
+        const std::size_t begin = index == 0 ? 0 : face_ends[index - 1];
+        return std::span(corners).subspan(begin, face_ends[index] - begin);
+    }
 };
 
 /// Reads the `v`, `f` and, where asked for, `vt` records of an OBJ file; everything else in it is

@@ -107,6 +107,9 @@ bool set_value(SampleRow& row, SampleColumn column, double value) {
     if (column == SampleColumn::face_index) {
         return set_index(row.face, value);
     }
+    if (column == SampleColumn::polygon_index) {
+        return set_index(row.polygon.emplace(), value);
+    }
     if (column == SampleColumn::radius) {
         row.radius = value;
         return value > 0 && std::isfinite(value);

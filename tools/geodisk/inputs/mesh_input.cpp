@@ -120,6 +120,7 @@ void MeshInput::place(SampleRow& row) const {
     row.normal[0] = static_cast<float>(n.x);
     row.normal[1] = static_cast<float>(n.y);
     row.normal[2] = static_cast<float>(n.z);
+    row.polygon = polygon(row.face);
 }
 
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,

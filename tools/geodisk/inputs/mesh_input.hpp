@@ -39,9 +39,13 @@ struct MeshInput {
     double radius(std::uint32_t face, const float (&weights)[3], double min_distance) const {
         return radii ? radii->factor_at(face, weights) * min_distance / 2 : 0;
     }
+    /// The file's face that triangle `face` is of, where that is another number.
+    std::optional<std::uint32_t> polygon(std::uint32_t face) const {
+        return file.polygons.empty() ? std::nullopt : std::optional(file.polygons[face]);
+    }
     /// Of unit length; zero for a face without area and for a mesh that is not in space.
     Vec3 normal(std::uint32_t face) const;
-    /// Sets position and normal of `row` by its face and weights.
+    /// Sets position, normal and polygon of `row` by its face and weights.
     void place(SampleRow& row) const;
 };
 

@@ -25,7 +25,8 @@ std::string mesh_text(const MeshStatistics& mesh) {
 }
 
 /// Lifts may be several, so they make a list.
-Json mesh_json(const SampleJob& job, const MeshStatistics& mesh) {
+Json mesh_json(const SampleJob& job, const MeshInput& input) {
+    const MeshStatistics& mesh = input.prepared.statistics();
     const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
     Json json{{"path", job.mesh.mesh}};
     for (const auto& [name, value] : job.additions()) {
@@ -35,14 +36,17 @@ Json mesh_json(const SampleJob& job, const MeshStatistics& mesh) {
             json[name] = value;
         }
     }
-    json.update({{"vertices", mesh.vertices},
-                 {"triangles", mesh.triangles},
-                 {"components", mesh.components},
-                 {"boundary_edges", mesh.boundary_edges},
-                 {"coinciding_border_edges", mesh.coinciding_border_edges},
-                 {"nonmanifold_edges", mesh.nonmanifold_edges},
-                 {"area", mesh.area},
-                 {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
+    json.update(
+        {{"vertices", mesh.vertices},
+         {"triangles", mesh.triangles},
+         {"polygons", input.file.polygons.empty() ? Json(nullptr) : Json(input.file.polygon_count)},
+         {"dropped_triangles", mesh.repeated_index_faces},
+         {"components", mesh.components},
+         {"boundary_edges", mesh.boundary_edges},
+         {"coinciding_border_edges", mesh.coinciding_border_edges},
+         {"nonmanifold_edges", mesh.nonmanifold_edges},
+         {"area", mesh.area},
+         {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
     return json;
 }
 
@@ -87,7 +91,7 @@ std::string SampleReport::json(double write_seconds) const {
     const RunReport& run = result_.done.run;
     const SampleParams& params = result_.params;
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(job_, mesh_.prepared.statistics())},
+                  {"mesh", mesh_json(job_, mesh_)},
                   {"output", job_.out.output},
                   {"min_distance", params.min_distance},
                   {"radius", params.min_distance / 2},
