@@ -99,7 +99,11 @@ TEST_CASE("repeated corners are dropped or simplified with one warning") {
     const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                            "f 1 2 2\nf 1 2 3 3\nf 1 1 3 4 1\nf 1 2 1 2\n");
     REQUIRE(mesh.warnings.size() == 1);
-    CHECK(contains(mesh.warnings[0], ": 4"));
+    CHECK(mesh.warnings[0].kind == "repeated_vertices");
+    CHECK(mesh.warnings[0].count == 4);
+    CHECK(mesh.warnings[0].first == "line 5");
+    CHECK(mesh.warnings[0].message ==
+          "4 faces with a repeated vertex dropped or simplified (first: line 5)");
     CHECK(taking_part(mesh) == 2);
     CHECK(std::vector(mesh.triangles.begin() + 3, mesh.triangles.begin() + 6) ==
           std::vector<std::uint32_t>{0, 1, 2});
@@ -173,5 +177,7 @@ TEST_CASE("a face without area is kept with a warning") {
     const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv .5 0 0\n"
                                            "f 1 2 3\nf 1 4 2\n");
     CHECK(mesh.triangles.size() == 6);
-    CHECK(mesh.warnings == std::vector<std::string>{"triangles without area kept: 1"});
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].message ==
+          "1 triangle without area kept: paths may lead through it (line 6)");
 }

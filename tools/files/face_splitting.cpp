@@ -46,7 +46,9 @@ SplitCounts split_faces(PolygonMesh& polygons, MeshFile& mesh) {
     if (are_triangles(polygons)) {
         mesh.triangles = std::move(polygons.corners);
         for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-            counts.repeating_faces += mesh.takes_part(t) ? 0u : 1u;
+            if (!mesh.takes_part(t)) {
+                counts.repeating_faces.add(t);
+            }
         }
         return counts;
     }
@@ -58,7 +60,7 @@ SplitCounts split_faces(PolygonMesh& polygons, MeshFile& mesh) {
     for (std::uint32_t f = 0; f < mesh.polygon_count; ++f) {
         const std::span<const std::uint32_t> face = polygons.face(f);
         if (face.size() < 3) {
-            ++counts.small_faces;
+            counts.small_faces.add(f);
             continue;
         }
         const std::size_t begin = mesh.triangle_count();
@@ -71,12 +73,14 @@ SplitCounts split_faces(PolygonMesh& polygons, MeshFile& mesh) {
         for (std::size_t t = begin; t < end; ++t) {
             is_whole = is_whole && mesh.takes_part(t);
         }
-        counts.repeating_faces += is_whole ? 0u : 1u;
+        if (!is_whole) {
+            counts.repeating_faces.add(f);
+        }
     }
     return counts;
 }
 
-std::size_t drop_copies(MeshFile& mesh) {
+Found drop_copies(MeshFile& mesh) {
     // Sorted by their lowest vertex first, by counting; few triangles share it then.
     std::size_t vertices = 0;
     for (const std::uint32_t v : mesh.triangles) {
@@ -102,7 +106,7 @@ std::size_t drop_copies(MeshFile& mesh) {
 
     using Key = std::array<std::uint32_t, 3>; // The two other vertices, then the triangle.
     std::vector<Key> keys;
-    std::size_t copies = 0;
+    Found copies;
     std::uint32_t begin = 0;
     for (std::uint32_t v = 0; v < vertices; ++v) {
         keys.clear();
@@ -117,7 +121,7 @@ std::size_t drop_copies(MeshFile& mesh) {
         for (std::size_t i = 1; i < keys.size(); ++i) {
             if (keys[i][0] == keys[i - 1][0] && keys[i][1] == keys[i - 1][1]) {
                 std::fill_n(&mesh.triangles[std::size_t{3} * keys[i][2]], 3, v);
-                ++copies;
+                copies.add(keys[i][2]);
             }
         }
     }

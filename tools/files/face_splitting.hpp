@@ -10,8 +10,8 @@
 namespace geodisk::tools {
 
 struct SplitCounts {
-    std::size_t small_faces = 0;     ///< Of fewer than 3 corners, which make no triangle.
-    std::size_t repeating_faces = 0; ///< That lost some of their triangles as they repeat a vertex.
+    Found small_faces;     ///< Of fewer than 3 corners, which make no triangle.
+    Found repeating_faces; ///< That lost some of their triangles as they repeat a vertex.
 };
 
 /// How many triangles all faces make.
@@ -23,7 +23,7 @@ std::uint64_t triangles_of(const PolygonMesh& polygons);
 SplitCounts split_faces(PolygonMesh& polygons, MeshFile& mesh);
 
 /// Drops every triangle whose three vertices an earlier one has, whichever way round: it takes no
-/// part then. Returns how many. Time is that of sorting.
-std::size_t drop_copies(MeshFile& mesh);
+/// part then. Returns the dropped ones. Time is that of sorting.
+Found drop_copies(MeshFile& mesh);
 
 } // namespace geodisk::tools

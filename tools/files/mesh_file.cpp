@@ -20,6 +20,8 @@
 namespace geodisk::tools {
 namespace {
 
+constexpr std::string_view kBuiltin = "builtin:";
+
 bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
     const auto coordinates =
         std::span(mesh.positions).subspan(vertex * mesh.dimension, mesh.dimension);
@@ -27,37 +29,15 @@ bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
                        [](double x) { return std::isfinite(x); });
 }
 
-/// The number the mesh file gives its first vertex.
-std::uint32_t first_vertex_of(const PolygonMesh& mesh) {
-    return mesh.face_lines.empty() ? 0 : 1;
-}
-
-std::string place_of_face(const PolygonMesh& mesh, std::size_t face) {
-    return mesh.face_lines.empty() ? "element face, record " + std::to_string(face)
-                                   : "line " + std::to_string(mesh.face_lines[face]);
-}
-
-/// OBJ users count vertices from 1 and look for lines, PLY users count records from 0.
 [[noreturn]] void fail_index(const Path& path, const PolygonMesh& mesh, std::size_t face,
                              std::uint32_t vertex) {
-    fail_input(path, place_of_face(mesh, face) + ": vertex index " +
-                         std::to_string(std::uint64_t{vertex} + first_vertex_of(mesh)) +
-                         " is out of range, the file has " + std::to_string(mesh.vertex_count()) +
-                         " vertices");
+    fail_input(path, mesh.names.of_face(face) + ": vertex index " +
+                         mesh.names.vertex_number(vertex) + " is out of range, the file has " +
+                         std::to_string(mesh.vertex_count()) + " vertices");
 }
 
 [[noreturn]] void fail_not_finite(const Path& path, const PolygonMesh& mesh, std::size_t vertex) {
-    const std::string place = mesh.vertex_lines.empty()
-                                  ? "element vertex, record " + std::to_string(vertex)
-                                  : "line " + std::to_string(mesh.vertex_lines[vertex]) +
-                                        ", vertex " + std::to_string(vertex + 1);
-    fail_input(path, place + ": the coordinates are not finite");
-}
-
-void warn(MeshFile& mesh, const std::string& what, std::size_t count) {
-    if (count > 0) {
-        mesh.warnings.push_back(what + ": " + std::to_string(count));
-    }
+    fail_input(path, mesh.names.of_vertex(vertex) + ": the coordinates are not finite");
 }
 
 /// A face may name any vertex then, so that their number has to be bounded.
@@ -65,20 +45,20 @@ void check_bare_corners(const Path& path, const PolygonMesh& polygons) {
     const std::uint64_t bound = polygons.corners.size();
     for (const std::uint32_t vertex : polygons.corners) {
         if (vertex >= bound) {
-            fail_input(path, "vertex index " +
-                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
+            fail_input(path, "vertex index " + polygons.names.vertex_number(vertex) +
                                  " is out of range: without coordinates, a mesh of " +
                                  std::to_string(bound) + " corners has at most so many vertices");
         }
     }
 }
 
-/// Checks every face against the vertices; warns of unused vertices that are not finite.
+/// Checks every face against the vertices; warns of unused vertices.
 void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
     const std::size_t vertex_count = polygons.vertex_count();
     if (vertex_count > std::numeric_limits<std::uint32_t>::max()) {
         fail_input(path, "has more vertices than a face can refer to");
     }
+    std::vector<bool> is_used(vertex_count, false);
     std::size_t face = 0;
     for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
         while (i >= polygons.face_ends[face]) {
@@ -88,15 +68,25 @@ void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh
         if (vertex >= vertex_count) {
             fail_index(path, polygons, face, vertex);
         }
-        if (!is_finite(polygons, vertex)) {
+        if (!is_used[vertex] && !is_finite(polygons, vertex)) {
             fail_not_finite(path, polygons, vertex);
         }
+        is_used[vertex] = true;
     }
-    std::size_t not_finite = 0;
+    Found unused, not_finite;
     for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
-        not_finite += is_finite(polygons, vertex) ? 0u : 1u;
+        if (!is_used[vertex]) {
+            (is_finite(polygons, vertex) ? unused : not_finite).add(vertex);
+        }
     }
-    warn(mesh, "unused vertices that are not finite", not_finite);
+    const auto place = [&](const Found& found) {
+        return found.count == 0 ? "" : polygons.names.of_vertex(found.first);
+    };
+    add_warning(mesh.warnings, "unused_vertices", unused.count, place(unused),
+                "vertex is in no face", "vertices are in no face");
+    add_warning(mesh.warnings, "unused_not_finite", not_finite.count, place(not_finite),
+                "vertex that is in no face has coordinates that are not finite",
+                "vertices that are in no face have coordinates that are not finite");
 }
 
 /// Whether the triangle is more than a line or point, up to rounding, at any scale.
@@ -138,23 +128,28 @@ bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
 
 /// Refuses a mesh all of whose faces are flat.
 void check_areas(const Path& path, MeshFile& mesh) {
-    std::size_t without_area = 0, with_area = 0;
+    Found without_area, with_area;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         if (mesh.takes_part(t)) {
-            ++(has_area(mesh, &mesh.triangles[3 * t]) ? with_area : without_area);
+            (has_area(mesh, &mesh.triangles[3 * t]) ? with_area : without_area).add(t);
         }
     }
-    if (with_area == 0) {
+    if (with_area.count == 0) {
         fail_input(path, "has no face with an area");
     }
-    warn(mesh, "triangles without area kept", without_area);
+    if (without_area.count > 0) {
+        add_warning(mesh.warnings, "zero_area_faces", without_area.count,
+                    mesh.name_of_triangle(without_area.first),
+                    "triangle without area kept: paths may lead through it",
+                    "triangles without area kept: paths may lead through them");
+    }
 }
 
 /// Polygons have sides but no diagonals.
 void check_triangles(const Path& path, const PolygonMesh& polygons) {
     for (std::size_t face = 0; face < polygons.face_ends.size(); ++face) {
         if (const std::size_t size = polygons.face(face).size(); size > 3) {
-            fail_input(path, place_of_face(polygons, face) + ": has " + std::to_string(size) +
+            fail_input(path, polygons.names.of_face(face) + ": has " + std::to_string(size) +
                                  " corners; with edge lengths all faces must be triangles");
         }
     }
@@ -171,6 +166,27 @@ void check_size(const Path& path, const PolygonMesh& polygons) {
     }
 }
 
+void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
+    const auto [small, repeating] = split_faces(polygons, mesh);
+    const auto place = [&](const Found& found) {
+        return found.count == 0 ? "" : polygons.names.of_face(found.first);
+    };
+    add_warning(mesh.warnings, "small_faces", small.count, place(small),
+                "face with fewer than 3 corners makes no triangle",
+                "faces with fewer than 3 corners make no triangle");
+    add_warning(mesh.warnings, "repeated_vertices", repeating.count, place(repeating),
+                "face with a repeated vertex dropped or simplified",
+                "faces with a repeated vertex dropped or simplified");
+}
+
+void drop_copied_triangles(MeshFile& mesh) {
+    if (const Found copies = drop_copies(mesh); copies.count > 0) {
+        add_warning(mesh.warnings, "duplicate_faces", copies.count,
+                    mesh.name_of_triangle(copies.first), "copy of an earlier triangle dropped",
+                    "copies of earlier triangles dropped");
+    }
+}
+
 void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
     mesh.lengths.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -180,7 +196,9 @@ void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
                 mesh.takes_part(t) ? lengths.between(corner[k], corner[(k + 1) % 3]) : 0);
         }
     }
-    warn(mesh, "lengths of edges that no face has ignored", lengths.unused());
+    add_warning(mesh.warnings, "unused_lengths", lengths.unused(), "",
+                "length of an edge that no face has ignored",
+                "lengths of edges that no face has ignored");
 }
 
 void take_coordinates(const MeshSources& sources, PolygonMesh& polygons) {
@@ -204,9 +222,8 @@ void take_uvs(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
         }
         const std::uint32_t vertex = polygons.corners[i];
         const auto fail = [&](const std::string& message) {
-            fail_input(path, place_of_face(polygons, face) + ": vertex " +
-                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
-                                 message);
+            fail_input(path, polygons.names.of_face(face) + ": vertex " +
+                                 polygons.names.vertex_number(vertex) + message);
         };
         const std::uint32_t uv = polygons.corner_uvs[i];
         if (uv == PolygonMesh::kNoUv) {
@@ -246,15 +263,14 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
         take_uvs(path, polygons, mesh);
     }
     check_size(path, polygons);
-    const SplitCounts split = split_faces(polygons, mesh);
-    warn(mesh, "faces with fewer than 3 corners dropped", split.small_faces);
-    warn(mesh, "faces with a repeated vertex dropped or simplified", split.repeating_faces);
+    split_polygons(polygons, mesh);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;
     mesh.attributes = std::move(polygons.attributes);
-    warn(mesh, "duplicate triangles dropped", drop_copies(mesh));
+    mesh.names = std::move(polygons.names);
+    drop_copied_triangles(mesh);
     if (has_lengths) {
-        EdgeLengths lengths(sources.edge_lengths, first_vertex_of(polygons));
+        EdgeLengths lengths(sources.edge_lengths, mesh.names.first_vertex);
         take_lengths(lengths, mesh);
     } else {
         check_areas(path, mesh);
@@ -291,13 +307,16 @@ void check_no_uvs(const MeshSources& sources) {
 
 } // namespace
 
+bool is_builtin(const std::string& path) {
+    return path.starts_with(kBuiltin);
+}
+
 MeshFile read_mesh(const MeshSources& sources) {
     const std::string& path = sources.mesh;
-    constexpr std::string_view kBuiltin = "builtin:";
     if (!sources.coordinates.empty() && !sources.edge_lengths.empty()) {
         fail_usage("--coordinates and --edge-lengths contradict each other; give just one");
     }
-    if (path.starts_with(kBuiltin)) {
+    if (is_builtin(path)) {
         if (!sources.coordinates.empty() || !sources.edge_lengths.empty()) {
             fail_usage(path + " is complete; --coordinates and "
                               "--edge-lengths are for mesh files");

@@ -31,6 +31,9 @@ struct MeshSources {
 /// other.
 MeshFile read_mesh(const MeshSources& sources);
 
+/// Whether `path` is "builtin:NAME" rather than a file.
+bool is_builtin(const std::string& path);
+
 /// Of one file.
 MeshFile read_mesh(const std::string& path);
 

@@ -206,7 +206,7 @@ struct MeshBuilder {
             const std::int64_t index = corner->vertex_index;
             const std::int64_t resolved = index > 0 ? index - 1 : vertices_so_far + index;
             if (resolved < 0) {
-                fail_line(path, mesh.face_lines[mesh.face_ends.size()],
+                fail_line(path, mesh.names.face_lines[mesh.face_ends.size()],
                           "vertex index " + std::to_string(index) + " is out of range, only " +
                               std::to_string(vertices_so_far) + " vertices come before it");
             }
@@ -224,7 +224,7 @@ struct MeshBuilder {
         }
         const std::int64_t resolved = index > 0 ? index - 1 : uvs_so_far + index;
         if (resolved < 0 || resolved >= static_cast<std::int64_t>(mesh.uvs.size() / 2)) {
-            fail_line(path, mesh.face_lines[mesh.face_ends.size()],
+            fail_line(path, mesh.names.face_lines[mesh.face_ends.size()],
                       "texture index " + std::to_string(index) + " is out of range");
         }
         return static_cast<std::uint32_t>(resolved);
@@ -247,10 +247,11 @@ PolygonMesh read_obj(const Path& path, bool has_uvs) {
     }
     MeshBuilder builder{path, {}, has_uvs};
     builder.mesh.uvs = std::move(records.uvs);
-    builder.mesh.vertex_lines = std::move(records.vertex_lines);
-    builder.mesh.face_lines = std::move(records.face_lines);
+    builder.mesh.names.vertex_lines = std::move(records.vertex_lines);
+    builder.mesh.names.face_lines = std::move(records.face_lines);
+    builder.mesh.names.first_vertex = 1;
     builder.mesh.positions = std::move(records.positions);
-    builder.mesh.face_ends.reserve(builder.mesh.face_lines.size());
+    builder.mesh.face_ends.reserve(builder.mesh.names.face_lines.size());
 
     tinyobj::callback_t callbacks;
     callbacks.vertex_cb = MeshBuilder::on_vertex;
@@ -262,7 +263,7 @@ PolygonMesh read_obj(const Path& path, bool has_uvs) {
         tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error);
     const std::size_t vertices_read = static_cast<std::size_t>(builder.vertices_so_far);
     if (!parsed || 3 * vertices_read != builder.mesh.positions.size() ||
-        builder.mesh.face_ends.size() != builder.mesh.face_lines.size()) {
+        builder.mesh.face_ends.size() != builder.mesh.names.face_lines.size()) {
         fail_input(path, "tinyobjloader cannot parse it: " + in_quotes(error));
     }
     return std::move(builder.mesh);

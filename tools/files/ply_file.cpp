@@ -308,13 +308,11 @@ std::size_t PlyFile::possible_records(const PlyElement& element) const {
     return static_cast<std::size_t>(std::min<std::uint64_t>(element.count, room));
 }
 
-std::string PlyFile::trailing_data_warning() const {
-    std::string_view rest(bytes_.data() + position_, bytes_.size() - position_);
-    if (format_ == Format::ascii && rest.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-        return {};
-    }
-    return rest.empty() ? ""
-                        : std::to_string(rest.size()) + " bytes after the last element ignored";
+std::size_t PlyFile::trailing_bytes() const {
+    const std::string_view rest(bytes_.data() + position_, bytes_.size() - position_);
+    const bool is_blank =
+        format_ == Format::ascii && rest.find_first_not_of(" \t\r\n") == std::string_view::npos;
+    return is_blank ? 0 : rest.size();
 }
 
 } // namespace geodisk::tools

@@ -57,8 +57,8 @@ class PlyFile {
     /// How many records of `element` the rest of the file can hold at most.
     std::size_t possible_records(const PlyElement& element) const;
 
-    /// Once all elements are read: a warning if data follow, or "".
-    std::string trailing_data_warning() const;
+    /// Once all elements are read: how many bytes of anything but blanks follow.
+    std::size_t trailing_bytes() const;
 
     [[noreturn]] void fail(const PlyElement& element, std::uint64_t record,
                            const std::string& message) const;

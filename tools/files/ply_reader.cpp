@@ -136,6 +136,7 @@ void read_faces(const Path& path, PlyFile& file, const PlyElement& element, Poly
 PolygonMesh read_ply(const Path& path, const PlyWanted& wanted) {
     PlyFile file(path);
     PolygonMesh mesh;
+    mesh.names = {"element face, record ", "element vertex, record ", {}, {}, 0};
     bool has_vertices = false;
     bool has_faces = false;
     for (const PlyElement& element : file.elements()) {
@@ -158,9 +159,8 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted) {
     if (wanted.has_uvs) {
         mesh.corner_uvs = mesh.corners;
     }
-    if (std::string warning = file.trailing_data_warning(); !warning.empty()) {
-        mesh.warnings.push_back(std::move(warning));
-    }
+    add_warning(mesh.warnings, "trailing_data", file.trailing_bytes(), "",
+                "byte after the last element ignored", "bytes after the last element ignored");
     return mesh;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -22,11 +23,8 @@ struct PolygonMesh {
     /// Where asked for: texture coordinates, two each, and the one of every corner, or kNoUv.
     std::vector<double> uvs;
     std::vector<std::uint32_t> corner_uvs;
-    std::vector<std::string> warnings;
-
-    /// 1-based line of each vertex and face for messages; empty where records have no lines.
-    std::vector<std::uint32_t> vertex_lines;
-    std::vector<std::uint32_t> face_lines;
+    ElementNames names;
+    std::vector<MeshWarning> warnings;
 
     static constexpr std::uint32_t kNoUv = std::numeric_limits<std::uint32_t>::max();
 

@@ -173,7 +173,7 @@ SampleFile read_ply_samples(const Path& path, Domain domain) {
     if (!has_vertices) {
         fail_input(path, "has no element vertex");
     }
-    if (const std::string warning = file.trailing_data_warning(); !warning.empty()) {
+    if (file.trailing_bytes() > 0) {
         fail_input(path, "has data after the last sample");
     }
     return samples;

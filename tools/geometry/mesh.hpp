@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh_warning.hpp"
+
 namespace geodisk::tools {
 
 /// Fewest and most coordinates a vertex may have in a file.
@@ -42,10 +44,14 @@ struct MeshFile {
     /// Where asked for: all that the corners of faces have, ascending by vertex and each just once;
     /// several at a vertex on a seam.
     std::vector<VertexUv> uvs;
-    std::vector<std::string>
-        warnings; ///< One line each: what was repaired or ignored, with counts.
+    ElementNames names;
+    std::vector<MeshWarning> warnings; ///< What was dropped or ignored.
 
     std::size_t triangle_count() const { return triangles.size() / 3; }
+    /// Its face, in the words of the file.
+    std::string name_of_triangle(std::size_t triangle) const {
+        return names.of_face(polygons.empty() ? triangle : polygons[triangle]);
+    }
     /// Whether the triangle names three vertices.
     bool takes_part(std::size_t triangle) const {
         const std::uint32_t* const v = &triangles[3 * triangle];

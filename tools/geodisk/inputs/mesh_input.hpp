@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <geodisk/mesh.hpp>
 #include <geodisk/radius_field.hpp>
@@ -23,7 +24,8 @@ namespace geodisk::tools {
 struct MeshInput {
     MeshFile file;
     PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
-    std::optional<RadiusField> radii; ///< Where the options say that radii vary.
+    std::optional<RadiusField> radii;  ///< Where the options say that radii vary.
+    std::vector<MeshWarning> warnings; ///< As told to the user.
     double load_seconds = 0;
     double prepare_seconds = 0;
 

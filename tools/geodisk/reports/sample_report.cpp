@@ -18,8 +18,7 @@ std::string mesh_text(const MeshStatistics& mesh) {
         text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
     }
     if (mesh.coinciding_border_edges > 0) {
-        text += ", " + grouped(mesh.coinciding_border_edges) +
-                " of them in one place with others: weld the vertices to join the faces";
+        text += ", " + grouped(mesh.coinciding_border_edges) + " of them in one place with others";
     }
     return text + ", area " + rounded(mesh.area, 6);
 }
@@ -92,6 +91,7 @@ std::string SampleReport::json(double write_seconds) const {
     const SampleParams& params = result_.params;
     Json document{{"version", GEODISK_VERSION_STRING},
                   {"mesh", mesh_json(job_, mesh_)},
+                  {"warnings", warnings_json(mesh_.warnings)},
                   {"output", job_.out.output},
                   {"min_distance", params.min_distance},
                   {"radius", params.min_distance / 2},
