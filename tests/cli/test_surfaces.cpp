@@ -53,6 +53,44 @@ TEST_CASE("shapes in R^4 are sampled, verified and written") {
                 {"verify", "builtin:veronese:2", "b.ply"});
 }
 
+TEST_CASE("welding joins faces along open seams, and verify wants the same") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0.001\nv 0 1 0\n"
+                             "f 1 2 3\nf 4 5 6\n");
+    // The option takes no argument that follows it.
+    Outcome made = run(folder, {"sample", "--weld=0.1%", "mesh.obj", "-o", "a.ply", "-n", "200"});
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    CHECK(made.err.empty());
+    CHECK(contains(made.out, "weld 0.1%\n"));
+    CHECK(contains(made.out, "1 component, 4 boundary edges, 2 vertices joined to others, area"));
+    CHECK(*tools::read_samples(folder / "a.ply").header.find("weld") == "0.1%");
+    for (const Arguments& first :
+         {Arguments{"sample", "--weld", "mesh.obj"}, {"sample", "mesh.obj"}}) {
+        made = run(folder, joined(first, {"-o", "b.ply", "-n", "200", "--json", "b.json"}));
+        REQUIRE(made.status == 0);
+        CHECK(contains(made.err, first.size() == 3 ? "1 vertex joins faces" : "2 components"));
+        CHECK(contains(bytes_of(folder / "b.json"), first.size() == 3
+                                                        ? "\"merged_vertices\": 1,"
+                                                        : "\"merged_vertices\": null,"));
+    }
+    const Outcome same = run(folder, {"verify", "mesh.obj", "a.ply", "--weld=0.1%"});
+    CHECK(same.status == 0);
+    CHECK(same.err.empty());
+    CHECK(
+        contains(run(folder, {"verify", "mesh.obj", "a.ply"}).err, "made with --weld=0.1%, which"));
+    CHECK(contains(run(folder, {"verify", "mesh.obj", "b.ply", "--weld=0.1%"}).err,
+                   "made with no --lift and no --weld, which"));
+    CHECK(run(folder, {"transfer", "a.ply", "mesh.obj", "mesh.obj", "-o", "c.ply", "--weld-a=0.1%",
+                       "--weld-b=0.1%"})
+              .status == 0);
+    CHECK(run(folder,
+              {"sample", "mesh.obj", "-o", "e.ply", "-n", "9", "--weld", "--metric", "euclidean"})
+              .status == 0);
+    check_fails(folder, 2, "--weld: 'x' is not a length",
+                {"sample", "mesh.obj", "-o", "d.ply", "-n", "9", "--weld=x"});
+}
+
 TEST_CASE("shapes writes what it lists, where it can") {
     const TemporaryFolder folder;
     CHECK(contains(run(folder, {"shapes"}).out, "builtin:klein-bottle "));

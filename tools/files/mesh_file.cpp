@@ -12,6 +12,7 @@
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sidecar_files.hpp"
+#include "geometry/weld_mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -268,6 +269,9 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     mesh.dimension = polygons.dimension;
     mesh.attributes = std::move(polygons.attributes);
     mesh.names = std::move(polygons.names);
+    if (sources.weld) {
+        weld_mesh(sources.mesh, mesh, *sources.weld);
+    }
     drop_copied_triangles(mesh);
     if (has_lengths) {
         EdgeLengths lengths(sources.edge_lengths, mesh.names.first_vertex);
@@ -316,6 +320,10 @@ MeshFile read_mesh(const MeshSources& sources) {
     if (!sources.coordinates.empty() && !sources.edge_lengths.empty()) {
         fail_usage("--coordinates and --edge-lengths contradict each other; give just one");
     }
+    if (sources.weld && !sources.edge_lengths.empty()) {
+        fail_usage("--weld and --edge-lengths contradict each other: lengths leave no coordinates "
+                   "to join vertices by");
+    }
     if (is_builtin(path)) {
         if (!sources.coordinates.empty() || !sources.edge_lengths.empty()) {
             fail_usage(path + " is complete; --coordinates and "
@@ -323,7 +331,12 @@ MeshFile read_mesh(const MeshSources& sources) {
         }
         check_no_attributes(sources);
         check_no_uvs(sources);
-        return read_builtin(std::string_view(path).substr(kBuiltin.size()));
+        MeshFile mesh = read_builtin(std::string_view(path).substr(kBuiltin.size()));
+        if (sources.weld) {
+            weld_mesh(path, mesh, *sources.weld);
+            drop_copied_triangles(mesh);
+        }
+        return mesh;
     }
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {

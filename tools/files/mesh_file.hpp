@@ -2,10 +2,12 @@
 // PLY files.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "program/arguments.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -16,6 +18,8 @@ struct MeshSources {
     std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
     std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
+    /// Join vertices no farther apart; with a length of 0, those in one place.
+    std::optional<Length> weld = std::nullopt;
     bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
 };
 

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct VertexUv {
     double u, v;
 
     friend auto operator<=>(const VertexUv&, const VertexUv&) = default;
+};
+
+/// What joining vertices did.
+struct WeldCounts {
+    std::uint64_t merged_vertices = 0;  ///< That became another one.
+    std::uint64_t degenerate_faces = 0; ///< Triangles that take no part since.
 };
 
 /// A mesh as read: `positions` holds `dimension` coordinates per vertex, `triangles` three vertex
@@ -44,6 +51,7 @@ struct MeshFile {
     /// Where asked for: all that the corners of faces have, ascending by vertex and each just once;
     /// several at a vertex on a seam.
     std::vector<VertexUv> uvs;
+    std::optional<WeldCounts> weld; ///< Where vertices were joined.
     ElementNames names;
     std::vector<MeshWarning> warnings; ///< What was dropped or ignored.
 

@@ -170,6 +170,8 @@ void add_transfer_command(CLI::App& app) {
     add_sidecar_options(*command, options->from, "MESH_A", "-a");
     add_sidecar_options(*command, options->to, "MESH_B", "-b");
     add_lift_option(*command, options->to, "-b");
+    add_weld_option(*command, options->from, "-a");
+    add_weld_option(*command, options->to, "-b");
     add_output_options(*command, options->out);
     command->callback([options] { run_transfer(*options); });
 }

@@ -43,11 +43,11 @@ std::optional<MeshWarning> other_surface(const VerifyOptions& options, const Sam
     const auto options_of = [](const auto& entries) {
         std::string text;
         for (const auto& [key, value] : entries) {
-            if (key == "lift") {
-                text += " --lift " + value;
+            if (key == "lift" || key == "weld") {
+                text += " --" + key + (key == "lift" ? " " : "=") + value;
             }
         }
-        return text.empty() ? " no --lift" : text;
+        return text.empty() ? " no --lift and no --weld" : text;
     };
     const std::string used = options_of(samples.header.entries);
     if (used == options_of(options.mesh.additions())) {

@@ -46,8 +46,8 @@ PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<co
 /// What the lifts and the density need of the mesh file.
 MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
                        const DensityOptions& density) {
-    MeshSources sources{options.mesh, options.coordinates, options.edge_lengths,
-                        lift_attributes(lifts), !density.map.empty()};
+    MeshSources sources{options.mesh,           options.coordinates,     options.edge_lengths,
+                        lift_attributes(lifts), options.weld_distance(), !density.map.empty()};
     if (!density.attribute.empty()) {
         sources.attributes.push_back(density.attribute);
     }
