@@ -24,7 +24,8 @@ TEST_CASE("a mesh that cannot be read") {
     folder.write("words.ply", "this is not a mesh\n");
     folder.write("cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
                             "property float x\nproperty float y\nproperty float z\nend_header\n12");
-    folder.write("mesh.stl", "solid\n");
+    folder.write("mesh.3ds", "solid\n");
+    folder.write("cut.stl", "solid\nfacet\nvertex 0 0 0\n");
     std::filesystem::create_directory(folder / "folder.obj");
     const auto fails = [&](const std::string& mesh, const std::string& part) {
         check_fails(folder, 3, part, {"sample", mesh, "-o", "a.ply", "-n", "9"});
@@ -40,7 +41,8 @@ TEST_CASE("a mesh that cannot be read") {
     fails("nan.obj", "not finite");
     fails("words.ply", "words.ply: ");
     fails("cut.ply", "cut.ply: ");
-    fails("mesh.stl", "unknown mesh format");
+    fails("mesh.3ds", "unknown mesh format");
+    fails("cut.stl", "cut.stl: line 3: the file ends inside a facet");
 }
 
 TEST_CASE("an output that cannot be written") {

@@ -55,6 +55,9 @@ std::vector<Expected> expected_files() {
 }
 
 void check_mesh(const Expected& expected, const MeshFile& mesh) {
+    if (expected.verdict == "any" && !expected.vertices) {
+        return; // A file that is cut, for which there may be a mesh or none.
+    }
     CHECK(expected.vertices.value_or(0) == mesh.positions.size() / 3);
     if (expected.name != "warn_coincident_corner.obj") { // May keep or drop its flat faces.
         CHECK(expected.triangles.value_or(0) == taking_part(mesh));
@@ -67,7 +70,7 @@ void check_mesh(const Expected& expected, const MeshFile& mesh) {
 /// Files of a verdict "warn" that are nothing to warn of: slivers, polygons that are not flat, and
 /// coordinates that double precision holds.
 const std::set<std::string> kNothingToSay{"warn_sliver_fan.obj", "warn_nonplanar_quad.obj",
-                                          "warn_far_from_origin.obj", "warn_bad_vt_index.obj"};
+                                          "warn_far_from_origin.obj"};
 
 /// Kind of the warning that a file is made for.
 const std::map<std::string, std::string> kKinds{
@@ -84,9 +87,11 @@ const std::map<std::string, std::string> kKinds{
     {"warn_isolated_vertices.obj", "unused_vertices"},
     {"warn_isolated_nan.obj", "unused_not_finite"},
     {"warn_unwelded.obj", "unwelded"},
+    {"warn_bad_vt_index.obj", "bad_unused_index"},
     {"warn_two_components.obj", "components"},
     {"warn_trailing_data.ply", "trailing_data"},
-    {"warn_ply_face_2_corners.ply", "small_faces"}};
+    {"warn_ply_face_2_corners.ply", "small_faces"},
+    {"any_truncated.obj", "small_faces"}};
 
 /// All that a user is told of the mesh.
 std::vector<MeshWarning> warnings_of(const MeshFile& mesh) {

@@ -309,6 +309,15 @@ void check_no_uvs(const MeshSources& sources) {
     }
 }
 
+/// For a file that has no indices: its vertices are joined if only by place.
+MeshSources joined(MeshSources sources) {
+    if (!sources.edge_lengths.empty()) {
+        fail_usage("--edge-lengths needs numbers of vertices, which " + sources.mesh + " has not");
+    }
+    sources.weld = sources.weld.value_or(Length{});
+    return sources;
+}
+
 } // namespace
 
 bool is_builtin(const std::string& path) {
@@ -348,7 +357,16 @@ MeshFile read_mesh(const MeshSources& sources) {
         return to_triangles(
             sources, read_ply(path, {!has_other_source, sources.attributes, sources.has_uvs}));
     }
-    fail_input(path, "unknown mesh format; known are .obj, .ply and builtin:NAME");
+    check_no_attributes(sources);
+    check_no_uvs(sources);
+    if (extension == ".off") {
+        return to_triangles(sources, read_off(path));
+    }
+    if (extension == ".stl") {
+        const MeshSources with_weld = joined(sources);
+        return to_triangles(with_weld, read_stl(path));
+    }
+    fail_input(path, "unknown mesh format; known are .obj, .off, .ply, .stl and builtin:NAME");
 }
 
 MeshFile read_mesh(const std::string& path) {

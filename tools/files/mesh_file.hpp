@@ -1,4 +1,4 @@
-// Reads triangle meshes from OBJ and PLY files and from the built-in generators, and writes them to
+// Reads triangle meshes from files and from the built-in generators, and writes them to
 // PLY files.
 #pragma once
 
@@ -14,11 +14,12 @@ namespace geodisk::tools {
 
 /// The files that make up a mesh.
 struct MeshSources {
-    std::string mesh; ///< `*.obj`, `*.ply` (in capitals or not) or `builtin:NAME[:RESOLUTION]`.
-    std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
-    std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
+    std::string mesh;        ///< `*.obj`, `*.off`, `*.ply`, `*.stl` or `builtin:NAME[:RESOLUTION]`.
+    std::string coordinates; ///< See read_coordinates(); they replace those of the mesh. Or "".
+    std::string edge_lengths;            ///< See EdgeLengths, numbered as the mesh is. Or "".
     std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
-    /// Join vertices no farther apart; with a length of 0, those in one place.
+    /// Join vertices no farther apart; with a length of 0, those in one place,
+    /// as of STL in any case.
     std::optional<Length> weld = std::nullopt;
     bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
 };

@@ -1,4 +1,4 @@
-// The OBJ and PLY readers, and what they hand over: faces as the file lists them, not yet checked
+// The readers of mesh files, and what they hand over: faces as the file lists them, not yet checked
 // against the vertices and not yet split into triangles.
 #pragma once
 
@@ -38,8 +38,18 @@ struct PolygonMesh {
 
 /// Reads the `v`, `f` and, where asked for, `vt` records of an OBJ file; everything else in it is
 /// ignored. Understands every line end, line continuation, a byte order mark, relative
-/// indices and faces of any size. Throws UserError(bad_input) naming the line.
+/// indices and faces of any size. Throws UserError(bad_input) naming the line, like the readers of
+/// other texts below.
 PolygonMesh read_obj(const Path& path, bool has_uvs = false);
+
+/// Reads an STL file, binary if its size is as it tells or it does not begin with "solid", else
+/// ascii: three vertices for each facet, so that no two facets hang together until vertices are
+/// joined.
+PolygonMesh read_stl(const Path& path);
+
+/// Reads an ascii OFF file, with or without normals, colours and texture coordinates in the lines
+/// of vertices and faces, one line to a record.
+PolygonMesh read_off(const Path& path);
 
 /// What to read of element `vertex`.
 struct PlyWanted {
@@ -49,9 +59,9 @@ struct PlyWanted {
 };
 
 /// Reads the coordinates of element `vertex`, which are x0 x1 ..., 3 to 8 of them, where there is
-/// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`,
-/// in any format, type and order; everything else is skipped. Throws UserError(bad_input) naming
-/// the element and record.
+/// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`
+/// and of strips of triangles in element `tristrips`, in any format, type and order; everything
+/// else is skipped. Throws UserError(bad_input) naming the element and record.
 PolygonMesh read_ply(const Path& path, const PlyWanted& wanted);
 
 } // namespace geodisk::tools

@@ -47,7 +47,8 @@ HeaderEntries MeshOptions::additions() const {
 
 void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary,
                        const std::string& name) {
-    add_option(command, name, options.mesh, "", summary + ": *.obj, *.ply or builtin:NAME")
+    add_option(command, name, options.mesh, "",
+               summary + ": *.obj, *.off, *.ply, *.stl or builtin:NAME")
         ->required();
 }
 
@@ -59,7 +60,7 @@ void add_sidecar_options(CLI::App& command, MeshOptions& options, const std::str
                kSurfaceGroup);
     add_option(command, "--edge-lengths" + suffix, options.edge_lengths, "FILE",
                "Text file with a line VERTEX VERTEX LENGTH per edge, which\n"
-               "make the surface; vertices count from 1 in OBJ, 0 in PLY",
+               "make the surface; vertices count from 1 in OBJ, else 0",
                kSurfaceGroup);
 }
 
