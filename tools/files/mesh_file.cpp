@@ -366,7 +366,15 @@ MeshFile read_mesh(const MeshSources& sources) {
         const MeshSources with_weld = joined(sources);
         return to_triangles(with_weld, read_stl(path));
     }
-    fail_input(path, "unknown mesh format; known are .obj, .off, .ply, .stl and builtin:NAME");
+    if (extension == ".gltf" || extension == ".glb") {
+#ifdef GEODISK_GLTF
+        return to_triangles(sources, read_gltf(path));
+#else
+        fail_input(path, "this geodisk was built without glTF");
+#endif
+    }
+    fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
+                     "builtin:NAME");
 }
 
 MeshFile read_mesh(const std::string& path) {

@@ -14,9 +14,10 @@ namespace geodisk::tools {
 
 /// The files that make up a mesh.
 struct MeshSources {
-    std::string mesh;        ///< `*.obj`, `*.off`, `*.ply`, `*.stl` or `builtin:NAME[:RESOLUTION]`.
-    std::string coordinates; ///< See read_coordinates(); they replace those of the mesh. Or "".
-    std::string edge_lengths;            ///< See EdgeLengths, numbered as the mesh is. Or "".
+    std::string mesh;         ///< `*.gltf`, `*.glb`, `*.obj`, `*.off`, `*.ply`, `*.stl` or
+                              ///< `builtin:NAME[:RESOLUTION]`.
+    std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
+    std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
     std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
     /// Join vertices no farther apart; with a length of 0, those in one place,
     /// as of STL in any case.

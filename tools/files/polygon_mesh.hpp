@@ -51,6 +51,12 @@ PolygonMesh read_stl(const Path& path);
 /// of vertices and faces, one line to a record.
 PolygonMesh read_off(const Path& path);
 
+/// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh
+/// and primitive after the other, placed by their nodes; a mirrored one is turned over. Primitives
+/// of a mesh with the same positions share vertices. Buffers are read from the folder of the file
+/// alone, images not at all. Throws UserError(bad_input) naming mesh and primitive.
+PolygonMesh read_gltf(const Path& path);
+
 /// What to read of element `vertex`.
 struct PlyWanted {
     bool has_coordinates = true;             ///< False: if it has no coordinates, do without.

@@ -48,7 +48,7 @@ HeaderEntries MeshOptions::additions() const {
 void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary,
                        const std::string& name) {
     add_option(command, name, options.mesh, "",
-               summary + ": *.obj, *.off, *.ply, *.stl or builtin:NAME")
+               summary + ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME")
         ->required();
 }
 
