@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "cli/command.hpp"
@@ -89,6 +90,26 @@ TEST_CASE("welding joins faces along open seams, and verify wants the same") {
               .status == 0);
     check_fails(folder, 2, "--weld: 'x' is not a length",
                 {"sample", "mesh.obj", "-o", "d.ply", "-n", "9", "--weld=x"});
+}
+
+TEST_CASE("an STL file is a closed surface, by its places alone") {
+    const TemporaryFolder folder;
+    std::string facets = "solid tetrahedron\n";
+    const char* const corners[] = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+    for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
+        facets += "facet normal 0 0 0\nouter loop\n";
+        for (const int corner : {a, b, c}) {
+            facets += std::string("vertex ") + corners[corner] + "\n";
+        }
+        facets += "endloop\nendfacet\n";
+    }
+    folder.write("mesh.stl", facets + "endsolid\n");
+    const tools::SampleFile samples = check_passes(folder, {"mesh.stl"});
+    CHECK(samples.header.find("weld") == nullptr); // As it is always done.
+    const Outcome made =
+        run(folder, {"sample", "mesh.stl", "-o", "b.ply", "-n", "99", "--weld=0.001"});
+    CHECK(made.err.empty());
+    CHECK(contains(made.out, "4 triangles, 1 component, 8 vertices joined to others, area"));
 }
 
 TEST_CASE("shapes writes what it lists, where it can") {
