@@ -26,7 +26,8 @@ TEST_CASE("a mesh that cannot be read") {
     folder.write("words.ply", "this is not a mesh\n");
     folder.write("cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
                             "property float x\nproperty float y\nproperty float z\nend_header\n12");
-    folder.write("mesh.stl", "solid\n");
+    folder.write("mesh.3ds", "solid\n");
+    folder.write("cut.stl", "solid\nfacet\nvertex 0 0 0\n");
     std::filesystem::create_directory(folder / "folder.obj");
     const auto fails = [&](const std::string& mesh, const std::string& part) {
         check_fails(folder, 3, part, {"sample", mesh, "-o", "a.ply", "-n", "9"});
@@ -42,7 +43,8 @@ TEST_CASE("a mesh that cannot be read") {
     fails("nan.obj", "not finite");
     fails("words.ply", "words.ply: ");
     fails("cut.ply", "cut.ply: ");
-    fails("mesh.stl", "unknown mesh format");
+    fails("mesh.3ds", "unknown mesh format");
+    fails("cut.stl", "cut.stl: line 3: the file ends inside a facet");
 }
 
 TEST_CASE("an output that cannot be written") {
@@ -78,10 +80,29 @@ TEST_CASE("an output never replaces an input or another output") {
     CHECK(bytes_of(folder / "mesh.ply") == before);
 }
 
+/// Whether samples can be drawn at all where no file may be larger. Some drivers compile into files
+/// in memory, which the limit ends as well.
+bool driver_lives_with(const TemporaryFolder& folder, std::size_t file_size_limit) {
+    Setting full;
+    full.file_size_limit = file_size_limit;
+    const Outcome outcome =
+        run(folder, {"sample", "builtin:cube", "-o", "tiny.xyz", "-n", "1", "-q"}, full);
+    std::filesystem::remove(folder / "tiny.xyz");
+    const bool lives = outcome.status == 0;
+    if (!lives) {
+        MESSAGE("skipped: the driver needs larger files itself");
+    }
+    return lives;
+}
+
 TEST_CASE("a full disk leaves nothing behind and old files whole") {
     const TemporaryFolder folder;
     Setting full;
     full.file_size_limit = 4096;
+    check_fails(folder, 4, "b.ply: cannot write: ", {"shapes", "cube:100", "-o", "b.ply"}, full);
+    if (!driver_lives_with(folder, *full.file_size_limit)) {
+        return;
+    }
     const std::vector<std::string> arguments{"sample", "builtin:cube", "-o", "a.ply", "-n", "1000"};
     check_fails(folder, 4, "a.ply: cannot write: ", arguments, full);
     folder.write("a.ply", "old");
@@ -93,8 +114,10 @@ TEST_CASE("when the report cannot be written, the samples are not either") {
     const TemporaryFolder folder;
     Setting full;
     full.file_size_limit = 300; // Enough for a sample as text, too little for the report.
-    check_fails(folder, 4, "a.json: cannot write: ",
-                {"sample", "builtin:cube", "-o", "a.xyz", "-n", "1", "--json", "a.json"}, full);
+    if (driver_lives_with(folder, *full.file_size_limit)) {
+        check_fails(folder, 4, "a.json: cannot write: ",
+                    {"sample", "builtin:cube", "-o", "a.xyz", "-n", "1", "--json", "a.json"}, full);
+    }
     Setting closed;
     closed.stdout_path = "/dev/full";
     check_fails(folder, 4, "standard output",

@@ -249,7 +249,7 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
     with_first("nan");
     fails(3, "bad.txt: line 1: 'nan' is not finite", {"--density-file", "bad.txt"});
     fails(3, "none.png: no such file", {"--density-map", "none.png"});
-    fails(3, "g.txt: cannot be read as a PNG or JPEG image", {"--density-map", "g.txt"});
+    fails(3, "g.txt: is neither a PNG nor a JPEG image", {"--density-map", "g.txt"});
     fails(3, "builtin:cube: has no texture coordinates", {"--density-map", "g.png"},
           "builtin:cube");
     folder.write("black.png", tools::png_bytes(1, 1, std::string_view("\0", 1)));

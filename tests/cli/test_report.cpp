@@ -95,11 +95,30 @@ TEST_CASE("the report tells of seams whose vertices are doubled") {
     const Outcome outcome =
         run(folder, {"sample", "square.obj", "-o", "a.ply", "-n", "50", "--json", "a.json"});
     REQUIRE(outcome.status == 0);
-    CHECK(contains(outcome.out, "6 boundary edges, 2 of them in one place with others: "
-                                "weld the vertices to join the faces"));
+    CHECK(contains(outcome.out, "6 boundary edges, 2 of them in one place with others,"));
+    CHECK(contains(outcome.err, "square.obj: 2 border edges lie on others"));
     const Json report = Json::parse(bytes_of(folder / "a.json"));
     CHECK(report["mesh"]["boundary_edges"] == 6);
     CHECK(report["mesh"]["coinciding_border_edges"] == 2);
+    REQUIRE(report["warnings"].size() == 2);
+    CHECK(report["warnings"][0]["kind"] == "components");
+    CHECK(report["warnings"][1]["kind"] == "unwelded");
+    CHECK(report["warnings"][1]["count"] == 2);
+    CHECK(report["warnings"][1]["first"].is_null());
+    CHECK(report["warnings"][1]["file"] == "square.obj");
+
+    folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 3 3 1\nf 1 2 3\n");
+    for (const Arguments& command : {Arguments{"sample", "odd.obj", "-o", "b.ply", "-n", "9"},
+                                     {"verify", "odd.obj", "b.ply"}}) {
+        const Outcome odd = run(folder, joined(command, {"--json", "-"}));
+        REQUIRE(odd.status == 0);
+        const Json warnings = Json::parse(odd.out)["warnings"];
+        REQUIRE(warnings.size() == 1);
+        CHECK(warnings[0]["kind"] == "repeated_vertices");
+        CHECK(warnings[0]["first"] == "line 4");
+        CHECK(odd.err ==
+              "geodisk: warning: odd.obj: " + warnings[0]["message"].get<std::string>() + "\n");
+    }
 }
 
 TEST_CASE("calls are counted where asked for, without effect on the samples") {

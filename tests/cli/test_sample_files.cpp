@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cli/command.hpp"
 #include "files/sample_file.hpp"
@@ -76,6 +77,51 @@ TEST_CASE("all formats hold the same samples") {
                std::equal(a[i].bary, a[i].bary + 3, c[i].bary)));
         CHECK(a[i].position[0] == doctest::Approx(c[i].position[0]));
     }
+}
+
+TEST_CASE("samples name the triangles and faces of the mesh file, whatever of it is dropped") {
+    const TemporaryFolder folder;
+    // A cube of quads with a line, a copy, and a face that repeats a vertex before most of them.
+    folder.write("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\n"
+                             "property float y\nproperty float z\nelement face 9\n"
+                             "property list uchar int vertex_indices\nend_header\n"
+                             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                             "4 3 2 1 0\n2 0 1\n4 1 2 3 0\n3 4 4 5\n4 4 5 6 7\n"
+                             "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+    for (const Arguments& more :
+         {Arguments{}, {"--density-curvature"}, {"--lift", "normals:0.5"}}) {
+        const Arguments sample{"sample", "mesh.ply", "-o",     "a.csv",
+                               "-n",     "300",      "--json", "a.json"};
+        const Outcome made = run(folder, joined(sample, more));
+        INFO(made.err);
+        REQUIRE(made.status == 0);
+        const std::string report = bytes_of(folder / "a.json");
+        CHECK(contains(report, "\"polygons\": 9"));
+        CHECK(contains(report, "\"dropped_triangles\": 3"));
+        CHECK(run(folder, joined({"verify", "mesh.ply", "a.csv"}, more)).status == 0);
+        std::set<std::uint32_t> polygons;
+        for (const tools::SampleRow& row : tools::read_samples(folder / "a.csv").rows) {
+            CHECK((row.face < 2 || row.face > 4));
+            REQUIRE(row.polygon);
+            CHECK(*row.polygon == (row.face < 2 ? 0 : (row.face - 5) / 2 + 4));
+            polygons.insert(*row.polygon);
+        }
+        CHECK(polygons == std::set<std::uint32_t>{0, 4, 5, 6, 7, 8});
+    }
+    REQUIRE(run(folder, {"transfer", "a.csv", "mesh.ply", "mesh.ply", "-o", "b.csv"}).status == 0);
+    CHECK(tools::read_samples(folder / "b.csv").rows.front().polygon);
+    REQUIRE(run(folder, {"sample", "mesh.ply", "-o", "e.ply", "-n", "99", "--metric", "euclidean"})
+                .status == 0);
+
+    const std::string header = "# min_distance: 1\nx,y,z,face_index,bary_u,bary_v,bary_w,";
+    folder.write("c.csv", header + "polygon_index\n0,0,1,5,1,0,0,3\n");
+    const Outcome moved = run(folder, {"verify", "mesh.ply", "c.csv"});
+    CHECK(moved.status == 3);
+    CHECK(contains(moved.err, "polygon_index is 3, but face 5 is of face 4 in mesh.ply"));
+    folder.write("c.csv", header + "radius\n0,0,0,2,1,0,0,1\n");
+    const Outcome dropped = run(folder, {"verify", "mesh.ply", "c.csv"});
+    CHECK(dropped.status == 3);
+    CHECK(contains(dropped.err, "face 2 repeats a vertex or is a copy"));
 }
 
 TEST_CASE("header comments tell where the samples come from") {

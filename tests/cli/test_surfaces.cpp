@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "cli/command.hpp"
@@ -51,6 +52,64 @@ TEST_CASE("shapes in R^4 are sampled, verified and written") {
     check_fails(folder, 3,
                 "its samples have 3 coordinates, the vertices of builtin:veronese:2 have 4",
                 {"verify", "builtin:veronese:2", "b.ply"});
+}
+
+TEST_CASE("welding joins faces along open seams, and verify wants the same") {
+    const TemporaryFolder folder;
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0.001\nv 0 1 0\n"
+                             "f 1 2 3\nf 4 5 6\n");
+    // The option takes no argument that follows it.
+    Outcome made = run(folder, {"sample", "--weld=0.1%", "mesh.obj", "-o", "a.ply", "-n", "200"});
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    CHECK(made.err.empty());
+    CHECK(contains(made.out, "weld 0.1%\n"));
+    CHECK(contains(made.out, "1 component, 4 boundary edges, 2 vertices joined to others, area"));
+    CHECK(*tools::read_samples(folder / "a.ply").header.find("weld") == "0.1%");
+    for (const Arguments& first :
+         {Arguments{"sample", "--weld", "mesh.obj"}, {"sample", "mesh.obj"}}) {
+        made = run(folder, joined(first, {"-o", "b.ply", "-n", "200", "--json", "b.json"}));
+        REQUIRE(made.status == 0);
+        CHECK(contains(made.err, first.size() == 3 ? "1 vertex joins faces" : "2 components"));
+        CHECK(contains(bytes_of(folder / "b.json"), first.size() == 3
+                                                        ? "\"merged_vertices\": 1,"
+                                                        : "\"merged_vertices\": null,"));
+    }
+    const Outcome same = run(folder, {"verify", "mesh.obj", "a.ply", "--weld=0.1%"});
+    CHECK(same.status == 0);
+    CHECK(same.err.empty());
+    CHECK(
+        contains(run(folder, {"verify", "mesh.obj", "a.ply"}).err, "made with --weld=0.1%, which"));
+    CHECK(contains(run(folder, {"verify", "mesh.obj", "b.ply", "--weld=0.1%"}).err,
+                   "made with no --lift and no --weld, which"));
+    CHECK(run(folder, {"transfer", "a.ply", "mesh.obj", "mesh.obj", "-o", "c.ply", "--weld-a=0.1%",
+                       "--weld-b=0.1%"})
+              .status == 0);
+    CHECK(run(folder,
+              {"sample", "mesh.obj", "-o", "e.ply", "-n", "9", "--weld", "--metric", "euclidean"})
+              .status == 0);
+    check_fails(folder, 2, "--weld: 'x' is not a length",
+                {"sample", "mesh.obj", "-o", "d.ply", "-n", "9", "--weld=x"});
+}
+
+TEST_CASE("an STL file is a closed surface, by its places alone") {
+    const TemporaryFolder folder;
+    std::string facets = "solid tetrahedron\n";
+    const char* const corners[] = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+    for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
+        facets += "facet normal 0 0 0\nouter loop\n";
+        for (const int corner : {a, b, c}) {
+            facets += std::string("vertex ") + corners[corner] + "\n";
+        }
+        facets += "endloop\nendfacet\n";
+    }
+    folder.write("mesh.stl", facets + "endsolid\n");
+    const tools::SampleFile samples = check_passes(folder, {"mesh.stl"});
+    CHECK(samples.header.find("weld") == nullptr); // As it is always done.
+    const Outcome made =
+        run(folder, {"sample", "mesh.stl", "-o", "b.ply", "-n", "99", "--weld=0.001"});
+    CHECK(made.err.empty());
+    CHECK(contains(made.out, "4 triangles, 1 component, 8 vertices joined to others, area"));
 }
 
 TEST_CASE("shapes writes what it lists, where it can") {
@@ -130,7 +189,8 @@ TEST_CASE("faces turned over against each other are warned of before a lift by n
         run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q", "--lift", "normals:1"});
     CHECK(outcome.status == 0);
     CHECK(contains(outcome.err, "mesh.obj: 1 edge has faces turned over against each other"));
-    CHECK(run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q"}).err.empty());
+    CHECK(contains(run(folder, {"sample", "mesh.obj", "-o", "a.ply", "-n", "9", "-q"}).err,
+                   "turned over against each other; distances do not depend on that"));
 }
 
 TEST_CASE("an attribute of a PLY file is a lift") {

@@ -1,5 +1,5 @@
-// Surfaces that paths can wind around: thin tubes, tips and needles; and a surface of lengths that no
-// space holds, where a shortest path may enter a face twice.
+// Surfaces that paths can wind around: thin tubes, tips and needles; and a surface of lengths that
+// no space holds, where a shortest path may enter a face twice.
 #include <algorithm>
 #include <cmath>
 
@@ -52,11 +52,11 @@ TEST_CASE("thin surfaces against CGAL, with few windows") {
 }
 
 TEST_CASE("a face of given lengths is entered twice where that is shorter") {
-    // Around vertex 0 a wide face and two narrow ones, which are the shorter way from one side of the
-    // wide one to the other: no space holds three triangles like these.
+    // Around vertex 0 a wide face and two narrow ones, which are the shorter way from one side of
+    // the wide one to the other: no space holds three triangles like these.
     constexpr double kSide = 1, kWide = 1.8, kNarrow = 0.2;
     const std::vector<std::uint32_t> triangles{0, 1, 2, 0, 2, 3, 0, 3, 1};
-    const std::vector<double> lengths{kSide, kWide,   kSide, kSide, kNarrow,
+    const std::vector<double> lengths{kSide, kWide, kSide,   kSide, kNarrow,
                                       kSide, kSide, kNarrow, kSide};
     const PreparedMesh surface = PreparedMesh::prepare({triangles, lengths, 4}).value();
     // Both halfway out, at the same small angle from the sides of the wide face.

@@ -53,10 +53,19 @@ inline double triangle_area(const MeshFile& mesh, std::size_t triangle) {
 
 inline double total_area(const MeshFile& mesh) {
     double area = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size() / 3; ++t) {
-        area += triangle_area(mesh, t);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        area += mesh.takes_part(t) ? triangle_area(mesh, t) : 0;
     }
     return area;
+}
+
+/// Triangles that were not dropped.
+inline std::size_t taking_part(const MeshFile& mesh) {
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        count += mesh.takes_part(t) ? 1u : 0u;
+    }
+    return count;
 }
 
 struct MeshFacts {

@@ -75,7 +75,7 @@ template <typename Action>
 void check_fails(ExitCode code, std::string_view part, const Action& action) {
     const std::optional<UserError> error = error_of(action);
     REQUIRE(error.has_value());
-    INFO(error->what());
+    INFO(std::string(error->what()));
     CHECK(error->code() == code);
     CHECK(contains(error->what(), part));
     CHECK_FALSE(contains(error->what(), "\n"));

@@ -77,6 +77,27 @@ TEST_CASE("samples read back as written") {
     CHECK(folder.file_count() == 3);
 }
 
+TEST_CASE("the faces of split polygons are written and read back") {
+    const TemporaryFolder folder;
+    std::vector<SampleRow> rows = some_rows(0);
+    for (SampleRow& row : rows) {
+        row.polygon = row.face / 2;
+    }
+    for (const std::string name : {"a.ply", "b.csv"}) {
+        CAPTURE(name);
+        write_samples(folder / name, kHeader, rows, false);
+        CHECK(contains(bytes_of(folder / name), "polygon_index"));
+        const SampleFile read = read_samples(folder / name);
+        REQUIRE(read.rows.size() == rows.size());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            CHECK(read.rows[i].polygon == rows[i].polygon);
+        }
+    }
+    write_samples(folder / "c.ply", kHeader, some_rows(0), false);
+    CHECK_FALSE(contains(bytes_of(folder / "c.ply"), "polygon_index"));
+    CHECK_FALSE(read_samples(folder / "c.ply").rows[0].polygon);
+}
+
 TEST_CASE("positions far from the origin stay apart") {
     const TemporaryFolder folder;
     SampleRow row;

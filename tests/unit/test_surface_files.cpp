@@ -70,6 +70,17 @@ SampleRow row_of(std::uint32_t dimension) {
 
 } // namespace
 
+TEST_CASE("a dropped triangle has no say in the normals of a lift") {
+    const MeshFile mesh = mesh_of("a.obj",
+                                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\n"
+                                  "f 1 1 4\nf 1 2 3\nf 3 2 1\n",
+                                  "", "");
+    const std::vector<Lift> lifts{{"", 2}};
+    const LiftedPositions lifted = lifted_positions("a.obj", mesh, lifts);
+    CHECK(std::vector(lifted.positions.begin(), lifted.positions.begin() + 6) ==
+          std::vector<double>{0, 0, 0, 0, 0, 2});
+}
+
 TEST_CASE("PLY vertices may have x0 to x7") {
     const MeshFile mesh = mesh_of("a.ply", ply_with(numbered(4), kLines4), "", "");
     CHECK(mesh.dimension == 4);
@@ -157,7 +168,8 @@ TEST_CASE("a sidecar file gives the lengths of edges") {
                                  "0 1 3 # first\n2 1 4\n2 0 5\n3 2 3\n3 0 4\n2 0 5\n7 8 1\n");
     CHECK(ply.lengths == expected);
     CHECK(ply.positions.size() == 12);
-    CHECK(ply.warnings == std::vector<std::string>{"lengths of edges that no face has ignored: 1"});
+    REQUIRE(ply.warnings.size() == 1);
+    CHECK(ply.warnings[0].message == "1 length of an edge that no face has ignored");
     CHECK(mesh_of("a.ply", ply_with("property float quality\n", "1\n2\n3\n4\n"), "",
                   "0 1 3\n2 1 4\n2 0 5\n3 2 3\n3 0 4\n")
               .positions.empty());
@@ -180,6 +192,9 @@ TEST_CASE("a sidecar file gives the lengths of edges") {
                 "property list uchar uint vertex_indices\nend_header\n3 0 1 4000000000\n",
                 "", "0 1 1\n");
     });
+
+    const MeshFile dropped = mesh_of("a.obj", "f 1 2 3\nf 3 2 1\nf 2 2 4\nf 1 3 4\n", "", kLengths);
+    CHECK(dropped.lengths == std::vector<double>{3, 4, 5, 0, 0, 0, 0, 0, 0, 5, 3, 4});
 }
 
 TEST_CASE("lifts are read strictly") {

@@ -8,10 +8,11 @@
 #include <span>
 #include <utility>
 
+#include "files/face_splitting.hpp"
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sidecar_files.hpp"
-#include "geometry/polygon_triangulation.hpp"
+#include "geometry/weld_mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -20,6 +21,8 @@
 namespace geodisk::tools {
 namespace {
 
+constexpr std::string_view kBuiltin = "builtin:";
+
 bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
     const auto coordinates =
         std::span(mesh.positions).subspan(vertex * mesh.dimension, mesh.dimension);
@@ -27,37 +30,15 @@ bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
                        [](double x) { return std::isfinite(x); });
 }
 
-/// The number the mesh file gives its first vertex.
-std::uint32_t first_vertex_of(const PolygonMesh& mesh) {
-    return mesh.face_lines.empty() ? 0 : 1;
-}
-
-std::string place_of_face(const PolygonMesh& mesh, std::size_t face) {
-    return mesh.face_lines.empty() ? "element face, record " + std::to_string(face)
-                                   : "line " + std::to_string(mesh.face_lines[face]);
-}
-
-/// OBJ users count vertices from 1 and look for lines, PLY users count records from 0.
 [[noreturn]] void fail_index(const Path& path, const PolygonMesh& mesh, std::size_t face,
                              std::uint32_t vertex) {
-    fail_input(path, place_of_face(mesh, face) + ": vertex index " +
-                         std::to_string(std::uint64_t{vertex} + first_vertex_of(mesh)) +
-                         " is out of range, the file has " + std::to_string(mesh.vertex_count()) +
-                         " vertices");
+    fail_input(path, mesh.names.of_face(face) + ": vertex index " +
+                         mesh.names.vertex_number(vertex) + " is out of range, the file has " +
+                         std::to_string(mesh.vertex_count()) + " vertices");
 }
 
 [[noreturn]] void fail_not_finite(const Path& path, const PolygonMesh& mesh, std::size_t vertex) {
-    const std::string place = mesh.vertex_lines.empty()
-                                  ? "element vertex, record " + std::to_string(vertex)
-                                  : "line " + std::to_string(mesh.vertex_lines[vertex]) +
-                                        ", vertex " + std::to_string(vertex + 1);
-    fail_input(path, place + ": the coordinates are not finite");
-}
-
-void warn(MeshFile& mesh, const std::string& what, std::size_t count) {
-    if (count > 0) {
-        mesh.warnings.push_back(what + ": " + std::to_string(count));
-    }
+    fail_input(path, mesh.names.of_vertex(vertex) + ": the coordinates are not finite");
 }
 
 /// A face may name any vertex then, so that their number has to be bounded.
@@ -65,20 +46,20 @@ void check_bare_corners(const Path& path, const PolygonMesh& polygons) {
     const std::uint64_t bound = polygons.corners.size();
     for (const std::uint32_t vertex : polygons.corners) {
         if (vertex >= bound) {
-            fail_input(path, "vertex index " +
-                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
+            fail_input(path, "vertex index " + polygons.names.vertex_number(vertex) +
                                  " is out of range: without coordinates, a mesh of " +
                                  std::to_string(bound) + " corners has at most so many vertices");
         }
     }
 }
 
-/// Checks every face against the vertices; warns of unused vertices that are not finite.
+/// Checks every face against the vertices; warns of unused vertices.
 void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
     const std::size_t vertex_count = polygons.vertex_count();
     if (vertex_count > std::numeric_limits<std::uint32_t>::max()) {
         fail_input(path, "has more vertices than a face can refer to");
     }
+    std::vector<bool> is_used(vertex_count, false);
     std::size_t face = 0;
     for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
         while (i >= polygons.face_ends[face]) {
@@ -88,81 +69,25 @@ void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh
         if (vertex >= vertex_count) {
             fail_index(path, polygons, face, vertex);
         }
-        if (!is_finite(polygons, vertex)) {
+        if (!is_used[vertex] && !is_finite(polygons, vertex)) {
             fail_not_finite(path, polygons, vertex);
         }
+        is_used[vertex] = true;
     }
-    std::size_t not_finite = 0;
+    Found unused, not_finite;
     for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
-        not_finite += is_finite(polygons, vertex) ? 0u : 1u;
-    }
-    warn(mesh, "unused vertices that are not finite", not_finite);
-}
-
-/// Splits all faces. Faces that repeat a vertex keep what is left of them without the repetition.
-void split_faces(const PolygonMesh& polygons, MeshFile& mesh) {
-    std::size_t too_small = 0;
-    std::size_t repeating = 0;
-    std::vector<std::uint32_t> corners;
-    std::vector<std::uint32_t> parts;
-    std::size_t begin = 0;
-    for (const std::size_t end : polygons.face_ends) {
-        const std::span<const std::uint32_t> face(&polygons.corners[0] + begin, end - begin);
-        begin = end;
-        if (face.size() < 3) {
-            ++too_small;
-            continue;
-        }
-        corners.assign(face.begin(), face.end());
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        while (corners.size() > 1 && corners.front() == corners.back()) {
-            corners.pop_back();
-        }
-        parts.clear();
-        triangulate_polygon(polygons.positions, corners, parts, polygons.dimension);
-        const std::size_t size_before = mesh.triangles.size();
-        for (std::size_t i = 0; i < parts.size(); i += 3) {
-            const std::uint32_t a = parts[i], b = parts[i + 1], c = parts[i + 2];
-            if (a != b && b != c && c != a) {
-                mesh.triangles.insert(mesh.triangles.end(), {a, b, c});
-            }
-        }
-        repeating += mesh.triangles.size() - size_before < 3 * (face.size() - 2) ? 1u : 0u;
-    }
-    warn(mesh, "faces with fewer than 3 corners dropped", too_small);
-    warn(mesh, "faces with a repeated vertex dropped or simplified", repeating);
-}
-
-/// Drops every triangle whose three vertices an earlier triangle has, whichever way round.
-void drop_copies(MeshFile& mesh) {
-    using Key = std::array<std::uint32_t, 4>; // sorted vertices, then the triangle
-    const std::size_t count = mesh.triangles.size() / 3;
-    std::vector<Key> keys(count);
-    for (std::size_t t = 0; t < count; ++t) {
-        const std::uint32_t* corner = &mesh.triangles[3 * t];
-        keys[t] = {corner[0], corner[1], corner[2], static_cast<std::uint32_t>(t)};
-        std::sort(keys[t].begin(), keys[t].begin() + 3);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<bool> is_copy(count, false);
-    std::size_t copies = 0;
-    for (std::size_t i = 1; i < count; ++i) {
-        if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin())) {
-            is_copy[keys[i][3]] = true;
-            ++copies;
+        if (!is_used[vertex]) {
+            (is_finite(polygons, vertex) ? unused : not_finite).add(vertex);
         }
     }
-    if (copies == 0) {
-        return;
-    }
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < count; ++t) {
-        if (!is_copy[t]) {
-            std::copy_n(&mesh.triangles[3 * t], 3, &mesh.triangles[3 * kept++]);
-        }
-    }
-    mesh.triangles.resize(3 * kept);
-    warn(mesh, "duplicate triangles dropped", copies);
+    const auto place = [&](const Found& found) {
+        return found.count == 0 ? "" : polygons.names.of_vertex(found.first);
+    };
+    add_warning(mesh.warnings, "unused_vertices", unused.count, place(unused),
+                "vertex is in no face", "vertices are in no face");
+    add_warning(mesh.warnings, "unused_not_finite", not_finite.count, place(not_finite),
+                "vertex that is in no face has coordinates that are not finite",
+                "vertices that are in no face have coordinates that are not finite");
 }
 
 /// Whether the triangle is more than a line or point, up to rounding, at any scale.
@@ -204,37 +129,77 @@ bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
 
 /// Refuses a mesh all of whose faces are flat.
 void check_areas(const Path& path, MeshFile& mesh) {
-    std::size_t without_area = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        without_area += has_area(mesh, &mesh.triangles[i]) ? 0u : 1u;
+    Found without_area, with_area;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (mesh.takes_part(t)) {
+            (has_area(mesh, &mesh.triangles[3 * t]) ? with_area : without_area).add(t);
+        }
     }
-    if (3 * without_area == mesh.triangles.size()) {
+    if (with_area.count == 0) {
         fail_input(path, "has no face with an area");
     }
-    warn(mesh, "triangles without area kept", without_area);
+    if (without_area.count > 0) {
+        add_warning(mesh.warnings, "zero_area_faces", without_area.count,
+                    mesh.name_of_triangle(without_area.first),
+                    "triangle without area kept: paths may lead through it",
+                    "triangles without area kept: paths may lead through them");
+    }
 }
 
 /// Polygons have sides but no diagonals.
 void check_triangles(const Path& path, const PolygonMesh& polygons) {
-    std::size_t begin = 0;
     for (std::size_t face = 0; face < polygons.face_ends.size(); ++face) {
-        const std::size_t size = polygons.face_ends[face] - begin;
-        begin = polygons.face_ends[face];
-        if (size > 3) {
-            fail_input(path, place_of_face(polygons, face) + ": has " + std::to_string(size) +
+        if (const std::size_t size = polygons.face(face).size(); size > 3) {
+            fail_input(path, polygons.names.of_face(face) + ": has " + std::to_string(size) +
                                  " corners; with edge lengths all faces must be triangles");
         }
     }
 }
 
+void check_size(const Path& path, const PolygonMesh& polygons) {
+    const std::uint64_t triangles = triangles_of(polygons);
+    if (triangles == 0) {
+        fail_input(path, "has no faces of 3 or more corners");
+    }
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (triangles > kMost || polygons.face_ends.size() > kMost) {
+        fail_input(path, "has more faces than can be numbered");
+    }
+}
+
+void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
+    const auto [small, repeating] = split_faces(polygons, mesh);
+    const auto place = [&](const Found& found) {
+        return found.count == 0 ? "" : polygons.names.of_face(found.first);
+    };
+    add_warning(mesh.warnings, "small_faces", small.count, place(small),
+                "face with fewer than 3 corners makes no triangle",
+                "faces with fewer than 3 corners make no triangle");
+    add_warning(mesh.warnings, "repeated_vertices", repeating.count, place(repeating),
+                "face with a repeated vertex dropped or simplified",
+                "faces with a repeated vertex dropped or simplified");
+}
+
+void drop_copied_triangles(MeshFile& mesh) {
+    if (const Found copies = drop_copies(mesh); copies.count > 0) {
+        add_warning(mesh.warnings, "duplicate_faces", copies.count,
+                    mesh.name_of_triangle(copies.first), "copy of an earlier triangle dropped",
+                    "copies of earlier triangles dropped");
+    }
+}
+
 void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    mesh.lengths.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const std::uint32_t* const corner = &mesh.triangles[3 * t];
         for (std::size_t k = 0; k < 3; ++k) {
             mesh.lengths.push_back(
-                lengths.between(mesh.triangles[i + k], mesh.triangles[i + (k + 1) % 3]));
+                mesh.takes_part(t) ? lengths.between(corner[k], corner[(k + 1) % 3]) : 0);
         }
     }
-    warn(mesh, "lengths of edges that no face has ignored", lengths.unused());
+    add_warning(mesh.warnings, "unused_lengths", lengths.unused(), "",
+                "length of an edge that no face has ignored",
+                "lengths of edges that no face has ignored");
 }
 
 void take_coordinates(const MeshSources& sources, PolygonMesh& polygons) {
@@ -258,9 +223,8 @@ void take_uvs(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
         }
         const std::uint32_t vertex = polygons.corners[i];
         const auto fail = [&](const std::string& message) {
-            fail_input(path, place_of_face(polygons, face) + ": vertex " +
-                                 std::to_string(std::uint64_t{vertex} + first_vertex_of(polygons)) +
-                                 message);
+            fail_input(path, polygons.names.of_face(face) + ": vertex " +
+                                 polygons.names.vertex_number(vertex) + message);
         };
         const std::uint32_t uv = polygons.corner_uvs[i];
         if (uv == PolygonMesh::kNoUv) {
@@ -299,16 +263,18 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     if (sources.has_uvs) {
         take_uvs(path, polygons, mesh);
     }
-    split_faces(polygons, mesh);
-    if (mesh.triangles.size() / 3 > std::numeric_limits<std::uint32_t>::max()) {
-        fail_input(path, "has too many triangles");
-    }
+    check_size(path, polygons);
+    split_polygons(polygons, mesh);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;
     mesh.attributes = std::move(polygons.attributes);
-    drop_copies(mesh);
+    mesh.names = std::move(polygons.names);
+    if (sources.weld) {
+        weld_mesh(sources.mesh, mesh, *sources.weld);
+    }
+    drop_copied_triangles(mesh);
     if (has_lengths) {
-        EdgeLengths lengths(sources.edge_lengths, first_vertex_of(polygons));
+        EdgeLengths lengths(sources.edge_lengths, mesh.names.first_vertex);
         take_lengths(lengths, mesh);
     } else {
         check_areas(path, mesh);
@@ -343,22 +309,43 @@ void check_no_uvs(const MeshSources& sources) {
     }
 }
 
+/// For a file that has no indices: its vertices are joined if only by place.
+MeshSources joined(MeshSources sources) {
+    if (!sources.edge_lengths.empty()) {
+        fail_usage("--edge-lengths needs numbers of vertices, which " + sources.mesh + " has not");
+    }
+    sources.weld = sources.weld.value_or(Length{});
+    return sources;
+}
+
 } // namespace
+
+bool is_builtin(const std::string& path) {
+    return path.starts_with(kBuiltin);
+}
 
 MeshFile read_mesh(const MeshSources& sources) {
     const std::string& path = sources.mesh;
-    constexpr std::string_view kBuiltin = "builtin:";
     if (!sources.coordinates.empty() && !sources.edge_lengths.empty()) {
         fail_usage("--coordinates and --edge-lengths contradict each other; give just one");
     }
-    if (path.starts_with(kBuiltin)) {
+    if (sources.weld && !sources.edge_lengths.empty()) {
+        fail_usage("--weld and --edge-lengths contradict each other: lengths leave no coordinates "
+                   "to join vertices by");
+    }
+    if (is_builtin(path)) {
         if (!sources.coordinates.empty() || !sources.edge_lengths.empty()) {
             fail_usage(path + " is complete; --coordinates and "
                               "--edge-lengths are for mesh files");
         }
         check_no_attributes(sources);
         check_no_uvs(sources);
-        return read_builtin(std::string_view(path).substr(kBuiltin.size()));
+        MeshFile mesh = read_builtin(std::string_view(path).substr(kBuiltin.size()));
+        if (sources.weld) {
+            weld_mesh(path, mesh, *sources.weld);
+            drop_copied_triangles(mesh);
+        }
+        return mesh;
     }
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {
@@ -370,7 +357,24 @@ MeshFile read_mesh(const MeshSources& sources) {
         return to_triangles(
             sources, read_ply(path, {!has_other_source, sources.attributes, sources.has_uvs}));
     }
-    fail_input(path, "unknown mesh format; known are .obj, .ply and builtin:NAME");
+    check_no_attributes(sources);
+    check_no_uvs(sources);
+    if (extension == ".off") {
+        return to_triangles(sources, read_off(path));
+    }
+    if (extension == ".stl") {
+        const MeshSources with_weld = joined(sources);
+        return to_triangles(with_weld, read_stl(path));
+    }
+    if (extension == ".gltf" || extension == ".glb") {
+#ifdef GEODISK_GLTF
+        return to_triangles(sources, read_gltf(path));
+#else
+        fail_input(path, "this geodisk was built without glTF");
+#endif
+    }
+    fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
+                     "builtin:NAME");
 }
 
 MeshFile read_mesh(const std::string& path) {

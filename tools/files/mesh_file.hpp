@@ -1,35 +1,44 @@
-// Reads triangle meshes from OBJ and PLY files and from the built-in generators, and writes them to
+// Reads triangle meshes from files and from the built-in generators, and writes them to
 // PLY files.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "program/arguments.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
 
 /// The files that make up a mesh.
 struct MeshSources {
-    std::string mesh; ///< `*.obj`, `*.ply` (in capitals or not) or `builtin:NAME[:RESOLUTION]`.
+    std::string mesh;         ///< `*.gltf`, `*.glb`, `*.obj`, `*.off`, `*.ply`, `*.stl` or
+                              ///< `builtin:NAME[:RESOLUTION]`.
     std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
     std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
+    /// Join vertices no farther apart; with a length of 0, those in one place,
+    /// as of STL in any case.
+    std::optional<Length> weld = std::nullopt;
     bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
 };
 
 /// Reads a mesh.
 ///
-/// Every index is in range, every used vertex is finite, at least one triangle has an area (but
-/// with edge lengths, which are not judged), and no triangle repeats a vertex or is a copy of an
-/// earlier one: such faces are dropped with a warning. Triangles without area are kept, as paths
-/// may lead through them.
+/// Every index is in range, every used vertex is finite, and at least one triangle has an area (but
+/// with edge lengths, which are not judged). Triangles that repeat a vertex or copy an earlier one
+/// are dropped with a warning: they keep their number but take no part. Triangles without area are
+/// kept, as paths may lead through them.
 ///
 /// Throws UserError(bad_input) that names the file, the cause, and the line or element;
 /// UserError(usage) for an unknown built-in name or resolution, or sources that contradict each
 /// other.
 MeshFile read_mesh(const MeshSources& sources);
+
+/// Whether `path` is "builtin:NAME" rather than a file.
+bool is_builtin(const std::string& path);
 
 /// Of one file.
 MeshFile read_mesh(const std::string& path);

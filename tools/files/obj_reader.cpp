@@ -1,17 +1,18 @@
-// tinyobjloader does the parsing but forgives: it reads a bad number as 0 and rounds a good one
-// several bits off, lets indices wrap, and knows no line continuation. So check_records() first
-// copies the records that matter, one per line, keeps the coordinates, and refuses what
-// tinyobjloader would take silently.
+// A parser of our own. The libraries at hand read a bad number as 0 and a good one several bits
+// off, let indices wrap and do not tell of lines, so that every record would have to be parsed here
+// first in any case.
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <optional>
+#include <string>
 #include <string_view>
-
-#include <tiny_obj_loader.h>
+#include <utility>
+#include <vector>
 
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
+#include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -19,216 +20,243 @@
 namespace geodisk::tools {
 namespace {
 
-/// Steps through the logical lines of a text: continued lines joined, comments removed.
-class LineReader {
-  public:
-    explicit LineReader(std::string_view text) : rest_(text) {
-        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-        if (rest_.starts_with(kByteOrderMark)) {
-            rest_.remove_prefix(kByteOrderMark.size());
-        }
-    }
-
-    /// The next line in `line`, its (first) number in number(); false at the end.
-    bool next(std::string& line) {
-        if (rest_.empty()) {
-            return false;
-        }
-        number_ = next_number_;
-        line.clear();
-        bool continued = true;
-        while (continued && !rest_.empty()) {
-            std::string_view part = take_physical_line();
-            const std::size_t comment = part.find('#');
-            continued = comment == std::string_view::npos && part.ends_with('\\');
-            line += part.substr(0, continued ? part.size() - 1 : comment);
-        }
-        return true;
-    }
-
-    std::uint32_t number() const noexcept { return number_; }
-
-  private:
-    std::string_view take_physical_line() {
-        const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
-        const std::string_view line = rest_.substr(0, end);
-        const bool crlf = rest_.substr(end).starts_with("\r\n");
-        rest_.remove_prefix(std::min(end + (crlf ? 2u : 1u), rest_.size()));
-        ++next_number_;
-        return line;
-    }
-
-    std::string_view rest_;
-    std::uint32_t number_ = 0;
-    std::uint32_t next_number_ = 1;
-};
-
-/// The clean text for tinyobjloader, and where its records stood.
-struct CheckedRecords {
-    std::string text;
-    std::vector<double> positions;
-    std::vector<double> uvs;
-    std::vector<std::uint32_t> vertex_lines;
-    std::vector<std::uint32_t> face_lines;
-};
-
-[[noreturn]] void fail_line(const Path& path, std::uint32_t line, const std::string& message) {
-    fail_input(path, "line " + std::to_string(line) + ": " + message);
-}
-
-/// Why the `v` record is wrong, or "". Appends its coordinates, finite or not: that matters only
-/// if a face uses the vertex.
-std::string take_vertex(const std::vector<std::string_view>& tokens,
-                        std::vector<double>& positions) {
-    if (tokens.size() < 4) {
-        return "a vertex needs 3 coordinates";
-    }
-    for (std::size_t i = 1; i < tokens.size(); ++i) { // Weight or colour may follow x y z.
-        const std::optional<double> value = parse_real(tokens[i]);
-        if (!value) {
-            return in_quotes(tokens[i]) + " is not a number";
-        }
-        if (i <= 3) {
-            positions.push_back(*value);
-        }
-    }
-    return {};
-}
-
-/// Why the `vt` record is wrong, or "". Appends u and v.
-std::string take_uv(const std::vector<std::string_view>& tokens, std::vector<double>& uvs) {
-    if (tokens.size() < 3) {
-        return "texture coordinates are two numbers";
-    }
-    for (std::size_t i = 1; i <= 2; ++i) { // A third one, of depth, may follow.
-        const std::optional<double> value = parse_real(tokens[i]);
-        if (!value || !std::isfinite(*value)) {
-            return in_quotes(tokens[i]) + " is not a finite number";
-        }
-        uvs.push_back(*value);
-    }
-    return {};
-}
+constexpr std::uint32_t kNone = PolygonMesh::kNoUv;
 
 bool is_integer(std::string_view text) {
     text.remove_prefix(text.starts_with('-') ? 1 : 0);
     return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Why a corner "v", "v/vt", "v//vn" or "v/vt/vn" is wrong, or "".
-std::string corner_fault(std::string_view corner) {
-    std::string_view rest = corner;
-    for (int part = 0; part < 3; ++part) {
-        const std::size_t slash = std::min(rest.find('/'), rest.size());
-        const std::string_view index = rest.substr(0, slash);
-        // Normal indices are not used, and texture indices mostly; they have to be integers or
-        // absent.
-        const bool may_be_absent = part > 0;
-        if (!is_integer(index) && !(may_be_absent && index.empty())) {
-            return in_quotes(corner) + " is not a face corner";
-        }
-        if (part == 0 && parse_integer<int>(index).value_or(0) == 0) {
-            return "vertex index " + in_quotes(index) + " is out of range";
-        }
-        if (slash == rest.size()) {
-            return {};
-        }
-        rest.remove_prefix(slash + 1);
-    }
-    return in_quotes(corner) + " is not a face corner";
-}
+/// Indices that nothing is taken from, so that one out of range is odd and no more.
+class UnusedIndices {
+  public:
+    void add_record() { ++records_; }
 
-/// Why the `f` record is wrong, or "".
-std::string face_fault(const std::vector<std::string_view>& tokens) {
-    for (std::size_t i = 1; i < tokens.size(); ++i) {
-        if (std::string fault = corner_fault(tokens[i]); !fault.empty()) {
-            return fault;
+    /// `index` as written, of a corner of `face`.
+    void add(std::int64_t index, std::uint64_t face) {
+        if (index > records_) {
+            ahead_.push_back({index, face}); // The record may follow.
+        } else if (index == 0 || -index > records_) {
+            bad_.add(face);
         }
     }
-    return tokens.size() < 4 ? "a face needs at least 3 corners" : "";
-}
 
-CheckedRecords check_records(const Path& path, std::string_view bytes, bool has_uvs) {
-    CheckedRecords records;
-    LineReader reader(bytes);
-    std::string line;
-    std::vector<std::string_view> tokens;
-    while (reader.next(line)) {
-        if (line.find('\0') != std::string::npos) {
-            fail_line(path, reader.number(), "contains a NUL byte, so this is not a text file");
+    Found bad() const {
+        Found bad = bad_;
+        for (const auto& [index, face] : ahead_) {
+            if (index > records_) {
+                bad.add(face);
+            }
         }
-        split_tokens(line, tokens);
-        const std::string_view keyword = tokens.empty() ? std::string_view() : tokens[0];
-        std::string fault;
-        if (keyword == "v") {
-            fault = take_vertex(tokens, records.positions);
-            records.vertex_lines.push_back(reader.number());
-        } else if (keyword == "vt" && has_uvs) {
-            fault = take_uv(tokens, records.uvs);
-        } else if (keyword == "f") {
-            fault = face_fault(tokens);
-            records.face_lines.push_back(reader.number());
+        return bad;
+    }
+
+  private:
+    std::int64_t records_ = 0;
+    Found bad_;
+    std::vector<std::pair<std::int64_t, std::uint64_t>> ahead_;
+};
+
+class ObjReader {
+  public:
+    ObjReader(const Path& path, std::string_view bytes, bool has_uvs)
+        : path_(path), lines_(bytes), has_uvs_(has_uvs) {
+        mesh_.names.first_vertex = 1;
+    }
+
+    PolygonMesh read() && {
+        std::string_view line;
+        while (next(line)) {
+            if (line.find('\0') != std::string_view::npos) {
+                fail("contains a NUL byte, so this is not a text file");
+            }
+            split_tokens(line, tokens_);
+            const std::string_view keyword = tokens_.empty() ? std::string_view() : tokens_[0];
+            if (keyword == "v") {
+                add_vertex();
+            } else if (keyword == "f") {
+                add_face();
+            } else if (keyword == "vt") {
+                add_uv();
+            } else if (keyword == "vn") {
+                unused_normals_.add_record();
+            }
+        }
+        check_uvs();
+        warn_of_indices();
+        return std::move(mesh_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
+    [[noreturn]] void fail_at(std::uint32_t line, const std::string& message) const {
+        fail_input(path_, "line " + std::to_string(line) + ": " + message);
+    }
+
+    /// The next line without comment, joined with those that continue it.
+    bool next(std::string_view& line) {
+        if (!lines_.next(line)) {
+            return false;
+        }
+        line_ = lines_.number();
+        bool continues = take_comment(line);
+        if (!continues) {
+            return true;
+        }
+        joined_ = line;
+        std::string_view more;
+        while (continues && lines_.next(more)) {
+            continues = take_comment(more);
+            joined_ += more;
+        }
+        line = joined_;
+        return true;
+    }
+
+    /// Takes off a comment, or the backslash of a line that goes on: then true.
+    static bool take_comment(std::string_view& line) {
+        if (const std::size_t comment = line.find('#'); comment != std::string_view::npos) {
+            line = line.substr(0, comment);
+            return false;
+        }
+        const bool continues = line.ends_with('\\');
+        line.remove_suffix(continues ? 1 : 0);
+        return continues;
+    }
+
+    double number(std::string_view token) const {
+        const std::optional<double> value = parse_real(token);
+        if (!value) {
+            fail(in_quotes(token) + " is not a number");
+        }
+        return *value;
+    }
+
+    /// Coordinates need be finite only where a face uses the vertex.
+    void add_vertex() {
+        if (tokens_.size() < 4) {
+            fail("a vertex needs 3 coordinates");
+        }
+        for (std::size_t i = 1; i < tokens_.size(); ++i) { // Weight or colour may follow x y z.
+            const double value = number(tokens_[i]);
+            if (i <= 3) {
+                mesh_.positions.push_back(value);
+            }
+        }
+        mesh_.names.vertex_lines.push_back(line_);
+    }
+
+    void add_uv() {
+        unused_uvs_.add_record();
+        if (!has_uvs_) {
+            return;
+        }
+        if (tokens_.size() < 3) {
+            fail("texture coordinates are two numbers");
+        }
+        for (std::size_t i = 1; i <= 2; ++i) { // A third one, of depth, may follow.
+            const std::optional<double> value = parse_real(tokens_[i]);
+            if (!value || !std::isfinite(*value)) {
+                fail(in_quotes(tokens_[i]) + " is not a finite number");
+            }
+            mesh_.uvs.push_back(*value);
+        }
+    }
+
+    void add_face() {
+        for (std::size_t i = 1; i < tokens_.size(); ++i) {
+            add_corner(tokens_[i]);
+        }
+        mesh_.face_ends.push_back(mesh_.corners.size());
+        mesh_.names.face_lines.push_back(line_);
+    }
+
+    /// "v", "v/vt", "v//vn" or "v/vt/vn".
+    void add_corner(std::string_view corner) {
+        std::string_view parts[3];
+        std::string_view rest = corner;
+        bool has_more = true;
+        for (std::size_t part = 0; part < 3 && has_more; ++part) {
+            const std::size_t slash = rest.find('/');
+            has_more = slash != std::string_view::npos;
+            parts[part] = rest.substr(0, slash);
+            rest.remove_prefix(has_more ? slash + 1 : rest.size());
+            const bool may_be_absent = part > 0;
+            if (!is_integer(parts[part]) && !(may_be_absent && parts[part].empty())) {
+                fail(in_quotes(corner) + " is not a face corner");
+            }
+        }
+        if (has_more) {
+            fail(in_quotes(corner) + " is not a face corner");
+        }
+        mesh_.corners.push_back(resolve("vertex", parts[0], mesh_.names.vertex_lines.size()));
+        if (has_uvs_) {
+            mesh_.corner_uvs.push_back(
+                parts[1].empty() ? kNone : resolve("texture", parts[1], mesh_.uvs.size() / 2));
         } else {
-            continue;
+            add_unused(unused_uvs_, parts[1]);
         }
-        if (!fault.empty()) {
-            fail_line(path, reader.number(), fault);
+        add_unused(unused_normals_, parts[2]);
+    }
+
+    /// From 0. One of `count` records so far, or of those that follow.
+    std::uint32_t resolve(const char* what, std::string_view text, std::size_t count) const {
+        const std::int64_t index = parse_integer<std::int64_t>(text).value_or(0);
+        const auto so_far = static_cast<std::int64_t>(count);
+        if (index == 0 || index >= kNone) { // A number that does not fit counts as 0.
+            fail(std::string(what) + " index " + in_quotes(text) + " is out of range");
         }
-        records.text += line;
-        records.text += '\n';
-    }
-    return records;
-}
-
-/// Receives tinyobjloader's callbacks.
-struct MeshBuilder {
-    const Path& path;
-    PolygonMesh mesh;
-    bool has_uvs = false;
-    std::int64_t vertices_so_far = 0;
-    std::int64_t uvs_so_far = 0;
-
-    static void on_vertex(void* self, tinyobj::real_t, tinyobj::real_t, tinyobj::real_t,
-                          tinyobj::real_t) {
-        ++static_cast<MeshBuilder*>(self)->vertices_so_far;
+        if (index < -so_far) {
+            const std::string records =
+                what == std::string_view("vertex") ? " vertices" : " records";
+            fail(std::string(what) + " index " + std::to_string(index) + " is out of range, only " +
+                 std::to_string(count) + records + " come before it");
+        }
+        return static_cast<std::uint32_t>(index > 0 ? index - 1 : so_far + index);
     }
 
-    static void on_uv(void* self, tinyobj::real_t, tinyobj::real_t, tinyobj::real_t) {
-        ++static_cast<MeshBuilder*>(self)->uvs_so_far;
+    void add_unused(UnusedIndices& indices, std::string_view text) const {
+        if (!text.empty()) {
+            constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
+            indices.add(parse_integer<std::int64_t>(text).value_or(kFar), mesh_.face_ends.size());
+        }
     }
 
-    static void on_face(void* self, tinyobj::index_t* corners, int corner_count) {
-        static_cast<MeshBuilder*>(self)->add_face(corners, corners + corner_count);
-    }
-
-    void add_face(const tinyobj::index_t* corner, const tinyobj::index_t* end) {
-        for (; corner != end; ++corner) {
-            const std::int64_t index = corner->vertex_index;
-            const std::int64_t resolved = index > 0 ? index - 1 : vertices_so_far + index;
-            if (resolved < 0) {
-                fail_line(path, mesh.face_lines[mesh.face_ends.size()],
-                          "vertex index " + std::to_string(index) + " is out of range, only " +
-                              std::to_string(vertices_so_far) + " vertices come before it");
+    void check_uvs() const {
+        std::size_t face = 0;
+        for (std::size_t i = 0; i < mesh_.corner_uvs.size(); ++i) {
+            while (i >= mesh_.face_ends[face]) {
+                ++face;
             }
-            mesh.corners.push_back(static_cast<std::uint32_t>(resolved));
-            if (has_uvs) {
-                mesh.corner_uvs.push_back(uv_of(corner->texcoord_index));
+            if (mesh_.corner_uvs[i] != kNone && mesh_.corner_uvs[i] >= mesh_.uvs.size() / 2) {
+                fail_at(mesh_.names.face_lines[face],
+                        "texture index " + std::to_string(mesh_.corner_uvs[i] + std::int64_t{1}) +
+                            " is out of range");
             }
         }
-        mesh.face_ends.push_back(mesh.corners.size());
     }
 
-    std::uint32_t uv_of(std::int64_t index) const {
-        if (index == 0) {
-            return PolygonMesh::kNoUv;
+    void warn_of_indices() {
+        Found bad = unused_normals_.bad();
+        if (const Found uvs = unused_uvs_.bad(); uvs.count > 0) {
+            bad = {bad.count + uvs.count, std::min(bad.first, uvs.first)};
         }
-        const std::int64_t resolved = index > 0 ? index - 1 : uvs_so_far + index;
-        if (resolved < 0 || resolved >= static_cast<std::int64_t>(mesh.uvs.size() / 2)) {
-            fail_line(path, mesh.face_lines[mesh.face_ends.size()],
-                      "texture index " + std::to_string(index) + " is out of range");
+        if (bad.count > 0) {
+            add_warning(mesh_.warnings, "bad_unused_index", bad.count,
+                        mesh_.names.of_face(bad.first),
+                        "texture or normal index out of range, and not used",
+                        "texture or normal indices out of range, and not used");
         }
-        return static_cast<std::uint32_t>(resolved);
     }
+
+    const Path& path_;
+    TextLines lines_;
+    std::string joined_; ///< A line that is continued.
+    std::uint32_t line_ = 0;
+    std::vector<std::string_view> tokens_;
+    bool has_uvs_;
+    PolygonMesh mesh_;
+    UnusedIndices unused_uvs_, unused_normals_;
 };
 
 } // namespace
@@ -241,31 +269,7 @@ PolygonMesh read_obj(const Path& path, bool has_uvs) {
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
         fail_input(path, "is a PLY file, so its name should end in .ply");
     }
-    CheckedRecords records = check_records(path, bytes, has_uvs);
-    if (records.vertex_lines.size() > std::numeric_limits<std::int32_t>::max()) {
-        fail_input(path, "has more vertices than a face can refer to");
-    }
-    MeshBuilder builder{path, {}, has_uvs};
-    builder.mesh.uvs = std::move(records.uvs);
-    builder.mesh.vertex_lines = std::move(records.vertex_lines);
-    builder.mesh.face_lines = std::move(records.face_lines);
-    builder.mesh.positions = std::move(records.positions);
-    builder.mesh.face_ends.reserve(builder.mesh.face_lines.size());
-
-    tinyobj::callback_t callbacks;
-    callbacks.vertex_cb = MeshBuilder::on_vertex;
-    callbacks.texcoord_cb = MeshBuilder::on_uv;
-    callbacks.index_cb = MeshBuilder::on_face;
-    std::istringstream stream(std::move(records.text));
-    std::string error;
-    const bool parsed =
-        tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error);
-    const std::size_t vertices_read = static_cast<std::size_t>(builder.vertices_so_far);
-    if (!parsed || 3 * vertices_read != builder.mesh.positions.size() ||
-        builder.mesh.face_ends.size() != builder.mesh.face_lines.size()) {
-        fail_input(path, "tinyobjloader cannot parse it: " + in_quotes(error));
-    }
-    return std::move(builder.mesh);
+    return ObjReader(path, bytes, has_uvs).read();
 }
 
 } // namespace geodisk::tools

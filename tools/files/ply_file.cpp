@@ -84,7 +84,7 @@ void PlyFile::fail(const PlyElement& element, std::uint64_t record,
 }
 
 std::string_view PlyFile::next_line() {
-    const std::size_t end = std::min(bytes_.find('\n', position_), bytes_.size());
+    const std::size_t end = std::min(bytes_.find(line_end_, position_), bytes_.size());
     std::string_view line(bytes_.data() + position_, end - position_);
     position_ = std::min(end + 1, bytes_.size());
     ++line_;
@@ -97,6 +97,10 @@ std::string_view PlyFile::next_line() {
 void PlyFile::parse_header() {
     if (bytes_.empty()) {
         fail_input(path_, "is empty");
+    }
+    const std::size_t first_end = bytes_.find_first_of("\r\n");
+    if (first_end != std::string::npos && bytes_.compare(first_end, 2, "\r\n") != 0) {
+        line_end_ = bytes_[first_end];
     }
     if (trimmed(next_line()) != "ply") {
         fail_input(path_, "is not a PLY file: it does not begin with a line 'ply'");
@@ -130,7 +134,7 @@ bool PlyFile::parse_header_line(std::string_view line) {
     } else if (keyword == "property") {
         parse_property(tokens);
     } else if (!keyword.empty() && keyword != "obj_info") {
-        fail_header("unknown header record " + in_quotes(keyword));
+        unknown_lines_.add(line_);
     }
     return true;
 }
@@ -150,6 +154,18 @@ void PlyFile::parse_format(const std::vector<std::string_view>& tokens) {
     }
 }
 
+void PlyFile::declare(const std::string& what, std::string_view name) {
+    constexpr std::size_t kMost = 10'000; // Files have some ten.
+    if (++declarations_ > kMost) {
+        fail_header("more than 10,000 elements and properties");
+    }
+    // No keyword or name holds a line break.
+    if (!declared_.insert(what + '\n' + std::string(name)).second) {
+        fail_header(std::string(what == "element" ? "element " : "property ") + in_quotes(name) +
+                    " is declared twice");
+    }
+}
+
 void PlyFile::parse_element(const std::vector<std::string_view>& tokens) {
     if (tokens.size() != 3) {
         fail_header("an element record reads 'element NAME COUNT'");
@@ -158,11 +174,7 @@ void PlyFile::parse_element(const std::vector<std::string_view>& tokens) {
     if (!count) {
         fail_header(in_quotes(tokens[2]) + " is not an element count");
     }
-    for (const PlyElement& element : elements_) {
-        if (element.name == tokens[1]) {
-            fail_header("element " + in_quotes(tokens[1]) + " is declared twice");
-        }
-    }
+    declare("element", tokens[1]);
     elements_.push_back({std::string(tokens[1]), *count, {}});
 }
 
@@ -191,9 +203,7 @@ void PlyFile::parse_property(const std::vector<std::string_view>& tokens) {
         }
     }
     PlyElement& element = elements_.back();
-    if (find_property(element, property.name, is_list)) {
-        fail_header("property " + in_quotes(property.name) + " is declared twice");
-    }
+    declare((is_list ? "list " : "scalar ") + element.name, property.name);
     element.properties.push_back(std::move(property));
 }
 
@@ -249,7 +259,7 @@ void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, 
         std::generate(record.lists[i].begin(), record.lists[i].end(), read_value);
     }
     if (next != tokens_.size()) {
-        fail(element, index, "the line has too many values");
+        ++surplus_lines_;
     }
 }
 
@@ -308,13 +318,11 @@ std::size_t PlyFile::possible_records(const PlyElement& element) const {
     return static_cast<std::size_t>(std::min<std::uint64_t>(element.count, room));
 }
 
-std::string PlyFile::trailing_data_warning() const {
-    std::string_view rest(bytes_.data() + position_, bytes_.size() - position_);
-    if (format_ == Format::ascii && rest.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-        return {};
-    }
-    return rest.empty() ? ""
-                        : std::to_string(rest.size()) + " bytes after the last element ignored";
+std::size_t PlyFile::trailing_bytes() const {
+    const std::string_view rest(bytes_.data() + position_, bytes_.size() - position_);
+    const bool is_blank =
+        format_ == Format::ascii && rest.find_first_not_of(" \t\r\n") == std::string_view::npos;
+    return is_blank ? 0 : rest.size();
 }
 
 } // namespace geodisk::tools

@@ -10,8 +10,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
+#include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -48,6 +50,7 @@ class PlyFile {
     /// the file and the header line or the element and record (counting from 0).
     explicit PlyFile(const Path& path);
 
+    const Path& path() const noexcept { return path_; }
     const std::vector<PlyElement>& elements() const noexcept { return elements_; }
     const std::vector<std::string>& comments() const noexcept { return comments_; }
 
@@ -57,8 +60,12 @@ class PlyFile {
     /// How many records of `element` the rest of the file can hold at most.
     std::size_t possible_records(const PlyElement& element) const;
 
-    /// Once all elements are read: a warning if data follow, or "".
-    std::string trailing_data_warning() const;
+    /// Header lines that are no records, and ascii lines with more values than properties: ignored.
+    const Found& unknown_lines() const noexcept { return unknown_lines_; }
+    std::uint64_t surplus_lines() const noexcept { return surplus_lines_; }
+
+    /// Once all elements are read: how many bytes of anything but blanks follow.
+    std::size_t trailing_bytes() const;
 
     [[noreturn]] void fail(const PlyElement& element, std::uint64_t record,
                            const std::string& message) const;
@@ -68,6 +75,7 @@ class PlyFile {
     bool parse_header_line(std::string_view line);
     void parse_format(const std::vector<std::string_view>& tokens);
     void parse_element(const std::vector<std::string_view>& tokens);
+    void declare(const std::string& what, std::string_view name);
     void parse_property(const std::vector<std::string_view>& tokens);
     [[noreturn]] void fail_header(const std::string& message) const;
 
@@ -85,6 +93,11 @@ class PlyFile {
     std::optional<Format> format_;
     std::vector<PlyElement> elements_;
     std::vector<std::string> comments_;
+    std::unordered_set<std::string> declared_; ///< Elements and properties.
+    std::size_t declarations_ = 0;
+    Found unknown_lines_;
+    std::uint64_t surplus_lines_ = 0;
+    char line_end_ = '\n';                 ///< CR in files that have no LF after it.
     std::vector<std::string_view> tokens_; ///< Of the ascii record being parsed.
 };
 

@@ -107,27 +107,60 @@ void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
     });
 }
 
-void read_faces(const Path& path, PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
+std::size_t index_column(const PlyFile& file, const PlyElement& element) {
     std::optional<std::size_t> column = element.find_list("vertex_indices");
     if (!column) {
         column = element.find_list("vertex_index");
     }
     if (!column) {
-        fail_input(path, "element face has no list property vertex_indices");
+        fail_input(file.path(), "element " + element.name + " has no list property vertex_indices");
     }
+    return *column;
+}
+
+std::uint32_t to_corner(const PlyFile& file, const PlyElement& element, std::uint64_t index,
+                        double value) {
+    const bool in_range = value >= 0 && value <= std::numeric_limits<std::uint32_t>::max();
+    const std::uint32_t corner = in_range ? static_cast<std::uint32_t>(value) : 0;
+    if (!in_range || static_cast<double>(corner) != value) {
+        file.fail(element, index,
+                  "vertex index " + exact_text(value) + " is out of range or not a whole number");
+    }
+    return corner;
+}
+
+void read_faces(PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
+    const std::size_t column = index_column(file, element);
     mesh.face_ends.reserve(file.possible_records(element));
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
-        for (const double value : record.lists[*column]) {
-            const bool in_range = value >= 0 && value <= std::numeric_limits<std::uint32_t>::max();
-            const std::uint32_t corner = in_range ? static_cast<std::uint32_t>(value) : 0;
-            if (!in_range || static_cast<double>(corner) != value) {
-                file.fail(element, index,
-                          "vertex index " + exact_text(value) +
-                              " is out of range or not a whole number");
-            }
-            mesh.corners.push_back(corner);
+        for (const double value : record.lists[column]) {
+            mesh.corners.push_back(to_corner(file, element, index, value));
         }
         mesh.face_ends.push_back(mesh.corners.size());
+    });
+}
+
+/// Strips of triangles: each vertex makes one with the two before it, every other one turned; -1
+/// ends a strip.
+void read_strips(PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
+    const std::size_t column = index_column(file, element);
+    file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
+        std::size_t length = 0;
+        std::uint32_t before = 0, last = 0;
+        for (const double value : record.lists[column]) {
+            if (value == -1) {
+                length = 0;
+                continue;
+            }
+            const std::uint32_t corner = to_corner(file, element, index, value);
+            if (++length >= 3) {
+                const bool is_turned = length % 2 == 0;
+                mesh.corners.insert(mesh.corners.end(),
+                                    {is_turned ? last : before, is_turned ? before : last, corner});
+                mesh.face_ends.push_back(mesh.corners.size());
+            }
+            before = std::exchange(last, corner);
+        }
     });
 }
 
@@ -136,6 +169,7 @@ void read_faces(const Path& path, PlyFile& file, const PlyElement& element, Poly
 PolygonMesh read_ply(const Path& path, const PlyWanted& wanted) {
     PlyFile file(path);
     PolygonMesh mesh;
+    mesh.names = {"element face, record ", "element vertex, record ", {}, {}, 0};
     bool has_vertices = false;
     bool has_faces = false;
     for (const PlyElement& element : file.elements()) {
@@ -144,7 +178,11 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted) {
             read_vertices(path, file, element, wanted, mesh);
         } else if (element.name == "face") {
             has_faces = true;
-            read_faces(path, file, element, mesh);
+            read_faces(file, element, mesh);
+        } else if (element.name == "tristrips") {
+            has_faces = true;
+            read_strips(file, element, mesh);
+            mesh.names.face = "triangle "; // Of some record.
         } else {
             file.read_records(element, [](std::uint64_t, const PlyRecord&) {});
         }
@@ -153,14 +191,20 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted) {
         fail_input(path, "has no element vertex");
     }
     if (!has_faces) {
-        fail_input(path, "has no faces: there is no element face");
+        fail_input(path, "has no faces: there is no element face or tristrips");
     }
     if (wanted.has_uvs) {
         mesh.corner_uvs = mesh.corners;
     }
-    if (std::string warning = file.trailing_data_warning(); !warning.empty()) {
-        mesh.warnings.push_back(std::move(warning));
-    }
+    const Found& unknown = file.unknown_lines();
+    add_warning(mesh.warnings, "unknown_header_lines", unknown.count,
+                unknown.count == 0 ? "" : "line " + std::to_string(unknown.first),
+                "unknown header line ignored", "unknown header lines ignored");
+    add_warning(mesh.warnings, "surplus_values", file.surplus_lines(), "",
+                "line has more values than its element has properties; they are ignored",
+                "lines have more values than their elements have properties; they are ignored");
+    add_warning(mesh.warnings, "trailing_data", file.trailing_bytes(), "",
+                "byte after the last element ignored", "bytes after the last element ignored");
     return mesh;
 }
 

@@ -1,4 +1,4 @@
-// The OBJ and PLY readers, and what they hand over: faces as the file lists them, not yet checked
+// The readers of mesh files, and what they hand over: faces as the file lists them, not yet checked
 // against the vertices and not yet split into triangles.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -22,21 +23,39 @@ struct PolygonMesh {
     /// Where asked for: texture coordinates, two each, and the one of every corner, or kNoUv.
     std::vector<double> uvs;
     std::vector<std::uint32_t> corner_uvs;
-    std::vector<std::string> warnings;
-
-    /// 1-based line of each vertex and face for messages; empty where records have no lines.
-    std::vector<std::uint32_t> vertex_lines;
-    std::vector<std::uint32_t> face_lines;
+    ElementNames names;
+    std::vector<MeshWarning> warnings;
 
     static constexpr std::uint32_t kNoUv = std::numeric_limits<std::uint32_t>::max();
 
     std::size_t vertex_count() const { return positions.size() / dimension; }
+    /// The corners of a face.
+    std::span<const std::uint32_t> face(std::size_t index) const {
+        const std::size_t begin = index == 0 ? 0 : face_ends[index - 1];
+        return std::span(corners).subspan(begin, face_ends[index] - begin);
+    }
 };
 
 /// Reads the `v`, `f` and, where asked for, `vt` records of an OBJ file; everything else in it is
 /// ignored. Understands every line end, line continuation, a byte order mark, relative
-/// indices and faces of any size. Throws UserError(bad_input) naming the line.
+/// indices and faces of any size. Throws UserError(bad_input) naming the line, like the readers of
+/// other texts below.
 PolygonMesh read_obj(const Path& path, bool has_uvs = false);
+
+/// Reads an STL file, binary if its size is as it tells or it does not begin with "solid", else
+/// ascii: three vertices for each facet, so that no two facets hang together until vertices are
+/// joined.
+PolygonMesh read_stl(const Path& path);
+
+/// Reads an ascii OFF file, with or without normals, colours and texture coordinates in the lines
+/// of vertices and faces, one line to a record.
+PolygonMesh read_off(const Path& path);
+
+/// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh
+/// and primitive after the other, placed by their nodes; a mirrored one is turned over. Primitives
+/// of a mesh with the same positions share vertices. Buffers are read from the folder of the file
+/// alone, images not at all. Throws UserError(bad_input) naming mesh and primitive.
+PolygonMesh read_gltf(const Path& path);
 
 /// What to read of element `vertex`.
 struct PlyWanted {
@@ -46,9 +65,9 @@ struct PlyWanted {
 };
 
 /// Reads the coordinates of element `vertex`, which are x0 x1 ..., 3 to 8 of them, where there is
-/// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`,
-/// in any format, type and order; everything else is skipped. Throws UserError(bad_input) naming
-/// the element and record.
+/// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`
+/// and of strips of triangles in element `tristrips`, in any format, type and order; everything
+/// else is skipped. Throws UserError(bad_input) naming the element and record.
 PolygonMesh read_ply(const Path& path, const PlyWanted& wanted);
 
 } // namespace geodisk::tools

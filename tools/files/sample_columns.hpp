@@ -18,12 +18,14 @@ enum class SampleColumn : std::size_t {
     bary_u,
     bary_v,
     bary_w,
-    radius
+    radius,
+    polygon_index
 };
 
 /// By SampleColumn.
-inline constexpr std::array<std::string_view, 11> kSampleColumnNames{
-    "x", "y", "z", "nx", "ny", "nz", "face_index", "bary_u", "bary_v", "bary_w", "radius"};
+inline constexpr std::array<std::string_view, 12> kSampleColumnNames{
+    "x",          "y",      "z",      "nx",     "ny",     "nz",
+    "face_index", "bary_u", "bary_v", "bary_w", "radius", "polygon_index"};
 
 /// The coordinates of samples that have more than three.
 inline constexpr std::array<std::string_view, 8> kNumberedColumnNames{"x0", "x1", "x2", "x3",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,7 +21,14 @@ struct SampleRow {
     std::uint32_t face = 0;
     float bary[3] = {};
     double radius = 0; ///< In mesh units, where radii vary; 0 in all rows where they do not.
+    /// The face of the mesh file that the triangle is of, where polygons were split.
+    std::optional<std::uint32_t> polygon;
 };
+
+/// Whether polygons were split.
+inline bool has_polygons(std::span<const SampleRow> rows) {
+    return !rows.empty() && rows.front().polygon.has_value();
+}
 
 /// Whether radii vary.
 inline bool has_radii(std::span<const SampleRow> rows) {
@@ -48,9 +56,9 @@ struct SampleFile {
 
 /// Writes `rows` in the format of the extension of `path`:
 ///   .ply  binary little endian, or ascii on request: element vertex with x y z nx ny nz
-///         face_index bary_u bary_v bary_w, and radius as double where radii vary; the
-///         header as "comment KEY: VALUE". x y z are float, or double where float would blur them:
-///         far from the origin for their extent.
+///         face_index bary_u bary_v bary_w, radius as double where radii vary, and
+///         polygon_index where polygons were split; the header as "comment KEY: VALUE". x y z are
+///         float, or double where float would blur them: far from the origin for their extent.
 ///   .csv  a header row with the same names; the header before it as "# KEY: VALUE"
 ///   .xyz  x y z per line and nothing else
 /// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY has besides x y z so

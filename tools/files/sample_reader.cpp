@@ -107,6 +107,9 @@ bool set_value(SampleRow& row, SampleColumn column, double value) {
     if (column == SampleColumn::face_index) {
         return set_index(row.face, value);
     }
+    if (column == SampleColumn::polygon_index) {
+        return set_index(row.polygon.emplace(), value);
+    }
     if (column == SampleColumn::radius) {
         row.radius = value;
         return value > 0 && std::isfinite(value);
@@ -170,7 +173,7 @@ SampleFile read_ply_samples(const Path& path, Domain domain) {
     if (!has_vertices) {
         fail_input(path, "has no element vertex");
     }
-    if (const std::string warning = file.trailing_data_warning(); !warning.empty()) {
+    if (file.trailing_bytes() > 0) {
         fail_input(path, "has data after the last sample");
     }
     return samples;

@@ -66,6 +66,7 @@ struct Layout {
     std::uint32_t named; ///< How many of the first three coordinates by the names x, y and z.
     bool has_float_positions;
     bool has_radius;
+    bool has_polygon = false;
     bool is_on_surface = true;
 
     std::size_t numbered() const { return dimension > 3 ? dimension : 0; }
@@ -100,6 +101,9 @@ void visit_columns(const SampleRow& row, const Layout& layout, const Visit& visi
     }
     if (layout.has_radius) {
         visit(name_of(SampleColumn::radius), row.radius);
+    }
+    if (layout.has_polygon) {
+        visit(name_of(SampleColumn::polygon_index), row.polygon.value_or(0));
     }
 }
 
@@ -195,11 +199,12 @@ void write_samples(AtomicFile& file, const Path& path, const SampleHeader& heade
     case Format::ply:
         write_ply(file, header, rows, ascii_ply,
                   {dimension, dimension >= 3 ? 3u : 0u, float_is_enough(rows, dimension),
-                   has_radii(rows)});
+                   has_radii(rows), has_polygons(rows)});
         break;
     case Format::csv:
-        write_csv(file, header, rows,
-                  {dimension, dimension == 3 ? 3u : 0u, false, has_radii(rows)});
+        write_csv(
+            file, header, rows,
+            {dimension, dimension == 3 ? 3u : 0u, false, has_radii(rows), has_polygons(rows)});
         break;
     case Format::xyz:
         write_xyz(file, rows);
@@ -211,11 +216,11 @@ void write_box_samples(AtomicFile& file, const Path& path, const SampleHeader& h
                        std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension) {
     switch (format_of(path)) {
     case Format::ply:
-        write_ply(file, header, rows, ascii_ply, {dimension, 3, false, false, false});
+        write_ply(file, header, rows, ascii_ply, {dimension, 3, false, false, false, false});
         break;
     case Format::csv:
         write_csv(file, header, rows,
-                  {dimension, dimension > 3 ? 0 : dimension, false, false, false});
+                  {dimension, dimension > 3 ? 0 : dimension, false, false, false, false});
         break;
     case Format::xyz:
         write_xyz(file, rows);

@@ -22,8 +22,10 @@ struct Columns {
 
 std::vector<bool> used_vertices(const MeshFile& mesh) {
     std::vector<bool> used(mesh.positions.size() / mesh.dimension, false);
-    for (const std::uint32_t vertex : mesh.triangles) {
-        used[vertex] = true;
+    for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+        if (mesh.takes_part(corner / 3)) {
+            used[mesh.triangles[corner]] = true;
+        }
     }
     return used;
 }

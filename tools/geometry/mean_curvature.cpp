@@ -116,6 +116,9 @@ std::vector<EdgeSide> edge_sides(const MeshFile& mesh) {
     std::vector<EdgeSide> sides;
     sides.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+        if (!mesh.takes_part(t / 3)) {
+            continue;
+        }
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [a, b] = std::minmax(mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]);
             sides.push_back({a, b});

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "geometry/mesh_warning.hpp"
 
 namespace geodisk::tools {
 
@@ -20,13 +24,25 @@ struct VertexUv {
     friend auto operator<=>(const VertexUv&, const VertexUv&) = default;
 };
 
+/// What joining vertices did.
+struct WeldCounts {
+    std::uint64_t merged_vertices = 0;  ///< That became another one.
+    std::uint64_t degenerate_faces = 0; ///< Triangles that take no part since.
+};
+
 /// A mesh as read: `positions` holds `dimension` coordinates per vertex, `triangles` three vertex
-/// indices each, in file order with polygons split in place (so triangle i of the file's n-th face
-/// follows all triangles of earlier faces). Vertices are those of the file, in its order, also the
-/// unused.
+/// indices each. Vertices are those of the file, in its order, also the unused.
+///
+/// A face of k >= 3 corners makes exactly k - 2 triangles, in file order, whatever becomes of them;
+/// one of fewer corners makes none. So triangles have the same numbers in every program that splits
+/// faces in place. A triangle that is dropped names a vertex twice, and then takes no part.
 struct MeshFile {
     std::vector<double> positions; ///< Empty for a mesh of edge lengths without coordinates.
     std::vector<std::uint32_t> triangles;
+    /// The file's face that each triangle is of, from 0. Empty where all faces are triangles, so
+    /// that the numbers are the same.
+    std::vector<std::uint32_t> polygons;
+    std::uint32_t polygon_count = 0; ///< Faces of the file, where `polygons` is not empty.
     std::uint32_t dimension = 3;
     /// Of the edges of each triangle, from corner to corner, where they and not the positions make
     /// the surface; else empty.
@@ -35,8 +51,20 @@ struct MeshFile {
     /// Where asked for: all that the corners of faces have, ascending by vertex and each just once;
     /// several at a vertex on a seam.
     std::vector<VertexUv> uvs;
-    std::vector<std::string>
-        warnings; ///< One line each: what was repaired or ignored, with counts.
+    std::optional<WeldCounts> weld; ///< Where vertices were joined.
+    ElementNames names;
+    std::vector<MeshWarning> warnings; ///< What was dropped or ignored.
+
+    std::size_t triangle_count() const { return triangles.size() / 3; }
+    /// Its face, in the words of the file.
+    std::string name_of_triangle(std::size_t triangle) const {
+        return names.of_face(polygons.empty() ? triangle : polygons[triangle]);
+    }
+    /// Whether the triangle names three vertices.
+    bool takes_part(std::size_t triangle) const {
+        const std::uint32_t* const v = &triangles[3 * triangle];
+        return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+    }
 };
 
 } // namespace geodisk::tools

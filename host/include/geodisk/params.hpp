@@ -14,6 +14,7 @@ namespace geodisk {
 /// Packing density (paper section 5.2) that dart throwing from a pool of the default ratio reaches
 /// on average; used to translate between a count and a distance.
 inline constexpr double kExpectedRho = 0.725;
+inline constexpr double kBorderSamples = 0.174;
 inline constexpr double kDefaultPoolRatio = 20;
 /// Candidates of a job.
 inline constexpr std::uint32_t kMostCandidates = 0xffffffff;
@@ -78,8 +79,13 @@ GEODISK_API double effective_area(const PreparedMesh& mesh, const SampleParams& 
 /// Expected number of samples for a distance: rho^2 A / (2 sqrt(3) r^2) with r = D / 2.
 GEODISK_API double expected_count(double area, double min_distance) noexcept;
 
-/// The distance that should give about `count` samples.
+/// The distance that should give about `count` samples where there are no borders.
 GEODISK_API double distance_for_count(double area, double count) noexcept;
+
+/// The same on a mesh, with radii that vary or null: samples beside a border keep no distance from
+/// what is beyond it, so that more fit, kBorderSamples for each distance along it (by measurement).
+GEODISK_API double distance_for_count(const PreparedMesh& mesh, const RadiusField* radii,
+                                      double count) noexcept;
 
 /// Packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
 GEODISK_API double packing_density(double area, double min_distance, double count) noexcept;

@@ -41,6 +41,26 @@ Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& pa
     return Done{};
 }
 
+/// The length of all borders, where radii vary in multiples of the largest one.
+double border_length(const PreparedMesh& mesh, const RadiusField* radii) {
+    double length = 0;
+    const auto edges = mesh.half_edges();
+    for (std::uint32_t h = 0; h < edges.size(); ++h) {
+        const std::uint32_t a = edges[h].origin, b = edges[next_in_face(h)].origin,
+                            c = edges[previous_in_face(h)].origin;
+        const bool takes_part = a != b && b != c && c != a;
+        if (!takes_part || around_half_edge(edges[h].around) != h) {
+            continue;
+        }
+        const double factor =
+            radii == nullptr
+                ? 1
+                : 0.5 * (double{radii->factors()[h]} + double{radii->factors()[next_in_face(h)]});
+        length += edges[h].length / factor;
+    }
+    return length;
+}
+
 } // namespace
 
 double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept {
@@ -54,6 +74,15 @@ double expected_count(double area, double min_distance) noexcept {
 
 double distance_for_count(double area, double count) noexcept {
     return 2 * kExpectedRho * std::sqrt(area / (kTwoRootThree * count));
+}
+
+double distance_for_count(const PreparedMesh& mesh, const RadiusField* radii,
+                          double count) noexcept {
+    const double area = radii != nullptr ? radii->effective_area() : mesh.statistics().area;
+    // count = a / D^2 + b / D.
+    const double a = expected_count(area, 1);
+    const double b = kBorderSamples * border_length(mesh, radii);
+    return (b + std::sqrt(b * b + 4 * count * a)) / (2 * count);
 }
 
 double packing_density(double area, double min_distance, double count) noexcept {

@@ -28,6 +28,7 @@ struct GlobalTable {
 struct InstancePlan {
     std::vector<const char*> extensions;
     VkInstanceCreateFlags flags = 0;
+    bool has_settings = false; // VK_EXT_layer_settings
 };
 
 template <class Function>
@@ -110,6 +111,12 @@ Result<Done> plan_validation(const GlobalTable& vk, InstancePlan& plan) {
                                                    name + ", which the installed layer lacks"};
         plan.extensions.push_back(name);
     }
+#ifdef VK_EXT_layer_settings
+    plan.has_settings = contains_extension(*offered, VK_EXT_LAYER_SETTINGS_EXTENSION_NAME);
+    if (plan.has_settings) {
+        plan.extensions.push_back(VK_EXT_LAYER_SETTINGS_EXTENSION_NAME);
+    }
+#endif
     return Done{};
 }
 
@@ -180,10 +187,24 @@ Result<Done> Instance::create_handle(bool validation) {
     info.enabledExtensionCount = static_cast<std::uint32_t>(plan->extensions.size());
     info.ppEnabledExtensionNames = plan->extensions.data();
     VkDebugUtilsMessengerCreateInfoEXT messenger{};
+#ifdef VK_EXT_layer_settings
+    // Newer layers look at what shaders access only when told to.
+    const VkBool32 on = VK_TRUE;
+    const VkLayerSettingEXT shader_accesses{kValidationLayer, "syncval_shader_accesses_heuristic",
+                                            VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &on};
+    VkLayerSettingsCreateInfoEXT settings{};
+    settings.sType = VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT;
+    settings.settingCount = 1;
+    settings.pSettings = &shader_accesses;
+#endif
     if (validation) {
         messenger = log_->messenger_info(); // For messages about the instance itself.
         features.pNext = &messenger;
         info.pNext = &features;
+#ifdef VK_EXT_layer_settings
+        settings.pNext = &features;
+        info.pNext = plan->has_settings ? static_cast<const void*>(&settings) : &features;
+#endif
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
     }

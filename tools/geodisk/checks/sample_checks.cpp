@@ -26,6 +26,24 @@ void check_dimensions(const std::string& samples_path, const SampleFile& samples
     }
 }
 
+/// Why there is no sample on the row's face, or "".
+std::string face_fault(const SampleRow& row, const std::string& mesh_path, const MeshInput& mesh) {
+    const std::string face = "face " + std::to_string(row.face);
+    if (row.face >= mesh.prepared.face_count()) {
+        return face + " is out of range, " + mesh_path + " has " +
+               counted(mesh.prepared.face_count(), "triangle", "triangles");
+    }
+    if (!mesh.file.takes_part(row.face)) {
+        return face + " repeats a vertex or is a copy in " + mesh_path + ", so nothing lies on it";
+    }
+    const auto polygon = mesh.polygon(row.face);
+    if (row.polygon && polygon && *row.polygon != *polygon) {
+        return "polygon_index is " + std::to_string(*row.polygon) + ", but " + face + " is of " +
+               "face " + std::to_string(*polygon) + " in " + mesh_path;
+    }
+    return {};
+}
+
 } // namespace
 
 double header_distance(const std::string& samples_path, const SampleHeader& header) {
@@ -47,11 +65,8 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
     constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         const SampleRow& row = samples.rows[i];
-        if (row.face >= mesh.prepared.face_count()) {
-            fail_input(samples_path,
-                       "sample " + std::to_string(i) + ": face " + std::to_string(row.face) +
-                           " is out of range, " + mesh_path + " has " +
-                           counted(mesh.prepared.face_count(), "triangle", "triangles"));
+        if (const std::string fault = face_fault(row, mesh_path, mesh); !fault.empty()) {
+            fail_input(samples_path, "sample " + std::to_string(i) + ": " + fault);
         }
         double sum = 0;
         double least = 1;
@@ -71,10 +86,13 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
     double diagonal = 0;
     for (std::size_t axis = 0; axis < mesh.dimension(); ++axis) {
         double low = HUGE_VAL, high = -HUGE_VAL;
-        for (const std::uint32_t vertex : mesh.file.triangles) {
-            const double x = mesh.file.positions[std::size_t{vertex} * mesh.dimension() + axis];
-            low = std::min(low, x);
-            high = std::max(high, x);
+        for (std::size_t corner = 0; corner < mesh.file.triangles.size(); ++corner) {
+            if (mesh.file.takes_part(corner / 3)) {
+                const std::size_t vertex = mesh.file.triangles[corner];
+                const double x = mesh.file.positions[vertex * mesh.dimension() + axis];
+                low = std::min(low, x);
+                high = std::max(high, x);
+            }
         }
         largest = std::max({largest, std::abs(low), std::abs(high)});
         diagonal = std::hypot(diagonal, high - low);

@@ -40,7 +40,7 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     const double area = effective_area(mesh.prepared, params);
     params.min_distance = job.min_distance
                               ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics())
-                              : distance_for_count(area, job.wanted_count);
+                              : distance_for_count(mesh.prepared, params.radii, job.wanted_count);
     params.throws = job.method.throws_for(expected_count(area, params.min_distance));
     return params;
 }

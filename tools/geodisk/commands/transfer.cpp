@@ -99,12 +99,14 @@ SampleHeader transferred_header(const TransferOptions& options, const SampleHead
     return header;
 }
 
-std::string report_text(const TransferOptions& options, const SampleFile& samples,
-                        const std::optional<ClosePair>& closest) {
+std::string report_text(const TransferOptions& options, const MeshInput& from, const MeshInput& to,
+                        const SampleFile& samples, const std::optional<ClosePair>& closest) {
     return text_of(Json{{"version", GEODISK_VERSION_STRING},
                         {"transferred_from", options.samples},
                         {"mesh_a", options.from.mesh},
                         {"mesh_b", options.to.mesh},
+                        {"warnings_a", warnings_json(from.warnings)},
+                        {"warnings_b", warnings_json(to.warnings)},
                         {"output", options.out.output},
                         {"samples", samples.rows.size()},
                         {"smallest", pair_json(closest)}});
@@ -149,7 +151,7 @@ void run_transfer(const TransferOptions& options) {
     write_samples(file, options.out.output, transferred_header(options, samples.header, closest),
                   samples.rows, options.out.ascii, to.dimension());
     file.sync();
-    publish(options.out, file, report_text(options, samples, closest),
+    publish(options.out, file, report_text(options, from, to, samples, closest),
             summary_text(options, samples, closest));
 }
 
@@ -168,6 +170,8 @@ void add_transfer_command(CLI::App& app) {
     add_sidecar_options(*command, options->from, "MESH_A", "-a");
     add_sidecar_options(*command, options->to, "MESH_B", "-b");
     add_lift_option(*command, options->to, "-b");
+    add_weld_option(*command, options->from, "-a");
+    add_weld_option(*command, options->to, "-b");
     add_output_options(*command, options->out);
     command->callback([options] { run_transfer(*options); });
 }

@@ -39,26 +39,23 @@ struct VerifyOptions {
 };
 
 /// A sample of another surface would show as a violation, or worse, would not.
-void warn_of_other_surface(const VerifyOptions& options, const SampleFile& samples) {
-    const auto lifts_of = [](const auto& entries) {
-        std::vector<std::string> lifts;
+std::optional<MeshWarning> other_surface(const VerifyOptions& options, const SampleFile& samples) {
+    const auto options_of = [](const auto& entries) {
+        std::string text;
         for (const auto& [key, value] : entries) {
-            if (key == "lift") {
-                lifts.push_back(value);
+            if (key == "lift" || key == "weld") {
+                text += " --" + key + (key == "lift" ? " " : "=") + value;
             }
         }
-        return lifts;
+        return text.empty() ? " no --lift and no --weld" : text;
     };
-    const std::vector<std::string> used = lifts_of(samples.header.entries);
-    if (used == lifts_of(options.mesh.additions())) {
-        return;
+    const std::string used = options_of(samples.header.entries);
+    if (used == options_of(options.mesh.additions())) {
+        return std::nullopt;
     }
-    std::string text;
-    for (const std::string& lift : used) {
-        text += " --lift " + lift;
-    }
-    print_warning(options.samples + ": made with" + (used.empty() ? " no --lift" : text) +
-                  ", which is not what is verified here");
+    return MeshWarning{"other_surface", 1, "",
+                       "made with" + used + ", which is not what is verified here",
+                       options.samples};
 }
 
 double distance_of(const VerifyOptions& options, const SampleFile& samples,
@@ -103,6 +100,7 @@ struct Check {
     const VerifyOptions& options;
     const SampleFile& samples;
     const MeshInput& mesh;
+    std::vector<MeshWarning> warnings;
     Spacing spacing;
     std::vector<StrayRow> strays;
     SpacingResult result;
@@ -158,11 +156,12 @@ std::string result_text(const Check& check) {
 }
 
 std::string report_text(const Check& check) {
-    const auto& [options, samples, mesh, spacing, strays, result] = check;
+    const auto& [options, samples, mesh, warnings, spacing, strays, result] = check;
     const bool has_distance = spacing.min_distance > 0;
     return text_of(
         Json{{"version", GEODISK_VERSION_STRING},
              {"mesh", options.mesh.mesh},
+             {"warnings", warnings_json(warnings)},
              {"samples_file", options.samples},
              {"samples", samples.rows.size()},
              {"min_distance", has_distance ? Json(spacing.min_distance) : Json(nullptr)},
@@ -231,12 +230,17 @@ void run_verify(const VerifyOptions& options) {
     const SampleFile samples = read_samples(options.samples);
     progress.clear();
     check_rows(options.samples, samples, options.mesh.mesh, mesh);
-    warn_of_other_surface(options, samples);
+    std::vector<MeshWarning> warnings = mesh.warnings;
+    if (auto warning = other_surface(options, samples)) {
+        print_warning(warning->file + ": " + warning->message);
+        warnings.push_back(std::move(*warning));
+    }
     Spacing spacing = spacing_of(options, samples, mesh);
     std::vector<StrayRow> strays = find_strays(samples, mesh);
     SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);
-    const Check check{options,           samples,          mesh, std::move(spacing),
-                      std::move(strays), std::move(result)};
+    const Check check{
+        options,           samples,          mesh, std::move(warnings), std::move(spacing),
+        std::move(strays), std::move(result)};
     publish(options.out, report_text(check), result_text(check));
     fail_on_violations(check);
 }

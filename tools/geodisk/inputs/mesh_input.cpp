@@ -8,6 +8,7 @@
 #include "geodisk/inputs/radii_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/lift.hpp"
+#include "geometry/surface_warnings.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -16,33 +17,16 @@
 namespace geodisk::tools {
 namespace {
 
-/// The reader has told of faces that repeat a vertex or have no area.
-void print_warnings(const std::string& path, const MeshInput& mesh) {
-    for (const std::string& warning : mesh.file.warnings) {
-        print_warning(path + ": " + warning);
+/// Fills in the warnings of a mesh of the file `path`.
+void collect_warnings(const std::string& path, MeshInput& mesh, bool has_normals) {
+    mesh.warnings = std::move(mesh.file.warnings);
+    if (!is_builtin(path) || has_normals) { // Those are one-sided by design.
+        for (MeshWarning& warning : surface_warnings(mesh.file, mesh.prepared, has_normals)) {
+            mesh.warnings.push_back(std::move(warning));
+        }
     }
-    const std::uint64_t flat = mesh.prepared.statistics().zero_area_faces;
-    if (flat > 0 && !mesh.file.lengths.empty()) { // Which the reader does not judge.
-        print_warning(path + ": triangles without area kept: " + std::to_string(flat));
-    }
-    if (const std::uint64_t edges = mesh.prepared.statistics().nonmanifold_edges; edges > 0) {
-        print_warning(
-            path + ": " +
-            counted(edges, "edge joins three or more faces", "edges join three or more faces") +
-            "; distances count paths across all of them");
-    }
-}
-
-/// Normals of faces turned over against each other point apart, and so do vertices lifted by them.
-void warn_of_turned_faces(const std::string& path, const PreparedMesh& mesh) {
-    std::uint64_t sides = 0;
-    for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
-        const std::uint32_t around = mesh.half_edges()[h].around;
-        sides += around_same_way(around) && around_half_edge(around) != h ? 1u : 0u;
-    }
-    if (sides > 0) {
-        print_warning(path + ": " + counted((sides + 1) / 2, "edge has faces", "edges have faces") +
-                      " turned over against each other; --lift normals pulls them apart");
+    for (MeshWarning& warning : mesh.warnings) {
+        warning.file = path;
     }
 }
 
@@ -62,8 +46,8 @@ PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<co
 /// What the lifts and the density need of the mesh file.
 MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
                        const DensityOptions& density) {
-    MeshSources sources{options.mesh, options.coordinates, options.edge_lengths,
-                        lift_attributes(lifts), !density.map.empty()};
+    MeshSources sources{options.mesh,           options.coordinates,     options.edge_lengths,
+                        lift_attributes(lifts), options.weld_distance(), !density.map.empty()};
     if (!density.attribute.empty()) {
         sources.attributes.push_back(density.attribute);
     }
@@ -120,6 +104,7 @@ void MeshInput::place(SampleRow& row) const {
     row.normal[0] = static_cast<float>(n.x);
     row.normal[1] = static_cast<float>(n.y);
     row.normal[2] = static_cast<float>(n.z);
+    row.polygon = polygon(row.face);
 }
 
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
@@ -137,22 +122,22 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
     watch = Stopwatch();
     PreparedMesh prepared = prepare(path, file, lifts);
     std::optional<RadiusField> radii;
-    std::string radii_warning;
+    std::optional<MeshWarning> radii_warning;
     if (radii_vary) {
         LoadedRadii loaded = load_radii(density, path, file, prepared);
         radii = std::move(loaded.field);
         radii_warning = std::move(loaded.warning);
     }
-    MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), load_seconds,
-                   watch.seconds()};
+    MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), {},
+                   load_seconds,    watch.seconds()};
+    collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
+    if (radii_warning) {
+        mesh.warnings.push_back(std::move(*radii_warning));
+    }
     check_interrupted();
     progress.clear();
-    print_warnings(path, mesh);
-    if (!radii_warning.empty()) {
-        print_warning(radii_warning);
-    }
-    if (lift_attributes(lifts).size() < lifts.size()) {
-        warn_of_turned_faces(path, mesh.prepared);
+    for (const MeshWarning& warning : mesh.warnings) {
+        print_warning(warning.file + ": " + warning.message);
     }
     return mesh;
 }

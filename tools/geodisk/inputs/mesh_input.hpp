@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <geodisk/mesh.hpp>
 #include <geodisk/radius_field.hpp>
@@ -23,7 +24,8 @@ namespace geodisk::tools {
 struct MeshInput {
     MeshFile file;
     PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
-    std::optional<RadiusField> radii; ///< Where the options say that radii vary.
+    std::optional<RadiusField> radii;  ///< Where the options say that radii vary.
+    std::vector<MeshWarning> warnings; ///< As told to the user.
     double load_seconds = 0;
     double prepare_seconds = 0;
 
@@ -39,9 +41,13 @@ struct MeshInput {
     double radius(std::uint32_t face, const float (&weights)[3], double min_distance) const {
         return radii ? radii->factor_at(face, weights) * min_distance / 2 : 0;
     }
+    /// The file's face that triangle `face` is of, where that is another number.
+    std::optional<std::uint32_t> polygon(std::uint32_t face) const {
+        return file.polygons.empty() ? std::nullopt : std::optional(file.polygons[face]);
+    }
     /// Of unit length; zero for a face without area and for a mesh that is not in space.
     Vec3 normal(std::uint32_t face) const;
-    /// Sets position and normal of `row` by its face and weights.
+    /// Sets position, normal and polygon of `row` by its face and weights.
     void place(SampleRow& row) const;
 };
 

@@ -56,23 +56,25 @@ Factors factors_of(const DensityOptions& options, const std::string& path, const
 
 /// Positive values below the least factor count as that: disks only become larger, but not
 /// silently. Returns a warning, or nothing.
-std::string raise_small(Factors& factors, const PreparedMesh& mesh) {
-    std::size_t count = 0;
-    std::size_t first = 0;
+std::optional<MeshWarning> raise_small(Factors& factors, const PreparedMesh& mesh) {
+    Found raised;
     for (std::size_t v = 0; v < factors.values.size(); ++v) {
         double& value = factors.values[v];
         if (value > 0 && value < RadiusField::kLeastFactor) {
             value = RadiusField::kLeastFactor;
             if (mesh.fans()[v].corner_count > 0) {
-                first = count == 0 ? v : first;
-                ++count;
+                raised.add(v);
             }
         }
     }
-    return count == 0 ? ""
-                      : factors.source + ": g is below 0.001 at " +
-                            counted(count, "vertex", "vertices") + ", first at vertex " +
-                            std::to_string(first) + " (from 0), and counts as 0.001 there";
+    if (raised.count == 0) {
+        return std::nullopt;
+    }
+    const std::string first = "vertex " + std::to_string(raised.first) + " (from 0)";
+    return MeshWarning{"small_radii", raised.count, first,
+                       "g is below 0.001 at " + counted(raised.count, "vertex", "vertices") +
+                           ", first at " + first + ", and counts as 0.001 there",
+                       factors.source};
 }
 
 } // namespace
@@ -95,7 +97,7 @@ LoadedRadii load_radii(const DensityOptions& options, const std::string& path, c
     for (double& value : factors.values) {
         value = floor && value >= 0 && !all_zero ? std::max(value, *floor) : value;
     }
-    std::string warning = raise_small(factors, mesh);
+    std::optional<MeshWarning> warning = raise_small(factors, mesh);
     auto field = RadiusField::prepare(mesh, factors.values);
     if (!field && field.error().status == Status::invalid_argument) {
         const std::uint64_t v = field.error().element;

@@ -1,6 +1,7 @@
 // The radii of a command's mesh, from the files and numbers that its options name.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <geodisk/mesh.hpp>
@@ -13,7 +14,7 @@ namespace geodisk::tools {
 
 struct LoadedRadii {
     RadiusField field;
-    std::string warning; ///< Empty without.
+    std::optional<MeshWarning> warning;
 };
 
 /// The factors at the vertices of the mesh at `path`, which must have been read with what the

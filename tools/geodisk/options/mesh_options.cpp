@@ -7,7 +7,18 @@ namespace {
 
 constexpr const char* kSurfaceGroup = "Surface";
 
+/// What a flag without a value gets, and the name for it.
+constexpr const char* kBareFlag = "true";
+constexpr const char* kExact = "exact";
+
 } // namespace
+
+std::optional<Length> MeshOptions::weld_distance() const {
+    if (weld.empty()) {
+        return std::nullopt;
+    }
+    return weld == kBareFlag || weld == kExact ? Length{} : parse_length("--weld", weld);
+}
 
 void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
     for (const std::string& path : {mesh, coordinates, edge_lengths}) {
@@ -28,12 +39,16 @@ HeaderEntries MeshOptions::additions() const {
     for (const std::string& lift : lifts) {
         result.emplace_back("lift", lift);
     }
+    if (!weld.empty()) {
+        result.emplace_back("weld", weld == kBareFlag ? kExact : weld);
+    }
     return result;
 }
 
 void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary,
                        const std::string& name) {
-    add_option(command, name, options.mesh, "", summary + ": *.obj, *.ply or builtin:NAME")
+    add_option(command, name, options.mesh, "",
+               summary + ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME")
         ->required();
 }
 
@@ -45,7 +60,7 @@ void add_sidecar_options(CLI::App& command, MeshOptions& options, const std::str
                kSurfaceGroup);
     add_option(command, "--edge-lengths" + suffix, options.edge_lengths, "FILE",
                "Text file with a line VERTEX VERTEX LENGTH per edge, which\n"
-               "make the surface; vertices count from 1 in OBJ, 0 in PLY",
+               "make the surface; vertices count from 1 in OBJ, else 0",
                kSurfaceGroup);
 }
 
@@ -58,7 +73,18 @@ void add_lift_option(CLI::App& command, MeshOptions& options, const std::string&
         ->allow_extra_args(false);
 }
 
+void add_weld_option(CLI::App& command, MeshOptions& options, const std::string& suffix) {
+    // A flag: an option whose value may be absent would take the argument after it.
+    command
+        .add_flag("--weld" + suffix, options.weld,
+                  "Join vertices that lie in one place; with --weld" + suffix +
+                      "=EPS,\nalso those no farther apart, in mesh units or % of the\n"
+                      "bounding-box diagonal")
+        ->group(kSurfaceGroup);
+}
+
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
+    add_weld_option(command, options);
     add_sidecar_options(command, options, "MESH");
     add_lift_option(command, options);
 }

@@ -1,11 +1,13 @@
 // The options that say what a mesh is, the same for every command that takes one.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "files/sample_file.hpp"
 #include "geodisk/options/run_options.hpp"
+#include "program/arguments.hpp"
 
 namespace geodisk::tools {
 
@@ -13,7 +15,10 @@ namespace geodisk::tools {
 struct MeshOptions {
     std::string mesh, coordinates, edge_lengths;
     std::vector<std::string> lifts;
+    std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
 
+    /// As for MeshSources::weld. Throws UserError(usage) for no length.
+    std::optional<Length> weld_distance() const;
     /// Adds the files that are read, called `what`.
     void add_files(std::vector<NamedFile>& read, const std::string& what) const;
     /// Name and value of what shapes the surface besides the mesh file, as the header of a sample
@@ -31,6 +36,9 @@ void add_sidecar_options(CLI::App& command, MeshOptions& options, const std::str
 
 /// Adds --lift, with `suffix`.
 void add_lift_option(CLI::App& command, MeshOptions& options, const std::string& suffix = "");
+
+/// Adds --weld, with `suffix`.
+void add_weld_option(CLI::App& command, MeshOptions& options, const std::string& suffix = "");
 
 /// Adds all options besides MESH.
 void add_mesh_options(CLI::App& command, MeshOptions& options);

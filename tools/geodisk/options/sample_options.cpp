@@ -21,11 +21,11 @@ void check_metric(const SampleOptions& options) {
                    " takes no radii that vary, so none of the "
                    "--density options");
     }
-    if (options.metric != "geodesic" && !options.mesh.additions().empty()) {
-        fail_usage("--metric " + options.metric +
-                   " goes by the coordinates of the mesh file, so it "
-                   "takes no --" +
-                   options.mesh.additions().front().first);
+    for (const auto& [name, value] : options.mesh.additions()) {
+        if (options.metric != "geodesic" && name != "weld") {
+            fail_usage("--metric " + options.metric +
+                       " goes by the coordinates of the mesh file, so it takes no --" + name);
+        }
     }
 }
 

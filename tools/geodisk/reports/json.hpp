@@ -2,9 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
+
+#include "geometry/mesh_warning.hpp"
 
 namespace geodisk::tools {
 
@@ -20,6 +23,19 @@ inline std::string text_of(const Json& document) {
 template <class Value>
 Json json_of(const std::optional<Value>& value) {
     return value ? Json(*value) : Json(nullptr);
+}
+
+/// What was told of a mesh; `first` is null where there is no place.
+inline Json warnings_json(std::span<const MeshWarning> warnings) {
+    Json list = Json::array();
+    for (const MeshWarning& warning : warnings) {
+        list.push_back({{"kind", warning.kind},
+                        {"count", warning.count},
+                        {"first", warning.first.empty() ? Json(nullptr) : Json(warning.first)},
+                        {"message", warning.message},
+                        {"file", warning.file}});
+    }
+    return list;
 }
 
 } // namespace geodisk::tools

@@ -11,21 +11,30 @@
 namespace geodisk::tools {
 namespace {
 
-std::string mesh_text(const MeshStatistics& mesh) {
+std::string mesh_text(const MeshInput& input) {
+    const MeshStatistics& mesh = input.prepared.statistics();
     std::string text = counted(mesh.triangles, "triangle", "triangles") + ", " +
                        counted(mesh.components, "component", "components");
     if (mesh.boundary_edges > 0) {
         text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
     }
     if (mesh.coinciding_border_edges > 0) {
-        text += ", " + grouped(mesh.coinciding_border_edges) +
-                " of them in one place with others: weld the vertices to join the faces";
+        text += ", " + grouped(mesh.coinciding_border_edges) + " of them in one place with others";
+    }
+    if (const auto& weld = input.file.weld) {
+        text += ", " + counted(weld->merged_vertices, "vertex", "vertices") + " joined to others";
+        if (weld->degenerate_faces > 0) {
+            text += " and " + counted(weld->degenerate_faces, "triangle", "triangles") +
+                    " dropped by it";
+        }
     }
     return text + ", area " + rounded(mesh.area, 6);
 }
 
 /// Lifts may be several, so they make a list.
-Json mesh_json(const SampleJob& job, const MeshStatistics& mesh) {
+Json mesh_json(const SampleJob& job, const MeshInput& input) {
+    const MeshStatistics& mesh = input.prepared.statistics();
+    const std::optional<WeldCounts>& weld = input.file.weld;
     const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
     Json json{{"path", job.mesh.mesh}};
     for (const auto& [name, value] : job.additions()) {
@@ -35,14 +44,19 @@ Json mesh_json(const SampleJob& job, const MeshStatistics& mesh) {
             json[name] = value;
         }
     }
-    json.update({{"vertices", mesh.vertices},
-                 {"triangles", mesh.triangles},
-                 {"components", mesh.components},
-                 {"boundary_edges", mesh.boundary_edges},
-                 {"coinciding_border_edges", mesh.coinciding_border_edges},
-                 {"nonmanifold_edges", mesh.nonmanifold_edges},
-                 {"area", mesh.area},
-                 {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
+    json.update(
+        {{"vertices", mesh.vertices},
+         {"triangles", mesh.triangles},
+         {"polygons", input.file.polygons.empty() ? Json(nullptr) : Json(input.file.polygon_count)},
+         {"merged_vertices", weld ? Json(weld->merged_vertices) : Json(nullptr)},
+         {"welded_triangles", weld ? Json(weld->degenerate_faces) : Json(nullptr)},
+         {"dropped_triangles", mesh.repeated_index_faces},
+         {"components", mesh.components},
+         {"boundary_edges", mesh.boundary_edges},
+         {"coinciding_border_edges", mesh.coinciding_border_edges},
+         {"nonmanifold_edges", mesh.nonmanifold_edges},
+         {"area", mesh.area},
+         {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
     return json;
 }
 
@@ -87,7 +101,8 @@ std::string SampleReport::json(double write_seconds) const {
     const RunReport& run = result_.done.run;
     const SampleParams& params = result_.params;
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(job_, mesh_.prepared.statistics())},
+                  {"mesh", mesh_json(job_, mesh_)},
+                  {"warnings", warnings_json(mesh_.warnings)},
                   {"output", job_.out.output},
                   {"min_distance", params.min_distance},
                   {"radius", params.min_distance / 2},
@@ -119,7 +134,7 @@ std::string SampleReport::summary(double write_seconds) const {
     for (const auto& [name, value] : job_.additions()) {
         out << "              " << name << ' ' << one_line(value) << '\n';
     }
-    out << "              " << mesh_text(mesh_.prepared.statistics()) << '\n'
+    out << "              " << mesh_text(mesh_) << '\n'
         << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
         << ") in mesh units" << (job_.is_geodesic() ? "" : ", " + metric_text(job_)) << '\n';
     if (most_radius_ > 0) {

@@ -1,0 +1,139 @@
+// Small complexes of triangles of any kind: slivers, needles, triangles without area or several times,
+// edges of many faces, sources on vertices and edges. Distances of the reference must make a metric that
+// no straight line undercuts, and those in float must keep to the guard.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <vector>
+
+#include "engine/tolerances.hpp"
+#include "support/geodesic_query.hpp"
+
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+using namespace geodisk;
+using namespace geodisk::test;
+
+namespace {
+
+constexpr double kExact = 1e-6; ///< Of the reach; slivers cost digits.
+
+/// Numbers from the input, zeros beyond its end.
+class Input {
+  public:
+    explicit Input(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+    std::uint32_t next(std::uint32_t below) {
+        const std::uint32_t value = at_ < bytes_.size() ? bytes_[at_++] : 0u;
+        return value % below;
+    }
+
+  private:
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+};
+
+/// Mostly on a coarse grid, for coincidences; some a little beside it, for slivers.
+double coordinate(Input& input) {
+    const std::uint32_t value = input.next(256);
+    return value % 9 + (value >= 224 ? 1e-5 : value >= 192 ? 1e-3 : 0);
+}
+
+TestMesh complex_of(Input& input) {
+    TestMesh mesh;
+    const std::uint32_t vertices = 3 + input.next(8);
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        const double x = coordinate(input), y = coordinate(input), z = coordinate(input);
+        mesh.add_vertex({x, y, z});
+    }
+    const std::uint32_t faces = 1 + input.next(14);
+    for (std::uint32_t f = 0; f < faces; ++f) {
+        const std::uint32_t a = input.next(vertices), b = input.next(vertices);
+        mesh.add_triangle(a, b, input.next(vertices));
+    }
+    return mesh;
+}
+
+std::vector<Point> points_of(Input& input, std::uint32_t faces) {
+    std::vector<Point> points;
+    for (int i = 0; i < 5; ++i) {
+        const std::uint32_t face = input.next(faces);
+        const double a = input.next(9) / 8.0, b = input.next(9) / 8.0;
+        points.push_back(face_point(face, a + b > 1 ? 1 - a : a, a + b > 1 ? 1 - b : b));
+    }
+    return points;
+}
+
+bool takes_part(const TestMesh& mesh, const Point& point) {
+    const std::uint32_t* const v = &mesh.triangles[std::size_t{3} * point.face];
+    return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+}
+
+void require(bool holds, const char* what, double a, double b) {
+    if (!holds) {
+        std::fprintf(stderr, "%s: %.17g, %.17g\n", what, a, b);
+        __builtin_trap();
+    }
+}
+
+void check(const TestMesh& mesh, const PreparedMesh& surface, const std::vector<Point>& points) {
+    const double reach = 3 * surface.statistics().diagonal;
+    if (!(surface.statistics().longest_edge > 0) || !(reach < 1e6)) {
+        return;
+    }
+    GeodesicQuery<double> exact(surface, reach, points, tight_tolerances());
+    GeodesicQuery<float> twin(surface, reach, points, first_tolerances(surface, reach));
+    const ErrorModel model(surface, reach);
+    const double error = kExact * reach;
+    std::vector<std::vector<double>> d;
+    for (const Point& source : points) {
+        d.push_back(exact.from(source));
+        const std::vector<double> t = twin.from(source);
+        const double chain_error = model.error_of(twin.count().chain);
+        const double guard =
+            model.guard_for(std::max(first_error(surface, reach), chain_error)) * reach;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (d.back()[i] < reach - error - guard || t[i] < reach - error - guard) {
+                require(std::abs(t[i] - d.back()[i]) <= guard + error, "float", t[i], d.back()[i]);
+            }
+        }
+    }
+    for (std::size_t a = 0; a < points.size(); ++a) {
+        for (std::size_t b = 0; b < points.size(); ++b) {
+            if (d[a][b] == kUnreachable) {
+                require(d[b][a] == kUnreachable || d[b][a] > reach - error, "one way", a, b);
+                continue;
+            }
+            const double line = glm::distance(mesh.position(points[a]), mesh.position(points[b]));
+            require(d[a][b] >= line - error, "shorter than straight", d[a][b], line);
+            require(std::abs(d[a][b] - d[b][a]) <= error, "not symmetric", d[a][b], d[b][a]);
+            if (points[a].face == points[b].face) {
+                require(d[a][b] <= line + error, "not straight in a face", d[a][b], line);
+            }
+            for (std::size_t c = 0; c < points.size(); ++c) {
+                require(d[a][c] <= d[a][b] + d[b][c] + 2 * error ||
+                            d[a][b] + d[b][c] > reach - error,
+                        "triangle inequality", d[a][c], d[a][b] + d[b][c]);
+            }
+        }
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    Input input({data, size});
+    const TestMesh mesh = complex_of(input);
+    const auto surface = PreparedMesh::prepare(mesh.view(), ThreadOptions{1});
+    if (!surface) {
+        return 0;
+    }
+    std::vector<Point> points = points_of(input, mesh.face_count());
+    std::erase_if(points, [&](const Point& point) { return !takes_part(mesh, point); });
+    check(mesh, *surface, points);
+    return 0;
+}

@@ -1,0 +1,53 @@
+// The lines of a text, whatever ends them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace geodisk::tools {
+
+/// Steps through lines that end with LF, CR LF or CR. A byte order mark before the first is
+/// skipped.
+class TextLines {
+  public:
+    explicit TextLines(std::string_view text) : text_(text) {
+        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+        position_ = text_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+        find_feed();
+    }
+
+    /// The next line without its end; false at the end of the text.
+    bool next(std::string_view& line) {
+        if (position_ == text_.size()) {
+            return false;
+        }
+        // Only up to the next LF, which a text of CR alone has at its end.
+        const std::string_view rest = text_.substr(position_, feed_ - position_);
+        const std::size_t end = position_ + std::min(rest.find('\r'), rest.size());
+        line = text_.substr(position_, end - position_);
+        const bool is_crlf = end + 1 == feed_ && feed_ < text_.size();
+        position_ = std::min(end + (is_crlf ? 2u : 1u), text_.size());
+        if (position_ > feed_) {
+            find_feed();
+        }
+        ++number_;
+        return true;
+    }
+
+    /// Of the line that next() gave last, from 1.
+    std::uint32_t number() const noexcept { return number_; }
+    /// Where the next line begins.
+    std::size_t position() const noexcept { return position_; }
+
+  private:
+    void find_feed() { feed_ = std::min(text_.find('\n', position_), text_.size()); }
+
+    std::string_view text_;
+    std::size_t position_ = 0;
+    std::size_t feed_ = 0; ///< The first LF from there on, or the end.
+    std::uint32_t number_ = 0;
+};
+
+} // namespace geodisk::tools

@@ -1,0 +1,18 @@
+// What is odd about a mesh once its faces are connected.
+#pragma once
+
+#include <vector>
+
+#include <geodisk/mesh.hpp>
+
+#include "geometry/mesh.hpp"
+
+namespace geodisk::tools {
+
+/// Tells of edges of three or more faces, vertices that join parts without a common edge, faces
+/// turned over against their neighbours, several components, open seams, and, of edge lengths, of
+/// faces without area. `has_normals` says that vertices are lifted by their normals.
+std::vector<MeshWarning> surface_warnings(const MeshFile& file, const PreparedMesh& mesh,
+                                          bool has_normals = false);
+
+} // namespace geodisk::tools
