@@ -64,8 +64,7 @@ namespace {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const TemporaryFolder folder;
-    const Path path = folder.write(GEODISK_FUZZ_NAME,
-                                   {reinterpret_cast<const char*>(data), size});
+    const Path path = folder.write(GEODISK_FUZZ_NAME, {reinterpret_cast<const char*>(data), size});
     try {
         GEODISK_FUZZ_READ(path);
     } catch (const UserError& error) {

@@ -1,5 +1,5 @@
-// Saved meshes with bytes changed and the checksum not looked at: what load() takes must be a mesh that
-// distances can be computed on.
+// Saved meshes with bytes changed and the checksum not looked at: what load() takes must be a mesh
+// that distances can be computed on.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
