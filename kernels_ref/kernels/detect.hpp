@@ -32,7 +32,9 @@ inline Tolerances double_tolerances() {
     Tolerances tolerances{};
     tolerances.limit = 1;
     tolerances.margin = 0x1p-40f;
-    tolerances.slack = 0x1p-40f;
+    // On needles rounding is that much larger. What a ray aside of its window misses is of its
+    // square.
+    tolerances.slack = 0x1p-24f;
     return tolerances;
 }
 
@@ -280,18 +282,18 @@ class Detector {
         }
         const auto [from_start, from_end] = angles(from);
         const auto [start, end] = angles(corner);
-        std::uint32_t left = end - from_start;
-        std::uint32_t right = from_end - start;
-        if (start < from_start) {
-            left += fan.total_angle;
-        } else if (corner != from) {
-            right += fan.total_angle;
-        }
+        const std::uint32_t left = end - from_start;
+        const std::uint32_t right = from_end - start;
+        // In steps of angles a needle may begin where its neighbour does: either may be the first.
+        const bool may_come_before = start < from_start || (start == from_start && corner != from);
+        const bool may_come_behind = start >= from_start;
         const std::uint32_t needed = gpu::kAnglePi - gpu::kAngleTolerance;
         if (fan.flags & gpu::kFanOpen) {
-            return start < from_start ? from_end - start >= needed : end - from_start >= needed;
+            return (may_come_before && right >= needed) || (may_come_behind && left >= needed);
         }
-        return left >= needed && right >= needed;
+        const std::uint32_t around = corner != from ? fan.total_angle : 0u;
+        return (may_come_before && left + around >= needed && right >= needed) ||
+               (may_come_behind && left >= needed && right + around >= needed);
     }
 
     std::pair<std::uint32_t, std::uint32_t> angles(std::uint32_t corner) const {

@@ -130,15 +130,20 @@ bool in_shadow(uvec2 corner) {
     uint from_end = from_start + (lane.entry_angles >> 16);
     uint start = corner.y & 0xffffu;
     uint end = start + (corner.y >> 16);
-    bool earlier = start < from_start;
+    uint turned_left = end - from_start;
+    uint turned_right = from_end - start;
+    // In steps of angles a needle may begin where its neighbour does: either may be the first.
+    bool is_other = corner.x != lane.entered_by;
+    bool may_come_before = start < from_start || (start == from_start && is_other);
+    bool may_come_behind = start >= from_start;
     uint needed = kAnglePi - kAngleTolerance;
     if ((lane.fan_flags & kFanOpen) != 0u) {
-        return earlier ? from_end - start >= needed : end - from_start >= needed;
+        return (may_come_before && turned_right >= needed) ||
+               (may_come_behind && turned_left >= needed);
     }
-    uint turned_left = end - from_start + (earlier ? lane.fan_angle : 0u);
-    uint turned_right =
-        from_end - start + (!earlier && corner.x != lane.entered_by ? lane.fan_angle : 0u);
-    return turned_left >= needed && turned_right >= needed;
+    uint around = is_other ? lane.fan_angle : 0u;
+    return (may_come_before && turned_left + around >= needed && turned_right >= needed) ||
+           (may_come_behind && turned_left >= needed && turned_right + around >= needed);
 }
 
 void take_window() {

@@ -51,6 +51,24 @@ TEST_CASE("thin surfaces against CGAL, with few windows") {
     }
 }
 
+TEST_CASE("needles on a border that turns by a millionth: no path is lost") {
+    // Two triangles along one line, found by a fuzzer; paths bend at vertex 1.
+    TestMesh mesh;
+    for (const Vec3& p : {Vec3{3, 3.00001, 0}, Vec3{5, 5, 0}, Vec3{0, 0, 0}, Vec3{7, 7.00001, 0}}) {
+        mesh.add_vertex(p);
+    }
+    mesh.add_triangle(0, 2, 1);
+    mesh.add_triangle(2, 1, 3);
+    const std::vector<Point> points{face_point(0, 0, 0), face_point(1, 0.375, 0.625)};
+    const PreparedMesh surface = prepared(mesh);
+    for (const double reach : {5.0, 30.0}) {
+        GeodesicQuery<double> query(surface, reach, points, ref::double_tolerances());
+        const double expected = std::sqrt(8.0) + 0.625 * std::sqrt(8.0);
+        CHECK(query.from(points[0])[1] == doctest::Approx(expected).epsilon(1e-5));
+        CHECK(query.from(points[1])[0] == doctest::Approx(expected).epsilon(1e-5));
+    }
+}
+
 TEST_CASE("a face of given lengths is entered twice where that is shorter") {
     // Around vertex 0 a wide face and two narrow ones, which are the shorter way from one side of
     // the wide one to the other: no space holds three triangles like these.

@@ -1,5 +1,6 @@
 #include "files/mesh_file.hpp"
 
+#include "mesh_bytes.hpp"
 #include "mesh_facts.hpp"
 #include "test_files.hpp"
 
@@ -21,17 +22,6 @@ std::string replaced(std::string_view text, std::string_view old_part, std::stri
     const std::size_t at = result.find(old_part);
     REQUIRE(at != std::string::npos);
     return result.replace(at, old_part.size(), new_part);
-}
-
-/// read_mesh() of a file with these bytes.
-MeshFile mesh_of(std::string_view name, std::string_view bytes) {
-    const TemporaryFolder folder;
-    return read_mesh(folder.write(name, bytes).string());
-}
-
-void check_refused(std::string_view name, std::string_view bytes, std::string_view part) {
-    CAPTURE(bytes);
-    check_fails(ExitCode::bad_input, part, [&] { mesh_of(name, bytes); });
 }
 
 } // namespace

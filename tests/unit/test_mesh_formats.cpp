@@ -1,6 +1,7 @@
 // What is particular to each format of mesh files.
 #include "files/mesh_file.hpp"
 
+#include "mesh_bytes.hpp"
 #include "mesh_facts.hpp"
 #include "test_files.hpp"
 
@@ -10,16 +11,6 @@
 using namespace geodisk::tools;
 
 namespace {
-
-MeshFile mesh_of(std::string_view name, std::string_view bytes) {
-    const TemporaryFolder folder;
-    return read_mesh(folder.write(name, bytes).string());
-}
-
-void check_refused(std::string_view name, std::string_view bytes, std::string_view part) {
-    CAPTURE(bytes);
-    check_fails(ExitCode::bad_input, part, [&] { mesh_of(name, bytes); });
-}
 
 /// The only warning of a mesh.
 MeshWarning warning_of(const MeshFile& mesh) {
