@@ -2,11 +2,13 @@
 #include <array>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -31,9 +33,31 @@ class BufferFolder {
   public:
     explicit BufferFolder(const Path& path) : path_(path) {}
 
-    tinygltf::FsCallbacks callbacks() { return {exists, expand, read, write, this}; }
+    tinygltf::FsCallbacks callbacks() { return all_callbacks<tinygltf::FsCallbacks>(); }
 
   private:
+    /// Newer versions of tinygltf ask for sizes as well.
+    template <class Callbacks>
+    Callbacks all_callbacks() {
+        Callbacks all{};
+        all.FileExists = exists;
+        all.ExpandFilePath = expand;
+        all.ReadWholeFile = read;
+        all.WriteWholeFile = write;
+        if constexpr (requires { all.GetFileSizeInBytes; }) {
+            all.GetFileSizeInBytes = find_size;
+        }
+        all.user_data = this;
+        return all;
+    }
+
+    static bool find_size(std::size_t* size, std::string*, const std::string& name, void* self) {
+        const Path& path = static_cast<BufferFolder*>(self)->path_;
+        std::error_code error;
+        *size = static_cast<std::size_t>(
+            std::filesystem::file_size(path.parent_path() / name.substr(kFolder.size()), error));
+        return !error;
+    }
     static bool exists(const std::string& name, void* self) {
         return name.starts_with(kFolder) &&
                static_cast<BufferFolder*>(self)->may_open(name.substr(kFolder.size()));
