@@ -53,9 +53,12 @@ class BufferFolder {
 
     static bool find_size(std::size_t* size, std::string*, const std::string& name, void* self) {
         const Path& path = static_cast<BufferFolder*>(self)->path_;
+        const Path file = path.parent_path() / name.substr(kFolder.size());
         std::error_code error;
-        *size = static_cast<std::size_t>(
-            std::filesystem::file_size(path.parent_path() / name.substr(kFolder.size()), error));
+        *size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
+        if (error) {
+            read_file(file); // Which says why it cannot be.
+        }
         return !error;
     }
     static bool exists(const std::string& name, void* self) {
