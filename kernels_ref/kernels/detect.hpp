@@ -90,8 +90,8 @@ class Detector {
         Real x, y, b0, b1, sigma;
         std::uint32_t chain;
         Real start, end; ///< What was known of the edge's ends, rounded up.
-        std::uint32_t
-            remembered; ///< A half-edge of a face that the window came through, see turns_back().
+        /// A half-edge of a face that the window came through, see turns_back().
+        std::uint32_t remembered;
     };
     /// A vertex reached by a path of length sigma that came in through `corner`.
     struct Event {

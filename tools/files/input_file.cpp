@@ -54,14 +54,17 @@ std::string read_file(const Path& path) {
     return bytes;
 }
 
-std::string lower_extension(const Path& path) {
-    std::string extension = path.extension().string();
-    for (char& character : extension) {
+std::string lower_case(std::string text) {
+    for (char& character : text) {
         if (character >= 'A' && character <= 'Z') {
             character = static_cast<char>(character - 'A' + 'a');
         }
     }
-    return extension;
+    return text;
+}
+
+std::string lower_extension(const Path& path) {
+    return lower_case(path.extension().string());
 }
 
 } // namespace geodisk::tools

@@ -11,6 +11,9 @@ namespace geodisk::tools {
 /// or unreadable.
 std::string read_file(const Path& path);
 
+/// `text` with the letters A to Z in lower case.
+std::string lower_case(std::string text);
+
 /// The extension of `path` in lower case with its dot (".obj"), or "".
 std::string lower_extension(const Path& path);
 

@@ -32,14 +32,6 @@ std::uint32_t little_endian(const char* bytes) {
     return value;
 }
 
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) {
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return result;
-}
-
 /// Adds the last three vertices as a face.
 void add_face(PolygonMesh& mesh) {
     const std::size_t end = mesh.positions.size() / 3;
@@ -96,7 +88,7 @@ class AsciiReader {
             }
             split_tokens(line, tokens_);
             if (!tokens_.empty()) {
-                read_record(lower(tokens_[0]));
+                read_record(lower_case(std::string(tokens_[0])));
             }
         }
         if (in_facet_) {
@@ -183,7 +175,8 @@ bool is_binary(std::string_view bytes) {
         return true;
     }
     const std::size_t text = bytes.find_first_not_of(" \t\r\n");
-    return text == std::string_view::npos || lower(bytes.substr(text, 5)) != "solid";
+    return text == std::string_view::npos ||
+           lower_case(std::string(bytes.substr(text, 5))) != "solid";
 }
 
 } // namespace
@@ -197,7 +190,7 @@ PolygonMesh read_stl(const Path& path) {
         return read_binary(path, bytes);
     }
     const std::size_t text = bytes.find_first_not_of(" \t\r\n");
-    if (text == std::string::npos || lower(bytes.substr(text, 5)) != "solid") {
+    if (text == std::string::npos || lower_case(std::string(bytes.substr(text, 5))) != "solid") {
         fail_input(path, "is not an STL file: it is too short for a binary one and does not begin "
                          "with 'solid'");
     }

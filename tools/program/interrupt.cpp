@@ -1,9 +1,7 @@
 #include "program/interrupt.hpp"
 
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <string>
 
 #include "program/failure.hpp"
 #include "program/temporary_files.hpp"
