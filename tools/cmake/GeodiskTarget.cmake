@@ -33,6 +33,8 @@ function(geodisk_harden name)
         "$<$<CONFIG:Release,RelWithDebInfo>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
     if(UNIX AND NOT APPLE)
         target_link_options(${name} PRIVATE -Wl,-z,relro,-z,now,-z,noexecstack)
+    elseif(MINGW)
+        target_link_libraries(${name} PRIVATE ssp) # What checks stacks is no part of its C library.
     endif()
 endfunction()
 
