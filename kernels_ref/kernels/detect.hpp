@@ -3,16 +3,20 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "constants.h"
 #include "engine/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
+#include "kernels/trim.hpp"
 #include "lib/scalar.hpp"
 #include "lib/surface.hpp"
 
@@ -25,6 +29,14 @@ struct DiskCount {
     std::uint32_t chain = 0;        ///< Longest chain of crossings.
     std::uint32_t vertices = 0;     ///< Vertices reached.
     std::uint32_t tested = 0;       ///< Points whose distance was computed.
+};
+
+/// Triangles that lie upon each other, narrower than rounding, make windows without end.
+struct EndlessDisk : std::runtime_error {
+    EndlessDisk()
+        : std::runtime_error(
+              "a geodesic disk does not end: triangles that lie upon each other, narrower "
+              "than rounding, defeat double precision") {}
 };
 
 /// For distances in double precision: only its rounding has to be allowed for.
@@ -61,25 +73,44 @@ class Detector {
     /// Takes vertex events in the order they came, as the shaders do with Events::oldest.
     void take_oldest_first() { oldest_first_ = true; }
 
-    /// Calls `hit(place, distance)` for every place of `bins` with `wanted(place)` that is near
-    /// `source`, once for each path found.
+    /// Trims windows in all disks, from the start.
+    void trim_all() { trims_all_ = true; }
+
+    /// Throws EndlessDisk where windows become too many. Calls `hit(place, distance)` for every
+    /// place of `bins` with `wanted(place)` that is near `source`, once for each path found.
     template <class Wanted, class Hit>
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
+        count_ = {};
+        trims_ = trims_all_;
         begin();
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
         spread_from_source(source, wanted, hit);
         // Windows first, the last one first, then events: a vertex then mostly has its final
         // distance before its fan is lit.
-        while (!windows_.empty() || events_taken_ < events_.size()) {
-            if (!windows_.empty()) {
+        for (;;) {
+            if (!trims_ && makes_many()) {
+                trims_ = true;
+                begin();
+                spread_from_source(source, wanted, hit);
+            } else if (is_endless()) {
+                throw EndlessDisk();
+            } else if (!trims_ && !windows_.empty()) {
                 const Window window = windows_.back();
                 windows_.pop_back();
                 cross_edge(window, wanted, hit);
-            } else {
+            } else if (trims_ && waiting_ > 0) {
+                const Event event = take_nearest();
+                if (event.vertex == gpu::kWindowWaits) {
+                    cross_edge(Window{windows_[event.corner]}, wanted, hit);
+                } else {
+                    spread_from_vertex(event, wanted, hit);
+                }
+            } else if (events_taken_ < events_.size()) {
                 spread_from_vertex(take_event(), wanted, hit);
+            } else {
+                return count_;
             }
         }
-        return count_;
     }
 
   private:
@@ -93,7 +124,8 @@ class Detector {
         /// A half-edge of a face that the window came through, see turns_back().
         std::uint32_t remembered;
     };
-    /// A vertex reached by a path of length sigma that came in through `corner`.
+    /// A vertex reached by a path of length sigma that came in through `corner`. Where windows are
+    /// trimmed they wait with the events: kWindowWaits, and where they are in windows_.
     struct Event {
         std::uint32_t vertex, corner;
         Real sigma;
@@ -115,10 +147,15 @@ class Detector {
 
     void begin() {
         ++generation_;
+        kept_.begin_disk();
         windows_.clear();
         events_.clear();
         events_taken_ = 0;
-        count_ = {};
+        if (waiting_ > 0) { // Of a disk that did not end.
+            bands_ = {};
+            waiting_ = 0;
+        }
+        count_.vertices = 0;
     }
 
     /// Whether radii vary.
@@ -142,17 +179,28 @@ class Detector {
                                                       : static_cast<Real>(kFar);
     }
 
-    void push(const Window& record) {
+    void push(const Window& record, Real distance) {
         windows_.push_back(record);
-        count_push(windows_.size(), record.chain);
+        ++count_.windows;
+        if (trims_) {
+            wait(Event{gpu::kWindowWaits, static_cast<std::uint32_t>(windows_.size() - 1), distance,
+                       record.chain});
+        } else {
+            count_waiting(windows_.size(), record.chain);
+        }
     }
 
     void push(const Event& event) {
+        ++count_.windows;
+        if (trims_) {
+            wait(event);
+            return;
+        }
         events_.push_back(event);
         if (!oldest_first_) {
             std::push_heap(events_.begin(), events_.end(), is_farther);
         }
-        count_push(events_.size() - events_taken_, event.chain);
+        count_waiting(events_.size() - events_taken_, event.chain);
     }
 
     Event take_event() {
@@ -165,8 +213,27 @@ class Detector {
         return event;
     }
 
-    void count_push(std::size_t waiting, std::uint32_t chain) {
-        ++count_.windows;
+    /// Where windows are trimmed all waits in bands by distance.
+    void wait(const Event& event) {
+        const Real bands = event.sigma * static_cast<Real>(gpu::kBandsPerDistance);
+        bands_[std::min(static_cast<std::uint32_t>(bands), gpu::kBands - 1)].push_back(event);
+        ++waiting_;
+        count_waiting(waiting_, event.chain);
+    }
+
+    /// Of the nearest band the last one.
+    Event take_nearest() {
+        auto band = bands_.begin();
+        while (band->empty()) {
+            ++band;
+        }
+        const Event event = band->back();
+        band->pop_back();
+        --waiting_;
+        return event;
+    }
+
+    void count_waiting(std::size_t waiting, std::uint32_t chain) {
         count_.most_waiting = std::max(count_.most_waiting, static_cast<std::uint32_t>(waiting));
         count_.chain = std::max(count_.chain, chain);
     }
@@ -192,7 +259,7 @@ class Detector {
 
     void push(const Child& child) {
         if (child.distance >= 0) {
-            push(child.window);
+            push(child.window, child.distance);
         }
     }
 
@@ -334,15 +401,13 @@ class Detector {
         bool same_way = true;
         std::uint32_t h = window.edge;
         Window entering = window;
+        bool is_first = true;
         for (;;) {
             const std::uint32_t around = surface_.edges[h].around;
             same_way = same_way == around_same_way(around);
             h = around_half_edge(around);
             if (h == window.edge) {
                 return;
-            }
-            if (turns_back(h, window)) {
-                continue;
             }
             if (same_way) {
                 entering = window;
@@ -353,8 +418,34 @@ class Detector {
                 entering.start = window.end;
                 entering.end = window.start;
             }
+            if (std::exchange(is_first, false) && trims_ && is_trimmed(h, entering)) {
+                return;
+            }
+            if (turns_back(h, window)) {
+                continue;
+            }
             enter_face(h, entering, wanted, hit);
         }
+    }
+
+    /// Whether there were so many windows that the disk is to begin again, trimming.
+    bool makes_many() const {
+        const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
+        const std::uint32_t each = gpu::kUntrimmedEach + (vertices >> gpu::kUntrimmedShift);
+        return count_.windows > gpu::kUntrimmedWindows + vertices * each;
+    }
+
+    /// Whether the disk goes on without end though it trims.
+    bool is_endless() const {
+        const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
+        return trims_ && count_.windows > gpu::kMostWindows + vertices * gpu::kMostPerVertex;
+    }
+
+    /// Whether the window, given in the frame of h, is to go.
+    bool is_trimmed(std::uint32_t h, const Window& window) {
+        return kept_.trims(surface_.edges[h].origin, surface_.edges[next_in_face(h)].origin,
+                           surface_.edges[h].length,
+                           {window.x, window.y, window.b0, window.b1, window.sigma}, limit_);
     }
 
     /// The window, given in the frame of h with its source at (x, -y), enters the face of h.
@@ -550,7 +641,12 @@ class Detector {
     std::vector<Grid> grids_;
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
-    std::vector<Window> windows_; ///< A stack.
+    std::vector<Window> windows_; ///< A stack; where they are trimmed, all of the disk.
+    bool trims_all_ = false;
+    bool trims_ = false; ///< In this disk.
+    KeptWindows<Real> kept_;
+    std::array<std::vector<Event>, gpu::kBands> bands_; ///< Empty between disks.
+    std::size_t waiting_ = 0;                           ///< In them.
     bool oldest_first_ = false;
     std::vector<Event> events_;    ///< A heap, the nearest on top; or all of the disk as they came.
     std::size_t events_taken_ = 0; ///< Of those.

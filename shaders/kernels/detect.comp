@@ -6,7 +6,7 @@
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
 // reads: faces, fans, radii, cells, states, weights, orders   writes: pool, slots, control
-// spec: local size, rounding, pool block, counted lanes, adaptive, event heap
+// spec: local size, rounding, pool block, counted lanes, adaptive, event heap, trims
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
@@ -37,6 +37,7 @@ Push P;
 #include "../lib/waiting.glsl"
 #include "../lib/vertex_table.glsl"
 #include "../lib/propagate.glsl"
+#include "../lib/trim.glsl"
 #include "../lib/scan.glsl"
 #include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
@@ -98,12 +99,14 @@ void take_slot() {
     load_candidate();
 }
 
+// And the windows kept, which lie behind it.
 void clear_table() {
-    uint end = min(lane.cursor + kClearPerStep, P.table_capacity);
+    uint rows = P.table_capacity + trim_rows();
+    uint end = min(lane.cursor + kClearPerStep, rows);
     for (; lane.cursor < end; ++lane.cursor) {
         pool[vertex_row(lane.cursor)] = uvec4(0u);
     }
-    if (lane.cursor == P.table_capacity) {
+    if (lane.cursor == rows) {
         lane.phase = kPhaseSource;
         lane.cursor = 0u;
     }
@@ -146,9 +149,8 @@ bool in_shadow(uvec2 corner) {
            (may_come_behind && turned_left >= needed && turned_right + around >= needed);
 }
 
-void take_window() {
-    --lane.windows;
-    uint at = window_at(lane.windows);
+void take_window(uint window) {
+    uint at = window_at(window);
     uvec4 row0 = own_row_at(pool, own_row(at));
     uvec4 row1 = own_row_at(pool, own_row(at + 1u));
     lane.half_edge = row0.x >> 1;
@@ -160,13 +162,13 @@ void take_window() {
     lane.sigma = uintBitsToFloat(row1.y);
     lane.chain = row1.z;
     lane.known = row1.w;
-    lane.remembered = own_row_at(pool, remembered_row(lane.windows))[lane.windows & 3u];
+    lane.remembered = own_row_at(pool, remembered_row(window))[window & 3u];
     lane.phase = kPhaseCross;
+    window_taken = true;
 }
 
 // A vertex reached sooner by now is dropped.
-void take_event() {
-    uvec4 row = pop_event();
+void take_event(uvec4 row) {
     uint vertex = row.x;
     if (find_vertex(vertex).distance < uintBitsToFloat(row.y)) {
         return;
@@ -183,6 +185,38 @@ void take_event() {
     lane.corner_ahead = kNoHalfEdge;
     lane.mode = kModeInside;
     lane.phase = kPhaseFan;
+}
+
+// Takes what comes next of all that waits. Once there were very many windows the disk begins again,
+// trimming, with those listed that it has found.
+void take_next() {
+    if (makes_many()) {
+        if (kTrims) {
+            lane.trims = 1u;
+            begin_windows();
+        } else {
+            overflow |= kOverflowTrims;
+        }
+    } else if (is_endless()) {
+        overflow |= kOverflowEndless;
+    } else if (trims() && lane.event_tail > 0u) {
+        uint place = take_place();
+        uvec4 row = own_row_at(pool, event_row(place));
+        if (row.x == kWindowWaits) {
+            take_window(place);
+        } else {
+            take_event(row);
+        }
+        free_place(place);
+    } else if (!trims() && lane.windows > 0u) {
+        --lane.windows;
+        take_window(lane.windows);
+    } else if (lane.event_head != lane.event_tail) {
+        take_event(pop_event());
+    } else {
+        lane.phase = kPhaseBlock;
+        lane.cursor = 0u;
+    }
 }
 
 // The next lit corner of the fan, or none; looks one lit corner ahead, to tell when it is the last.
@@ -210,14 +244,7 @@ bool next_operation() {
         lane.half_edge = edge.around >> 1;
     }
     if (lane.phase == kPhasePop) {
-        if (lane.windows > 0u) {
-            take_window();
-        } else if (lane.event_head != lane.event_tail) {
-            take_event();
-        } else {
-            lane.phase = kPhaseBlock;
-            lane.cursor = 0u;
-        }
+        take_next();
     }
     if (lane.phase == kPhaseFan) {
         uint corner = next_lit_corner();
@@ -267,8 +294,13 @@ void follow_up() {
 }
 
 void trip() {
+    window_taken = false;
     bool due = !scanning() && next_operation();
     load_face();
+    if (due && trimmed()) {
+        lane.phase = kPhasePop;
+        due = false;
+    }
     if (due && !turns_back()) {
         float source_square = place_source();
         spread(source_square);

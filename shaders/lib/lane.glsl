@@ -8,6 +8,8 @@ uint slice;        // first row of the lane in the pool
 uint first_event;  // among the rows of the lane
 uint first_remembered;
 uint first_vertex;
+uint first_kept;
+uint first_band;
 
 // A row of this lane in the pool.
 uint own_row(uint at) { return slice + at * kPoolBlock; }
@@ -18,6 +20,8 @@ void load_lane(uint index) {
     first_event = kLaneRows + kWindowRows * P.window_capacity;
     first_remembered = first_event + P.window_capacity;
     first_vertex = first_remembered + ((P.window_capacity + 3u) >> 2);
+    first_kept = first_vertex + P.table_capacity;
+    first_band = first_kept + kKeptRows * kKeptPerEdge * kKeptEdges;
     overflow = 0u;
     uvec4 a = own_row_at(pool, own_row(0u));
     uvec4 b = own_row_at(pool, own_row(1u));
@@ -28,6 +32,7 @@ void load_lane(uint index) {
     uvec4 g = own_row_at(pool, own_row(6u));
     uvec4 h = own_row_at(pool, own_row(7u));
     uvec4 i = own_row_at(pool, own_row(8u));
+    uvec4 j = own_row_at(pool, own_row(9u));
     lane.slot = a.x, lane.phase = a.y, lane.idle_conflicts = a.z, lane.active_conflicts = a.w;
     lane.windows = b.x, lane.event_head = b.y, lane.event_tail = b.z, lane.generation = b.w;
     lane.half_edge = c.x, lane.mode = c.y;
@@ -39,6 +44,7 @@ void load_lane(uint index) {
     lane.scan_columns = g.x, lane.scan_stride = g.y, lane.tested = g.z, lane.pushed = g.w;
     lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z, lane.remembered = h.w;
     lane.entered_by = i.x, lane.entry_angles = i.y, lane.fan_angle = i.z, lane.fan_flags = i.w;
+    lane.trims = j.x, lane.free_place = j.y, lane.bands_low = j.z, lane.bands_high = j.w;
 }
 
 void save_lane() {
@@ -56,17 +62,18 @@ void save_lane() {
         uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, lane.remembered);
     pool[own_row(8u)] =
         uvec4(lane.entered_by, lane.entry_angles, lane.fan_angle, lane.fan_flags);
+    pool[own_row(9u)] = uvec4(lane.trims, lane.free_place, lane.bands_low, lane.bands_high);
 }
 
-// The lane takes a slot, as its table's next disk.
-void begin_disk(uint slot) {
+// What the lane knows of vertices and windows is empty, as of its table's next disk.
+void begin_windows() {
     bool wrapped = lane.generation == kMostGenerations;
     lane.generation = wrapped ? 1u : lane.generation + 1u;
     lane.phase = wrapped ? kPhaseClear : kPhaseSource;
-    lane.slot = slot;
-    lane.idle_conflicts = 0u;
-    lane.active_conflicts = 0u;
     lane.windows = 0u;
+    lane.free_place = kNothingWaits;
+    lane.bands_low = 0u;
+    lane.bands_high = 0u;
     lane.event_head = 0u;
     lane.event_tail = 0u;
     lane.mode = kModeInside;
@@ -75,11 +82,20 @@ void begin_disk(uint slot) {
     lane.scan_end = 0u;
     lane.scan_row = 0u;
     lane.scan_row_end = 0u;
+    lane.vertices = 0u;
+}
+
+// The lane takes a slot.
+void begin_disk(uint slot) {
+    lane.slot = slot;
+    lane.idle_conflicts = 0u;
+    lane.active_conflicts = 0u;
     lane.tested = 0u;
     lane.pushed = 0u;
     lane.most_waiting = 0u;
     lane.longest_chain = 0u;
-    lane.vertices = 0u;
+    lane.trims = 0u;
+    begin_windows();
 }
 
 #endif

@@ -145,7 +145,7 @@ struct Window {
     uvec4 row1;
 };
 
-const Window kNoWindow = Window(-1.0, uvec4(0u), uvec4(0u));
+const Window kNoChild = Window(-1.0, uvec4(0u), uvec4(0u));
 
 // The operation in flight leaves the face: from inside it through half_edge itself, as a window
 // through the left edge or the right one.
@@ -222,11 +222,11 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     bool border = around >> 1 == out_edge;
     if (useless || border || on_end || !(i0 < i1) || !(distance < reach()) ||
         beats(ends.x, i1, squared(right_of, py)) || beats(ends.y, to_end, squared(left_of, py))) {
-        return kNoWindow;
+        return kNoChild;
     }
     if (lane.chain >= kLongestChain) {
-        overflow |= kOverflowChain;
-        return kNoWindow;
+        overflow |= kOverflowEndless;
+        return kNoChild;
     }
     return Window(distance,
                   uvec4(around, floatBitsToUint(px), floatBitsToUint(py), floatBitsToUint(i0)),
@@ -259,11 +259,11 @@ void spread(float source_square) {
     Meeting m = meet_apex(sx, lit);
     vec3 distances = reach_vertices(m, source_square);
     uint remembered = remember();
-    Window first = kNoWindow;
-    Window second = kNoWindow;
+    Window first = kNoChild;
+    Window second = kNoChild;
     for (uint i = 0u; i < (inside ? 1u : 2u); ++i) {
         first = second;
-        second = kNoWindow;
+        second = kNoChild;
         if (inside || (i == 0u ? m.to_left : m.to_right)) {
             second = leave(i == 0u, m, sx, lit, distances);
         }
@@ -273,7 +273,7 @@ void spread(float source_square) {
         Window next = swapped == (i == 0u) ? second : first;
         if (next.distance >= 0.0) {
             lane.longest_chain = max(lane.longest_chain, lane.chain + 1u);
-            push_window(next.row0, next.row1, remembered);
+            push_window(next.distance, next.row0, next.row1, remembered);
         }
     }
 }

@@ -2,7 +2,8 @@
 // Windows go first, the nearer child of two before the other; events follow when no window is left. A
 // vertex then mostly has its final distance before its fan is lit. Events wait in a heap, the nearest
 // first and of two as near that of the lower vertex, or in a ring, in the order they came: more
-// windows on large disks, but no loops, which lavapipe goes through in every trip.
+// windows on large disks, but no loops, which lavapipe goes through in every trip. Where the disk trims
+// its windows both wait in bands instead.
 #ifndef GEODISK_WAITING_GLSL
 #define GEODISK_WAITING_GLSL
 
@@ -16,18 +17,24 @@ uint event_row(uint event) {
 // What a window remembers is in this row, as the component of its number modulo 4.
 uint remembered_row(uint window) { return own_row(first_remembered + (window >> 2)); }
 
-void push_window(uvec4 row0, uvec4 row1, uint remembered) {
-    if (lane.windows >= P.window_capacity) {
+#include "bands.glsl"
+
+void push_window(float distance, uvec4 row0, uvec4 row1, uint remembered) {
+    uint place = place_to_wait();
+    if (place >= P.window_capacity) {
         overflow |= kOverflowWindows;
         return;
     }
-    uint at = window_at(lane.windows);
+    uint at = window_at(place);
     pool[own_row(at)] = row0;
     pool[own_row(at + 1u)] = row1;
-    pool[remembered_row(lane.windows)][lane.windows & 3u] = remembered;
-    ++lane.windows;
+    pool[remembered_row(place)][place & 3u] = remembered;
     ++lane.pushed;
-    lane.most_waiting = max(lane.most_waiting, lane.windows);
+    if (trims()) {
+        band_window(distance, place);
+    } else {
+        lane.most_waiting = max(lane.most_waiting, lane.windows);
+    }
 }
 
 // Distances are positive, so their words compare as they do.
@@ -35,6 +42,10 @@ bool is_nearer(uvec4 a, uvec4 b) { return a.y < b.y || (a.y == b.y && a.x < b.x)
 
 // In the heap the events below event i are 2 i + 1 and 2 i + 2.
 void push_event(uvec4 row) {
+    if (trims()) {
+        band_event(row);
+        return;
+    }
     if (lane.event_tail - lane.event_head >= P.window_capacity) {
         overflow |= kOverflowWindows;
         return;

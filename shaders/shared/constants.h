@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 11u;
+GEODISK_CONST uint kAbi = 12u;
 
 // State of a candidate: the two low bits of its state word.
 GEODISK_CONST uint kIdle = 0u;
@@ -45,14 +45,19 @@ GEODISK_CONST uint kSingleCell = 3u;
 GEODISK_CONST uint kOverflowWindows = 1u;
 GEODISK_CONST uint kOverflowVertices = 2u;
 GEODISK_CONST uint kOverflowConflicts = 4u;
-// Not an overflow but an error: a window has crossed kLongestChain edges, which no disk needs.
-GEODISK_CONST uint kOverflowChain = 8u;
+// Not an overflow but an error: a disk does not end. A window has crossed kLongestChain edges, or the disk
+// has pushed kMostWindows and kMostPerVertex for each vertex, of up to kUntrimmedVertices, though it trims.
+GEODISK_CONST uint kOverflowEndless = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
+GEODISK_CONST uint kMostWindows = 262144u;
+GEODISK_CONST uint kMostPerVertex = 4096u;
 
 // Push::path_rules. No edge has three faces, see split_once() in lib/propagate.glsl.
 GEODISK_CONST uint kRuleSplitsOnce = 1u;
 // Within a face no way is shorter than the straight one, see turns_back() there.
 GEODISK_CONST uint kRuleStraightFaces = 2u;
+// Nor this: a disk makes so many windows that they are to be trimmed, by kernels that can.
+GEODISK_CONST uint kOverflowTrims = 64u;
 // Nor this: the samples' buffer is too small, the set itself is complete.
 GEODISK_CONST uint kOverflowSamples = 16u;
 
@@ -132,9 +137,9 @@ GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
 GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
 GEODISK_CONST uint kRowsPerTrip = 3u;      // of cells
 GEODISK_CONST uint kScanPerRow = 12u;      // candidates
-// Together: an event taken and two vertices reached, two children left and pushed.
+// Together: an event taken and two vertices reached, two children left and pushed, kept windows.
 GEODISK_CONST uint kIterationsPerTrip =
-    1u + kCornersPerTrip + 3u * kMostProbes + 6u + kRowsPerTrip * (1u + kScanPerRow);
+    1u + kCornersPerTrip + 3u * kMostProbes + 6u + 2u + kRowsPerTrip * (1u + kScanPerRow);
 // A step: once every few trips a lane that is done takes its next slot.
 GEODISK_CONST uint kTripsPerStep = 16u;
 GEODISK_CONST uint kClearPerStep = 64u;    // rows of the vertex table
@@ -167,15 +172,33 @@ GEODISK_CONST uint kIterationsPerGridTrip =
 // Candidates that cause 1, 2, ... calls of the paper's CheckStatus, the last for that many and more.
 GEODISK_CONST uint kCallBins = 10u;
 
-// Rows of a face but its lengths, and of its radii, of a lane record and of a window.
+// A disk of v vertices begins again, trimming, once it has pushed kUntrimmedWindows + v (kUntrimmedEach +
+// 2^-kUntrimmedShift v) windows and events, for v up to kUntrimmedVertices. Disks of real meshes mostly
+// make some v sqrt(v).
+GEODISK_CONST uint kUntrimmedWindows = 1024u;
+GEODISK_CONST uint kUntrimmedEach = 32u;
+GEODISK_CONST uint kUntrimmedShift = 5u;
+GEODISK_CONST uint kUntrimmedVertices = 65536u;
+// Edges whose windows it keeps to compare others with, a power of two.
+GEODISK_CONST uint kKeptEdges = 2048u;
+GEODISK_CONST uint kKeptPerEdge = 2u; // the widest and the last
+// Where it trims, windows and events wait in bands by distance, so many to the minimum distance.
+GEODISK_CONST uint kBandsPerDistance = 60u;
+GEODISK_CONST uint kBands = 64u;
+GEODISK_CONST uint kBandRows = 16u; // four bands to a row
+GEODISK_CONST uint kWindowWaits = 0xffffffffu; // instead of an event's vertex
+GEODISK_CONST uint kNothingWaits = 0xffffffffu;
+
+// Rows of a face but its lengths, and of its radii, of a lane record, of a window and of one kept.
 GEODISK_CONST uint kFaceRows = 3u;
 GEODISK_CONST uint kSpaceRows = 6u; // of a face, where distances go through space
 GEODISK_CONST uint kRadiiRows = 2u;
 GEODISK_CONST uint kAxisRows = 2u;
 GEODISK_CONST uint kPlacedRows = 3u; // of a sample where the caller draws it
 GEODISK_CONST uint kPartWords = 8u;  // of a surface among several
-GEODISK_CONST uint kLaneRows = 9u;
+GEODISK_CONST uint kLaneRows = 10u;
 GEODISK_CONST uint kWindowRows = 2u;
+GEODISK_CONST uint kKeptRows = 2u;
 
 // Specialization constants.
 GEODISK_CONST uint kSpecLocalSize = 0u;
@@ -188,6 +211,7 @@ GEODISK_CONST uint kSpecCurved = 6u;
 GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
 GEODISK_CONST uint kSpecEventHeap = 8u; // vertex events wait in a heap, else in a ring
 GEODISK_CONST uint kSpecSeveral = 9u; // surfaces, each with a seed, a density and stages of its own
+GEODISK_CONST uint kSpecTrims = 10u;  // disks that make very many windows trim them
 
 // Candidates that a work group of the kernels per candidate draws or looks at: so many lanes, so
 // many each, side by side.

@@ -160,8 +160,8 @@ TEST_SUITE("advance") {
         bad.abi = gpu::kAbi + 1;
         check(bad, Status::internal, "control record");
         bad = good;
-        bad.overflow = gpu::kOverflowChain;
-        check(bad, Status::internal, "65536 edges");
+        bad.overflow = gpu::kOverflowEndless;
+        check(bad, Status::internal, "does not end");
         bad.overflow = gpu::kOverflowCandidates;
         check(bad, Status::internal, "candidates");
         bad.overflow = gpu::kOverflowSamples;

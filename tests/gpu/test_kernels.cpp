@@ -352,6 +352,7 @@ void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& 
                   std::uint32_t slots, const std::vector<Part>& parts = {},
                   const RadiusField* radii = nullptr) {
     RunPlan plan = roomy_plan(slots);
+    plan.trims = options.events == Events::oldest; // The kernels for it here, the others there.
     if (radii != nullptr) {
         plan.list_capacity = 65536; // A large disk meets many small ones.
     }
@@ -406,6 +407,25 @@ TEST_SUITE("kernels") {
     TEST_CASE("step by step with disks so large that every vertex is near") {
         step_through(prepared(builtin("icosphere", 3)), 1e-4, on_cpu(), 16);
         step_through(prepared(builtin("terrain", 16)), 1e-4, on_cpu(), 64);
+    }
+
+    TEST_CASE("step by step with disks that begin again and trim their windows") {
+        RunPlan plan = roomy_plan(32);
+        plan.trims = true;
+        plan.window_capacity = 16384;
+        plan.list_capacity = 16384; // A candidate is listed for every path found.
+        struct Case {
+            TestMesh mesh;
+            double count;
+        };
+        for (const Case& c : {Case{builtin("tube", 6), 2}, Case{builtin("cone", 8), 5},
+                              Case{builtin("spike", 6), 10}, Case{tetrahedra(6, 0.15), 300},
+                              Case{tetrahedra(4, 0), 100}}) {
+            const PreparedMesh mesh = prepared(c.mesh);
+            for (const SamplerOptions& options : {on_cpu(), kOnGpu, on_native_gpu()}) {
+                step_through(mesh, params_for(mesh, c.count), options, plan);
+            }
+        }
     }
 
     TEST_CASE("step by step through stages, each begun by the samples before it") {

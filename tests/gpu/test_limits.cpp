@@ -120,6 +120,19 @@ TEST_SUITE("limits") {
         CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
+    TEST_CASE("a disk that does not end is an error") {
+        const PreparedMesh mesh = prepared(needle_sheets());
+        SampleParams params;
+        params.min_distance = 3 * mesh.statistics().diagonal;
+        Context& context = shared_context();
+        Runner runner = expect(Runner::create(context.device(), context.queue()));
+        const auto set = runner.sample_and_wait(mesh, params);
+        REQUIRE_FALSE(set);
+        CHECK(set.error().status == Status::internal);
+        CHECK(set.error().message.find("does not end") != std::string::npos);
+        CHECK(runner.sample_and_wait(prepared(builtin("cube", 1)), params_for(mesh, 3)));
+    }
+
     TEST_CASE("an overflow decides nothing until slices are larger") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 4));
         const SampleParams params = params_for(mesh, 100);

@@ -17,10 +17,8 @@ namespace geodisk::test {
 namespace {
 
 /// The run returns what the float twin returns, and the truth differs by replayed ties at most.
-void check_against_reference(const PreparedMesh& mesh, double count, std::uint64_t seed = 1,
-                             const RadiusField* radii = nullptr) {
-    const SampleParams params = params_for(mesh, count, seed, radii);
-    const SampleSet set = sample(mesh, params);
+SampleSet check_against_reference(const PreparedMesh& mesh, const SampleParams& params) {
+    SampleSet set = sample(mesh, params);
     const double bound = set.report.plan.error_bound;
     CHECK(ErrorModel(mesh, params).error_of(set.report.longest_chain) <= bound);
     CHECK(points_of(set) == float_set(mesh, params, bound));
@@ -30,6 +28,12 @@ void check_against_reference(const PreparedMesh& mesh, double count, std::uint64
         CHECK(report.ties > 0);
         CHECK(report.accepted == set.samples.size());
     }
+    return set;
+}
+
+void check_against_reference(const PreparedMesh& mesh, double count, std::uint64_t seed = 1,
+                             const RadiusField* radii = nullptr) {
+    check_against_reference(mesh, params_for(mesh, count, seed, radii));
 }
 
 } // namespace
@@ -41,7 +45,8 @@ TEST_SUITE("pipeline") {
             {"plate", 8},         {"folded-sheet", 16}, {"unfolded-sheet", 16},
             {"terrain", 48},      {"lattice", 1},       {"swiss-roll", 24},
             {"crossed-sheet", 8}, {"moebius", 8},       {"clifford-torus", 24},
-            {"klein-bottle", 20}, {"veronese", 4}};
+            {"klein-bottle", 20}, {"veronese", 4},      {"tube", 6},
+            {"cone", 8},          {"spike", 6}};
         for (const auto& [name, resolution] : shapes) {
             CAPTURE(name);
             const PreparedMesh mesh = prepared(builtin(name, resolution));
@@ -66,6 +71,39 @@ TEST_SUITE("pipeline") {
                 CAPTURE(count);
                 check_against_reference(mesh, count, 1, &wavy);
                 check_against_reference(mesh, count, 2, &rough);
+            }
+        }
+    }
+
+    TEST_CASE("disks that make very many windows are trimmed, whatever the tuning") {
+        struct Case {
+            TestMesh mesh;
+            double min_distance;
+        };
+        for (const Case& c : {Case{builtin("tube", 6), 1}, Case{tetrahedra(3, 0.15), 1.7}}) {
+            CAPTURE(c.mesh.face_count());
+            const PreparedMesh mesh = prepared(c.mesh);
+            const RadiusField rough = radius_field(mesh, rough_factors(c.mesh, 0.7));
+            for (const RadiusField* radii : {static_cast<const RadiusField*>(nullptr), &rough}) {
+                SampleParams params;
+                params.min_distance = c.min_distance;
+                params.radii = radii;
+                const SampleSet base = check_against_reference(mesh, params);
+                CHECK(base.report.plan.trims);
+                RunnerOptions few;
+                few.plan.slots = 8;
+                few.plan.lanes = 2;
+                few.plan.step_budget = 7;
+                RunnerOptions from_the_start;
+                from_the_start.plan.trims = true;
+                from_the_start.plan.slots = 500;
+                from_the_start.plan.window_capacity = 2;
+                from_the_start.sampler.tuning.pool_block = 4;
+                from_the_start.sampler.tuning.reads = Reads::storage;
+                from_the_start.sampler.rounding = Rounding::emulated;
+                for (const RunnerOptions& options : {few, from_the_start}) {
+                    CHECK(points_of(sample(mesh, params, options)) == points_of(base));
+                }
             }
         }
     }

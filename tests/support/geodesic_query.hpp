@@ -31,6 +31,9 @@ class GeodesicQuery {
     /// Per target the length of the shortest path found, or kUnreachable.
     std::vector<double> from(const Point& source);
 
+    /// Trims windows from the start of all disks.
+    void trim_all() { detector_.trim_all(); }
+
     /// What the last call took.
     const ref::DiskCount& count() const { return count_; }
 

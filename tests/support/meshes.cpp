@@ -1,10 +1,12 @@
 #include "support/meshes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -254,6 +256,49 @@ TestMesh prism_tube(std::uint32_t sides, double side, double height, std::uint32
         }
     }
     return mesh;
+}
+
+TestMesh tetrahedra(std::uint32_t parts, double shift) {
+    TestMesh mesh;
+    std::mt19937_64 random(1);
+    const auto moved = [&](std::uint32_t i) { return i + shift * (2 * uniform(random) - 1); };
+    const std::uint32_t side = parts + 1;
+    for (std::uint32_t v = 0; v < side * side * side; ++v) {
+        const double x = moved(v / (side * side));
+        const double y = moved(v / side % side);
+        mesh.add_vertex({x, y, moved(v % side)});
+    }
+    const std::uint32_t steps[] = {side * side, side, 1};
+    std::set<std::array<std::uint32_t, 3>> faces;
+    for (std::uint32_t cell = 0; cell < parts * parts * parts; ++cell) {
+        const std::uint32_t corner =
+            cell / (parts * parts) * steps[0] + cell / parts % parts * steps[1] + cell % parts;
+        std::array<int, 3> order{0, 1, 2};
+        do {
+            std::array<std::uint32_t, 4> path{corner};
+            for (std::size_t k = 0; k < 3; ++k) {
+                path[k + 1] = path[k] + steps[order[k]];
+            }
+            for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+                std::array<std::uint32_t, 3> face{};
+                std::copy_if(path.begin(), path.end(), face.begin(),
+                             [&](std::uint32_t v) { return v != path[left_out]; });
+                faces.insert(face); // Ascending, as paths are.
+            }
+        } while (std::next_permutation(order.begin(), order.end()));
+    }
+    for (const auto& [a, b, c] : faces) {
+        mesh.add_triangle(a, b, c);
+    }
+    return mesh;
+}
+
+TestMesh needle_sheets() {
+    constexpr double kAside = 3.00001;
+    return {{kAside, kAside, kAside,  kAside, 3, 3,       3, 3, kAside, kAside, 2,
+             1,      1,      2.00001, 6,      1, 6.00001, 8, 4, 4,      6.00001},
+            {6, 1, 6, 4, 0, 2, 0, 5, 2, 0, 3, 2, 3, 1, 2, 2, 1, 3,
+             3, 2, 3, 3, 2, 5, 0, 2, 5, 2, 0, 3, 0, 1, 2, 2, 0, 3}};
 }
 
 TestMesh moebius_double_cover(int resolution) {

@@ -82,6 +82,15 @@ TestMesh two_sided_square();
 /// Side walls of a regular prism with `sides` faces of width `side`, open at both ends.
 TestMesh prism_tube(std::uint32_t sides, double side, double height, std::uint32_t rows);
 
+/// All faces of a cube of parts^3 unit cells, each cut into six tetrahedra around the same diagonal
+/// (Kuhn): inner edges have four or six faces. Every vertex is moved at random, by up to `shift`
+/// along each axis.
+TestMesh tetrahedra(std::uint32_t parts, double shift);
+
+/// Sheets of needles upon each other, found by a fuzzer: windows that wind around their tips are
+/// narrower than rounding and hardly ever cover one another.
+TestMesh needle_sheets();
+
 /// The orientable double cover of builtin:moebius: face f of the strip lies under faces f and
 /// f + face_count of the cover, the latter with its second and third corner exchanged.
 TestMesh moebius_double_cover(int resolution);

@@ -168,8 +168,11 @@ struct RunPlan {
     std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
     std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
                                        ///< at most 2^23.
-    std::uint32_t dispatch_items = 0;  ///< Faces, candidates, samples or words that a dispatch goes
-                                       ///< through at most, but at least one work group of them.
+    bool trims = false; ///< Disks that make very many windows trim them: by kernels of
+                        ///< their own, compiled when a job first needs them, and with
+                        ///< 129 KiB more for each lane.
+    std::uint32_t dispatch_items = 0; ///< Faces, candidates, samples or words that a dispatch goes
+                                      ///< through at most, but at least one work group of them.
     /// Of what rounding does to a distance, in minimum distances, at most 1/2. The guard is that,
     /// of surfaces rounded up to a power of two (host/docs/precision.md).
     double error_bound = 0;

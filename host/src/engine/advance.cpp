@@ -37,10 +37,12 @@ Result<Done> check_overflow(const gpu::ControlRec& control, const gpu::Push& pus
                                            " candidates, and there is room for " +
                                            std::to_string(push.capacity)};
     }
-    if ((control.overflow & gpu::kOverflowChain) != 0) {
-        return Error{Status::internal, "a window crossed more than " +
-                                           std::to_string(gpu::kLongestChain) +
-                                           " edges; the mesh defeats single precision"};
+    if ((control.overflow & gpu::kOverflowEndless) != 0) {
+        return Error{
+            Status::internal,
+            "the geodesic disk of a candidate does not end: triangles that lie upon each other, "
+            "narrower than rounding, defeat single precision; join vertices that are nearly in "
+            "one place"};
     }
     return Done{};
 }

@@ -172,6 +172,17 @@ Job::Impl::~Impl() {
     }
 }
 
+Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_plan) {
+    wanted.trims = for_plan.trims && wanted.domain == DomainKind::surface;
+    const auto pipelines = sampler->pipelines.of(wanted);
+    if (!pipelines) {
+        return pipelines.error();
+    }
+    own_pipelines = *pipelines;
+    variant = wanted;
+    return Done{};
+}
+
 void Job::Impl::apply_plan(const RunPlan& new_plan) {
     plan = new_plan;
     push.slots = plan.slots;
@@ -193,6 +204,9 @@ Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
             !checked) {
             return checked;
         }
+        if (auto chosen = impl_->choose_kernels(impl_->variant, plan); !chosen) {
+            return chosen;
+        }
         impl_->apply_plan(plan);
         return Done{};
     });
@@ -207,6 +221,9 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
         }
         if (auto checked = check_plan(plan, *impl_, pool.size); !checked) {
             return checked;
+        }
+        if (auto chosen = impl_->choose_kernels(impl_->variant, plan); !chosen) {
+            return chosen;
         }
         if (auto replaced = impl_->replace_buffer(gpu::kBindPool, pool); !replaced) {
             return replaced;
@@ -318,15 +335,11 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     if (auto checked = check_workspace(ranges, *needs, of, sampler->report.limits); !checked) {
         return checked;
     }
-    const KernelVariant variant = sampler->variant_for(of_domain);
-    const auto pipelines = sampler->pipelines.of(variant);
-    if (!pipelines) {
-        return pipelines.error();
+    if (auto chosen = choose_kernels(sampler->variant_for(of_domain), new_plan); !chosen) {
+        return chosen;
     }
     const bool has_sets = sets_for == variant.domain;
     const bool had_single = push.all_single != 0;
-    own_pipelines = *pipelines;
-    domain = variant.domain;
     most_slots = new_plan.slots;
     most_lanes = new_plan.lanes;
     most_steps = of.most_steps(sampler->report, variant);

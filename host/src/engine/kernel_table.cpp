@@ -193,6 +193,9 @@ std::vector<KernelVariant> all_kernel_variants() {
             variant.adaptive = adaptive;
             variant.event_heap = event_heap;
         }
+        KernelVariant& trimming = variants.emplace_back();
+        trimming.adaptive = adaptive;
+        trimming.trims = true;
         KernelVariant& several = variants.emplace_back();
         several.adaptive = adaptive;
         several.several = true;

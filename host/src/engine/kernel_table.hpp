@@ -63,6 +63,7 @@ struct KernelVariant {
     bool adaptive = false;       ///< Radii that vary over a surface.
     bool several = false;        ///< Surfaces with seeds and stages of their own.
     bool event_heap = false;     ///< Vertex events of a disk wait in a heap, else in a ring.
+    bool trims = false;          ///< Disks that make very many windows trim them.
 
     friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;
 };

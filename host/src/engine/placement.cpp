@@ -134,7 +134,7 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
     return guarded([&]() -> Result<Placement> {
         const Domain::Impl& of = Domain::Impl::of(domain);
         const Job::Impl& own = Job::Impl::of(job);
-        if (of.kernels.domain != DomainKind::surface || own.domain != DomainKind::surface ||
+        if (of.kernels.domain != DomainKind::surface || own.variant.domain != DomainKind::surface ||
             of.units != own.push.faces) {
             return invalid("only samples of a surface by geodesic distance can be placed, by the "
                            "job's own domain");

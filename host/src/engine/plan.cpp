@@ -203,13 +203,15 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.stages, wanted.stages);
     replace(plan.idle_capacity, wanted.idle_capacity);
     replace(plan.dispatch_items, wanted.dispatch_items);
+    plan.trims = plan.trims || wanted.trims;
     plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
 }
 
 std::uint32_t RunPlan::lane_rows() const noexcept {
     return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + (window_capacity + 3) / 4 +
-           table_capacity;
+           table_capacity +
+           (trims ? gpu::kKeptRows * gpu::kKeptPerEdge * gpu::kKeptEdges + gpu::kBandRows : 0);
 }
 
 std::uint64_t RunPlan::first_list_row() const noexcept {
@@ -265,6 +267,7 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
     grow(gpu::kOverflowWindows, grown.window_capacity);
     grow(gpu::kOverflowVertices, grown.table_capacity);
     grow(gpu::kOverflowConflicts, grown.list_capacity);
+    grown.trims = plan.trims || (overflow & gpu::kOverflowTrims) != 0;
     pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
     fit(grown, pool_bytes);
     const bool same =

@@ -232,7 +232,7 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     }
     Recorder recorder(commands, job, job.begun, budget);
     const gpu::Push& push = job.push;
-    const DomainKernels own = kernels_of(job.domain);
+    const DomainKernels own = kernels_of(job.variant.domain);
     const bool has_cells = push.all_single == 0;
     recorder.stage(Stage::count);
     recorder.change_control([&] {
@@ -306,7 +306,7 @@ void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
                             std::uint32_t rounds) const noexcept {
     record_rest(commands, *job.impl_);
     Recorder recorder(commands, *job.impl_);
-    const DomainKernels own = kernels_of(job.impl_->domain);
+    const DomainKernels own = kernels_of(job.impl_->variant.domain);
     for (std::uint32_t round = 0; round < rounds; ++round) {
         recorder.stage(Stage::select);
         recorder.dispatch_indirect(own.select, offsetof(gpu::ControlRec, select_x));

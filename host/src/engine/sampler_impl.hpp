@@ -73,7 +73,7 @@ struct Job::Impl {
     /// Of the workspace's buffers that some kernel reads as texels.
     std::array<VkBufferView, kBufferRoles> views{};
     const KernelPipelines* own_pipelines = nullptr; ///< Besides those that all jobs have.
-    DomainKind domain = DomainKind::surface;
+    KernelVariant variant;
     std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
     std::uint32_t most_lanes = 0; ///< Of the first plan.
     // As Domain::Impl has them.
@@ -92,7 +92,7 @@ struct Job::Impl {
     std::uint64_t dispatches = 0; ///< Recorded, empty ones included.
 
     bool has(std::size_t kernel) const {
-        return kernel_info(static_cast<Kernel>(kernel)).serves(domain);
+        return kernel_info(static_cast<Kernel>(kernel)).serves(variant.domain);
     }
     VkPipeline pipeline(std::size_t kernel) const {
         const VkPipeline own = (*own_pipelines)[kernel];
@@ -121,6 +121,8 @@ struct Job::Impl {
     /// Binds a buffer wherever kernels use it.
     void write_buffer(std::size_t buffer) const;
     Result<Done> replace_buffer(std::size_t buffer, const BufferRange& range);
+    /// Compiles those that it lacks.
+    Result<Done> choose_kernels(KernelVariant wanted, const RunPlan& for_plan);
     void apply_plan(const RunPlan& new_plan);
     /// Counts the candidates of lower order into ControlRec::below; none may be active.
     void record_count(VkCommandBuffer commands, std::uint32_t end_order);

@@ -1,0 +1,100 @@
+// Twin of shaders/lib/trim.glsl: windows trimmed against each other (Mitchell, Mount and Papadimitriou
+// 1987), in disks that make very many.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "constants.h"
+#include "lib/scalar.hpp"
+
+namespace geodisk::ref {
+
+/// Of the windows of a disk that came to edges, the widest and the last for each edge; of some edges,
+/// since there is room for kKeptEdges.
+template <class Real>
+class KeptWindows {
+  public:
+    /// A window in the frame of the edge, from one of its ends on; the source at y from its line.
+    struct Window {
+        Real x, y, b0, b1, sigma;
+    };
+
+    /// Keeps nothing of the disks before.
+    void begin_disk() { ++generation_; }
+
+    /// Whether a window that comes to the edge from vertex `start` to vertex `end` is to go: where another
+    /// one is not farther by more than rounding, all along what it lights before its paths are `limit`
+    /// long. Else it may be kept from now on.
+    bool trims(std::uint32_t start, std::uint32_t end, Real length, Window window, Real limit) {
+        if (start > end) {
+            std::swap(start, end);
+            window = {length - window.x, window.y, length - window.b1, length - window.b0,
+                      window.sigma};
+        }
+        edges_.resize(gpu::kKeptEdges);
+        const std::uint32_t mixed = (start * 2654435769u + end) * 2654435769u;
+        std::array<Row, gpu::kKeptPerEdge>& kept = edges_[(mixed >> 7) & (gpu::kKeptEdges - 1)];
+        const auto is_of_edge = [&](const Row& row) {
+            return row.start == start && row.end == end && row.generation == generation_;
+        };
+        for (const Row& row : kept) {
+            if (is_of_edge(row) && dominates(row.window, window, limit)) {
+                return true;
+            }
+        }
+        auto& [widest, last] = kept;
+        last = {start, end, generation_, window};
+        if (!is_of_edge(widest) || window.b1 - window.b0 >= widest.window.b1 - widest.window.b0) {
+            widest = last;
+        }
+        return false;
+    }
+
+  private:
+    struct Row {
+        std::uint32_t start, end;
+        std::uint32_t generation = 0;
+        Window window;
+    };
+    static constexpr Real kError = std::numeric_limits<Real>::epsilon();
+
+    static Real square(Real v) { return v * v; }
+
+    /// Whether the kept window is hardly farther from the point `at` of the edge.
+    static bool is_as_near(const Window& kept, const Window& other, Real at) {
+        const Real distance = other.sigma + root(square(at - other.x) + square(other.y));
+        const Real rest = (distance - kept.sigma) + kError;
+        return rest >= 0 && square(at - kept.x) + square(kept.y) <= rest * rest;
+    }
+
+    /// The difference of the two is largest at an end, or where both sources lie on one line with the
+    /// point.
+    static bool dominates(const Window& kept, const Window& other, Real limit) {
+        const Real way = limit - other.sigma;
+        const Real low = std::max(other.b0, other.x - way);
+        const Real high = std::min(other.b1, other.x + way);
+        const Real turn = other.x * kept.y - kept.x * other.y;
+        const Real rise = kept.y - other.y;
+        const Real over = rise < 0 ? -turn : turn;
+        const Real under = std::abs(rise);
+        const Real width = high - low;
+        const Real across = width * under;
+        const Real part = across > static_cast<Real>(kSmallestSquare)
+                              ? ratio(over - low * under, across)
+                              : Real{0};
+        return kept.b0 - kError <= low && kept.b1 + kError >= high &&
+               is_as_near(kept, other, low) && is_as_near(kept, other, high) &&
+               is_as_near(kept, other, low + width * part);
+    }
+
+    std::vector<std::array<Row, gpu::kKeptPerEdge>> edges_; ///< Empty until a disk trims.
+    std::uint32_t generation_ = 0;
+};
+
+} // namespace geodisk::ref
