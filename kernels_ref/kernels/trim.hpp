@@ -1,5 +1,5 @@
-// Twin of shaders/lib/trim.glsl: windows trimmed against each other (Mitchell, Mount and Papadimitriou
-// 1987), in disks that make very many.
+// Twin of shaders/lib/trim.glsl: windows trimmed against each other (Mitchell, Mount and
+// Papadimitriou 1987), in disks that make very many.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace geodisk::ref {
 
-/// Of the windows of a disk that came to edges, the widest and the last for each edge; of some edges,
-/// since there is room for kKeptEdges.
+/// Of the windows of a disk that came to edges, the widest and the last for each edge; of some
+/// edges, since there is room for kKeptEdges.
 template <class Real>
 class KeptWindows {
   public:
@@ -28,9 +28,9 @@ class KeptWindows {
     /// Keeps nothing of the disks before.
     void begin_disk() { ++generation_; }
 
-    /// Whether a window that comes to the edge from vertex `start` to vertex `end` is to go: where another
-    /// one is not farther by more than rounding, all along what it lights before its paths are `limit`
-    /// long. Else it may be kept from now on.
+    /// Whether a window that comes to the edge from vertex `start` to vertex `end` is to go: where
+    /// another one is not farther by more than rounding, all along what it lights before its paths
+    /// are `limit` long. Else it may be kept from now on.
     bool trims(std::uint32_t start, std::uint32_t end, Real length, Window window, Real limit) {
         if (start > end) {
             std::swap(start, end);
@@ -73,8 +73,8 @@ class KeptWindows {
         return rest >= 0 && square(at - kept.x) + square(kept.y) <= rest * rest;
     }
 
-    /// The difference of the two is largest at an end, or where both sources lie on one line with the
-    /// point.
+    /// The difference of the two is largest at an end, or where both sources lie on one line with
+    /// the point.
     static bool dominates(const Window& kept, const Window& other, Real limit) {
         const Real way = limit - other.sigma;
         const Real low = std::max(other.b0, other.x - way);

@@ -121,6 +121,27 @@ TEST_CASE("the report tells of seams whose vertices are doubled") {
     }
 }
 
+TEST_CASE("the report counts parts without a sample, which are too small for a candidate") {
+    const TemporaryFolder folder;
+    folder.write("parts.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 2 1 0\n"
+                              "v 5 0 0\nv 5.05 0 0\nv 5 0.05 0\nv 6 0 0\nv 6.05 0 0\n"
+                              "v 6 0.05 0\nf 1 2 3\nf 4 5 6\nf 7 8 9\nf 10 11 12\nf 7 7 1\n");
+    const auto sample = [&](const char* distance) {
+        return run(folder,
+                   {"sample", "parts.obj", "-o", "a.ply", "-d", distance, "--json", "a.json"});
+    };
+    Outcome outcome = sample("3"); // Beyond every part: one in each that has a candidate.
+    REQUIRE(outcome.status == 0);
+    CHECK(contains(outcome.out, "4 components (2 without a sample)"));
+    Json report = Json::parse(bytes_of(folder / "a.json"));
+    CHECK(report["mesh"]["components"] == 4);
+    CHECK(report["mesh"]["components_without_samples"] == 2);
+    outcome = sample("0.05");
+    REQUIRE(outcome.status == 0);
+    report = Json::parse(bytes_of(folder / "a.json"));
+    CHECK(report["mesh"]["components_without_samples"] == 0);
+}
+
 TEST_CASE("calls are counted where asked for, without effect on the samples") {
     const TemporaryFolder folder;
     const auto sample = [&](const char* output, std::vector<std::string> more) {

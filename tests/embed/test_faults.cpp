@@ -2,8 +2,10 @@
 // that was never made is destroyed, and the next run is as good as any.
 #include <doctest/doctest.h>
 
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <geodisk/context.hpp>
@@ -15,6 +17,7 @@
 #include "gpu/sets.hpp"
 #include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
 #include "vk/result.hpp"
 #include "watched_bench.hpp"
 
@@ -100,6 +103,12 @@ std::uint32_t sweep_prepare(Bench& bench, const char* function, VkResult result)
     }
 }
 
+/// What a run tries anew with less, where that would do.
+bool makes_buffers(std::string_view function) {
+    return function == "vkCreateBuffer" || function == "vkAllocateMemory" ||
+           function == "vkBindBufferMemory";
+}
+
 /// Fails every call that a run makes of `function`; the runner works again after each.
 std::uint32_t sweep_run(Bench& bench, const char* function, VkResult result,
                         const RunnerOptions& options = {}) {
@@ -109,13 +118,13 @@ std::uint32_t sweep_run(Bench& bench, const char* function, VkResult result,
         CAPTURE(number);
         runner.release_memory();
         bench.spy.fail(function, number, result);
-        const Result<SampleSet> set = runner.sample_and_wait(bench.mesh, bench.params);
+        const Result<SampleSet> set = bench.sample(runner);
         if (!bench.spy.end_of_fault()) {
             bench.check_set(set);
             return number;
         }
         if (set) { // With half as much.
-            CHECK(function == std::string("vkAllocateMemory"));
+            CHECK(makes_buffers(function));
             CHECK(result == kNoDeviceMemory);
             bench.check_set(set);
             continue;
@@ -170,6 +179,63 @@ TEST_SUITE("faults") {
         }
     }
 
+    TEST_CASE("nor does one in any other domain") {
+        const TestMesh shape = builtin("torus-knot", 4);
+        const PreparedMesh knot = prepared(shape);
+        const RadiusField radii = radius_field(knot, wavy_factors(shape, 0.5));
+        const SampleParams params = params_for(knot, 30);
+        const SampleParams varying = params_for(knot, 30, 1, &radii);
+        const std::vector<SurfacePart> parts{{&knot, varying}, {&knot, varying, 2}};
+        BoxParams box{{1, 1}, true};
+        box.min_distance = 0.2;
+        const std::vector<std::function<Result<Domain>()>> domains{
+            [&] { return Domain::surfaces(parts); }, [&] { return Domain::box(box); },
+            [&] {
+                return Domain::surface_in_space(shape.view(), knot, params, Metric::euclidean);
+            }};
+        for (const auto& domain : domains) {
+            Bench bench;
+            bench.other = domain;
+            for (const Fallible& fallible : kFallible) {
+                const VkResult result = fallible.results.back();
+                CAPTURE(std::string(fallible.function));
+                sweep_run(bench, fallible.function, result);
+                CHECK(bench.spy.alive() == "");
+                CHECK(bench.spy.strangers() == 0);
+            }
+        }
+    }
+
+    TEST_CASE("nor does one while a disk that trims gets kernels and memory for that") {
+        const PreparedMesh tube = prepared(builtin("tube", 6));
+        SampleParams params;
+        params.min_distance = 1;
+        Bench bench;
+        bench.other = [&] { return Domain::surface(tube, params); };
+        for (const auto& [function, result] :
+             {std::pair{"vkCreateComputePipelines", kNoDeviceMemory},
+              {"vkAllocateMemory", VK_ERROR_TOO_MANY_OBJECTS}}) {
+            CAPTURE(function);
+            bool fired = true;
+            std::uint32_t number = 0;
+            for (; fired; ++number) {
+                CAPTURE(number);
+                Runner runner = bench.prepared_runner();
+                bench.spy.fail(function, number, result);
+                const Result<SampleSet> set = bench.sample(runner);
+                fired = bench.spy.end_of_fault();
+                if (fired) {
+                    REQUIRE_FALSE(set);
+                    check_error(set.error(), function, result);
+                }
+                bench.check_run(runner);
+            }
+            CHECK(number > 1);
+            CHECK(bench.spy.alive() == "");
+            CHECK(bench.spy.strangers() == 0);
+        }
+    }
+
     TEST_CASE("nor does one between chunks") {
         Bench bench;
         for (const char* function :
@@ -211,7 +277,7 @@ TEST_SUITE("faults") {
                 Runner runner = bench.prepared_runner();
                 const std::string own = bench.spy.alive();
                 bench.spy.fail(function, number, VK_ERROR_DEVICE_LOST);
-                const Result<SampleSet> set = runner.sample_and_wait(bench.mesh, bench.params);
+                const Result<SampleSet> set = bench.sample(runner);
                 fired = bench.spy.end_of_fault();
                 if (fired) {
                     REQUIRE_FALSE(set);
@@ -219,7 +285,7 @@ TEST_SUITE("faults") {
                     CHECK(bench.spy.alive() == own);
                     std::uint32_t calls = 0;
                     bench.spy.on_call = [&](std::string_view) { ++calls; };
-                    const auto again = runner.sample_and_wait(bench.mesh, bench.params);
+                    const auto again = bench.sample(runner);
                     bench.spy.on_call = nullptr;
                     REQUIRE_FALSE(again);
                     CHECK(again.error().status == Status::device_lost);
@@ -242,12 +308,12 @@ TEST_SUITE("faults") {
             bench.spy.on_call = [&](std::string_view function) {
                 freed += frees_what_runs(function) ? 1u : 0u;
             };
-            const auto set = runner.sample_and_wait(bench.mesh, bench.params);
+            const auto set = bench.sample(runner);
             REQUIRE_FALSE(set);
             check_given_up(set.error());
             const std::uint32_t submitted = bench.spy.calls("vkQueueSubmit");
             const std::uint32_t reset = bench.spy.calls("vkResetCommandPool");
-            const auto again = runner.sample_and_wait(bench.mesh, bench.params);
+            const auto again = bench.sample(runner);
             REQUIRE_FALSE(again);
             check_given_up(again.error());
             CHECK(bench.spy.calls("vkQueueSubmit") == submitted);
@@ -292,7 +358,7 @@ TEST_SUITE("faults") {
                 bench.spy.never_signal = enlarged == 3;
                 freed += enlarged == 3 && frees_what_runs(function) ? 1u : 0u;
             };
-            const auto set = runner.sample_and_wait(bench.mesh, bench.params);
+            const auto set = bench.sample(runner);
             REQUIRE_FALSE(set);
             check_given_up(set.error());
             CHECK(enlarged == 3);
@@ -335,7 +401,7 @@ TEST_SUITE("faults") {
         for (const VkDeviceSize left : {1000u, 30'000u, 100'000u}) {
             CAPTURE(left);
             bench.spy.memory_left = left;
-            const auto set = runner.sample_and_wait(bench.mesh, bench.params);
+            const auto set = bench.sample(runner);
             REQUIRE_FALSE(set);
             CHECK(set.error().status == Status::out_of_device_memory);
             CHECK(set.error().message.find("vkAllocateMemory") != std::string::npos);

@@ -1,11 +1,12 @@
-// What the host computes without a device, while memory runs out: an error or the same answer, and
-// no exception ever leaves a function.
+// What the host computes, without a device and with one, while memory runs out: an error or the
+// same answer, and no exception ever leaves a function.
 #include <doctest/doctest.h>
 
 #include <cstdint>
 
 #include <geodisk/context.hpp>
 #include <geodisk/domain.hpp>
+#include <geodisk/runner.hpp>
 #include <geodisk/sampler.hpp>
 
 #include "failing_new.hpp"
@@ -61,6 +62,32 @@ TEST_CASE("memory: functions without a device survive its lack") {
     }
     sweep([&] { return Domain::box(box); });
     sweep([&] { return pool_size(mesh, far); });
+}
+
+TEST_CASE("memory: a run without it is an error, and the runner goes on") {
+    const PreparedMesh mesh = prepared(builtin("icosphere", 2));
+    const SampleParams params = params_for(mesh, 30);
+    BoxParams box{{1, 1}, true};
+    box.min_distance = 0.2;
+    const Domain domains[] = {expect(Domain::surface(mesh, params)), expect(Domain::box(box))};
+    const Context& context = shared_context();
+    RunnerOptions growing; // In chunks, with buffers that grow.
+    growing.plan.stages = 1;
+    growing.plan.slots = kLeastSlots;
+    growing.plan.sample_capacity = kLeastSlots + 1;
+    for (const RunnerOptions& options : {RunnerOptions{}, growing}) {
+        for (const Domain& domain : domains) {
+            Runner runner = expect(Runner::create(context.device(), context.queue(), options));
+            const SampleSet want = expect(runner.sample_and_wait(domain));
+            sweep([&] {
+                runner.release_memory();
+                return runner.sample_and_wait(domain);
+            });
+            const SampleSet set = expect(runner.sample_and_wait(domain));
+            CHECK(points_of(set) == points_of(want));
+            CHECK(set.points == want.points);
+        }
+    }
 }
 
 TEST_CASE("memory: nor do errors need it") {

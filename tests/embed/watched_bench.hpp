@@ -1,6 +1,9 @@
 // A runner's device that is watched.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include <geodisk/context.hpp>
@@ -20,6 +23,8 @@ struct Bench {
     DeviceSpy spy{context.device().get_instance_proc_addr};
     PreparedMesh mesh = prepared(builtin("icosphere", 2));
     SampleParams params = params_for(mesh, 30);
+    /// Of another job, instead of that one.
+    std::function<Result<Domain>()> other;
 
     /// Whether runners read through buffer views; they do wherever they can.
     bool reads_texels() const { return reads_of(context.report()).back() == Reads::texels; }
@@ -31,18 +36,33 @@ struct Bench {
         return Runner::create(refs, context.queue(), options);
     }
 
-    void check_set(const Result<SampleSet>& set) {
-        REQUIRE_MESSAGE(set, (set ? "" : set.error().message));
-        if (wanted_.empty()) {
-            wanted_ = float_set(mesh, params, set->report.plan.error_bound);
-        }
-        CHECK(points_of(*set) == wanted_);
+    Result<Domain> domain() const { return other ? other() : Domain::surface(mesh, params); }
+
+    Result<SampleSet> sample(Runner& runner) const {
+        const Result<Domain> of = domain();
+        return of ? runner.sample_and_wait(*of) : Result<SampleSet>(of.error());
     }
 
-    void check_run(Runner& runner) { check_set(runner.sample_and_wait(mesh, params)); }
+    /// The reference's set; of another job that of a runner that is not watched.
+    void check_set(const Result<SampleSet>& set) {
+        REQUIRE_MESSAGE(set, (set ? "" : set.error().message));
+        if (wanted_.empty() && !other) {
+            wanted_ = float_set(mesh, params, set->report.plan.error_bound);
+        }
+        if (wanted_.empty() && wanted_points_.empty()) {
+            Runner runner = expect(Runner::create(context.device(), context.queue()));
+            const SampleSet first = expect(sample(runner));
+            wanted_ = points_of(first);
+            wanted_points_ = first.points;
+        }
+        CHECK(points_of(*set) == wanted_);
+        CHECK(set->points == wanted_points_);
+    }
+
+    void check_run(Runner& runner) { check_set(sample(runner)); }
 
     Result<Done> prepare(const Runner& runner) const {
-        return runner.sampler().prepare(expect(Domain::surface(mesh, params)));
+        return runner.sampler().prepare(expect(domain()));
     }
 
     /// A runner that has compiled all that the job needs.
@@ -54,6 +74,7 @@ struct Bench {
 
   private:
     Points wanted_;
+    std::vector<double> wanted_points_; ///< Of boxes.
 };
 
 } // namespace geodisk::test

@@ -11,6 +11,9 @@
 namespace geodisk::tools {
 namespace {
 
+/// Beyond what most meshes make; disks of so many are told of, since they take long.
+constexpr std::uint64_t kManyWindows = 10000;
+
 /// As --device and --validate ask.
 Context open_device(const RunOptions& options, ProgressLine& progress) {
     progress.begin_stage("opening the device");
@@ -32,7 +35,12 @@ ProgressCallback show_progress(ProgressLine& progress, double expected) {
         // end.
         const double accepted = std::min(0.99, state.accepted / std::max(1.0, expected));
         const double passed = static_cast<double>(state.decided) / state.candidates;
-        progress.update(std::max(accepted, passed), grouped(state.accepted) + " samples");
+        std::string text = grouped(state.accepted) + " samples";
+        if (const std::uint64_t each = state.windows / std::max(1u, state.disks);
+            each >= kManyWindows) {
+            text += ", " + grouped(each) + " windows in each disk";
+        }
+        progress.update(std::max(accepted, passed), text);
         return !is_interrupted();
     };
 }

@@ -88,6 +88,8 @@ struct Progress {
     std::uint32_t decided; ///< Candidates decided or being worked on, of `candidates`, about.
     std::uint32_t candidates;
     std::uint32_t accepted;
+    std::uint32_t disks;   ///< Complete.
+    std::uint64_t windows; ///< Of those disks; with many for each, disks take long.
 };
 
 struct RunnerOptions {

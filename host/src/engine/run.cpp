@@ -418,7 +418,8 @@ Progress Run::how_far() const {
     const double all = of_.stages.candidates();
     const auto before = static_cast<double>(job().thrown);
     return {static_cast<std::uint32_t>(std::min(before + in_chunk, all)),
-            static_cast<std::uint32_t>(all), control_.accepted};
+            static_cast<std::uint32_t>(all), control_.accepted, control_.disks,
+            wide(control_.windows_low, control_.windows_high)};
 }
 
 Task<Result<Done>> Run::gather_chunk() {

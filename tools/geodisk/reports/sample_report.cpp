@@ -2,19 +2,24 @@
 
 #include <algorithm>
 #include <sstream>
+#include <vector>
 
 #include <geodisk/version.hpp>
 
+#include "geometry/mesh_parts.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
 
-std::string mesh_text(const MeshInput& input) {
+std::string mesh_text(const MeshInput& input, std::uint64_t bare_components) {
     const MeshStatistics& mesh = input.prepared.statistics();
     std::string text = counted(mesh.triangles, "triangle", "triangles") + ", " +
                        counted(mesh.components, "component", "components");
+    if (bare_components > 0) {
+        text += " (" + grouped(bare_components) + " without a sample)";
+    }
     if (mesh.boundary_edges > 0) {
         text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
     }
@@ -32,7 +37,7 @@ std::string mesh_text(const MeshInput& input) {
 }
 
 /// Lifts may be several, so they make a list.
-Json mesh_json(const SampleJob& job, const MeshInput& input) {
+Json mesh_json(const SampleJob& job, const MeshInput& input, std::uint64_t bare_components) {
     const MeshStatistics& mesh = input.prepared.statistics();
     const std::optional<WeldCounts>& weld = input.file.weld;
     const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
@@ -52,6 +57,7 @@ Json mesh_json(const SampleJob& job, const MeshInput& input) {
          {"welded_triangles", weld ? Json(weld->degenerate_faces) : Json(nullptr)},
          {"dropped_triangles", mesh.repeated_index_faces},
          {"components", mesh.components},
+         {"components_without_samples", bare_components},
          {"boundary_edges", mesh.boundary_edges},
          {"coinciding_border_edges", mesh.coinciding_border_edges},
          {"nonmanifold_edges", mesh.nonmanifold_edges},
@@ -71,6 +77,13 @@ SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const Sa
     : job_(job), mesh_(mesh), result_(result), samples_(result.rows.size()),
       rho_(packing_density(effective_area(mesh.prepared, result.params), result.params.min_distance,
                            static_cast<double>(samples_))) {
+    if (mesh.prepared.statistics().components > 1) {
+        std::vector<std::uint32_t> faces;
+        for (const SampleRow& row : result.rows) {
+            faces.push_back(row.face);
+        }
+        bare_components_ = parts_without(mesh.file.triangles, faces);
+    }
     if (has_radii(result.rows)) {
         const auto [least, most] = std::ranges::minmax_element(
             result.rows, {}, [](const auto& row) { return row.radius; });
@@ -101,7 +114,7 @@ std::string SampleReport::json(double write_seconds) const {
     const RunReport& run = result_.done.run;
     const SampleParams& params = result_.params;
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(job_, mesh_)},
+                  {"mesh", mesh_json(job_, mesh_, bare_components_)},
                   {"warnings", warnings_json(mesh_.warnings)},
                   {"output", job_.out.output},
                   {"min_distance", params.min_distance},
@@ -134,7 +147,7 @@ std::string SampleReport::summary(double write_seconds) const {
     for (const auto& [name, value] : job_.additions()) {
         out << "              " << name << ' ' << one_line(value) << '\n';
     }
-    out << "              " << mesh_text(mesh_) << '\n'
+    out << "              " << mesh_text(mesh_, bare_components_) << '\n'
         << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
         << ") in mesh units" << (job_.is_geodesic() ? "" : ", " + metric_text(job_)) << '\n';
     if (most_radius_ > 0) {

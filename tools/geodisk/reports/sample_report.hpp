@@ -40,6 +40,7 @@ class SampleReport {
     const MeshInput& mesh_;
     const SampleResult& result_;
     std::size_t samples_;
+    std::uint64_t bare_components_ = 0; ///< That have no sample.
     double rho_; ///< Where radii vary, of the samples on a surface of the effective area.
     double least_radius_ = 0, most_radius_ = 0; ///< Of the samples, where radii vary; else 0.
 };
