@@ -90,6 +90,28 @@ TEST_CASE("darts: built-in shapes") {
     check_darts("showpiece", builtin("showpiece", 60), 1000);
 }
 
+TEST_CASE("darts: disks that trim their windows, float against double") {
+    struct Case {
+        const char* name;
+        TestMesh mesh;
+        double min_distance;
+    };
+    for (const Case& c : {Case{"tube", builtin("tube", 6), 1},
+                          {"cone", builtin("cone", 8), 1},
+                          {"spike", builtin("spike", 6), 0.4},
+                          {"tetrahedra", tetrahedra(4, 0.15), 1.7},
+                          {"regular tetrahedra", tetrahedra(4, 0), 1.5}}) {
+        INFO(std::string(c.name));
+        const PreparedMesh surface = prepared(c.mesh);
+        SampleParams params;
+        params.min_distance = c.min_distance;
+        const ReplayReport judged = replay(surface, params, first_error(surface, params));
+        CHECK(judged.accepted > 0);
+        CHECK(judged.wrong == 0);
+        check_deviation(c.name, judged);
+    }
+}
+
 TEST_CASE("darts: spot") {
     check_shared("spot_pose_a_6k.obj", 300);
     check_shared("spot_pose_a_6k.obj", 1000);
