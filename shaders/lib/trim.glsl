@@ -13,9 +13,10 @@
 
 bool window_taken; // in this trip
 
+// Edges that share rows do so in whatever place of a job their mesh has its vertices: the sum is linear.
 uint kept_row(uvec2 ends) {
-    uint mixed = (ends.x * 2654435769u + ends.y) * 2654435769u;
-    return first_kept + kKeptRows * kKeptPerEdge * (mixed >> 7 & (kKeptEdges - 1u));
+    uint mixed = ends.x * 2654435769u + ends.y * 2246822519u;
+    return first_kept + kKeptRows * kKeptPerEdge * (mixed & (kKeptEdges - 1u));
 }
 
 // Whether the kept window is at most kTrimError farther from here, on the edge, than the one in flight,

@@ -147,8 +147,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::erase_if(points, [&](const Point& point) { return !takes_part(mesh, point); });
     try {
         check(mesh, *surface, points);
-    } catch (const ref::EndlessDisk&) {
-        return -1; // An error, not a wrong distance.
+    } catch (const ref::EndlessDisk&) { // An error, not a wrong distance.
     }
     return 0;
 }

@@ -86,6 +86,18 @@ TEST_SUITE("several") {
                               {&knot, with_pool(params_for(knot, 50, 5), 60)},
                               {&cube, params_for(cube, 2, 6)}});
         }
+        SUBCASE("whose disks trim their windows") {
+            const PreparedMesh tube = prepared(builtin("tube", 6));
+            const PreparedMesh volume = prepared(tetrahedra(3, 0.15));
+            SampleParams long_way;
+            long_way.min_distance = 1;
+            SampleParams wide;
+            wide.min_distance = 1.7;
+            check_each_alone({{&ball, params_for(ball, 100, 5)},
+                              {&tube, long_way},
+                              {&volume, wide},
+                              {&volume, wide, 2}});
+        }
         SUBCASE("as instances of several sizes") {
             SampleParams params = params_for(ball, 200);
             check_each_alone({{&ball, params, 1}, {&ball, params, 2}, {&ball, params, 0.3}});
