@@ -38,7 +38,7 @@ class KeptWindows {
                       window.sigma};
         }
         edges_.resize(gpu::kKeptEdges);
-        const std::uint32_t mixed = start * 2654435769u + end * 2246822519u;
+        const std::uint32_t mixed = start * 2654435769u + (end - start) * 625341585u;
         std::array<Row, gpu::kKeptPerEdge>& kept = edges_[mixed & (gpu::kKeptEdges - 1)];
         const auto is_of_edge = [&](const Row& row) {
             return row.start == start && row.end == end && row.generation == generation_;

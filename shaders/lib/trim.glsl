@@ -15,7 +15,7 @@ bool window_taken; // in this trip
 
 // Edges that share rows do so in whatever place of a job their mesh has its vertices: the sum is linear.
 uint kept_row(uvec2 ends) {
-    uint mixed = ends.x * 2654435769u + ends.y * 2246822519u;
+    uint mixed = ends.x * 2654435769u + (ends.y - ends.x) * 625341585u;
     return first_kept + kKeptRows * kKeptPerEdge * (mixed & (kKeptEdges - 1u));
 }
 
