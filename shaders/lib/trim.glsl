@@ -4,8 +4,8 @@
 // take their place, which only lets windows live. kernels_ref/kernels/trim.hpp is the same.
 //
 // Whether a disk trims hangs on nothing but the disk, and never on the plan of the run, so that what it
-// computes does not either. Rows of a window, in the frame of the edge from its lower vertex on: (lower vertex, higher
-// vertex, x, |y|), (b0, b1, sigma, generation of the disk).
+// computes does not either. Rows of a window, in the frame of the edge from its lower vertex on: (lower
+// vertex, higher vertex, x, |y|), (b0, b1, sigma, generation of the disk).
 #ifndef GEODISK_TRIM_GLSL
 #define GEODISK_TRIM_GLSL
 
