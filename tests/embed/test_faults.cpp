@@ -142,15 +142,6 @@ bool frees_what_runs(std::string_view function) {
            function.starts_with("vkFree");
 }
 
-/// A run in chunks, whose buffers of samples grow again and again.
-RunnerOptions growing() {
-    RunnerOptions options;
-    options.plan.stages = 1;
-    options.plan.slots = kLeastSlots;
-    options.plan.sample_capacity = kLeastSlots + 1;
-    return options;
-}
-
 void check_given_up(const Error& error) {
     CHECK(error.status == Status::device_lost);
     CHECK(error.message.find("not answered") != std::string::npos);

@@ -14,6 +14,7 @@
 #include "gpu/sets.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
+#include "watched_bench.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -71,11 +72,7 @@ TEST_CASE("memory: a run without it is an error, and the runner goes on") {
     box.min_distance = 0.2;
     const Domain domains[] = {expect(Domain::surface(mesh, params)), expect(Domain::box(box))};
     const Context& context = shared_context();
-    RunnerOptions growing; // In chunks, with buffers that grow.
-    growing.plan.stages = 1;
-    growing.plan.slots = kLeastSlots;
-    growing.plan.sample_capacity = kLeastSlots + 1;
-    for (const RunnerOptions& options : {RunnerOptions{}, growing}) {
+    for (const RunnerOptions& options : {RunnerOptions{}, growing()}) {
         for (const Domain& domain : domains) {
             Runner runner = expect(Runner::create(context.device(), context.queue(), options));
             const SampleSet want = expect(runner.sample_and_wait(domain));

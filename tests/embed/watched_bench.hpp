@@ -17,6 +17,15 @@
 
 namespace geodisk::test {
 
+/// A run in chunks, whose buffers of samples grow again and again.
+inline RunnerOptions growing() {
+    RunnerOptions options;
+    options.plan.stages = 1;
+    options.plan.slots = kLeastSlots;
+    options.plan.sample_capacity = kLeastSlots + 1;
+    return options;
+}
+
 /// A context whose device is watched, and a small job with its answer.
 struct Bench {
     Context context = expect(Context::create());

@@ -1,7 +1,6 @@
 #include "mesh/connectivity.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace geodisk {
@@ -51,9 +50,7 @@ void list_corners(IndexView triangles, std::span<VertexFan> fans,
 }
 
 EdgeLinker::EdgeLinker(std::span<Link> links, std::uint32_t vertex_count)
-    : links_(links), parents_(vertex_count) {
-    std::iota(parents_.begin(), parents_.end(), 0u);
-}
+    : links_(links), components_(vertex_count) {}
 
 void EdgeLinker::link_at(std::uint32_t v, std::span<const std::uint32_t> corners) {
     entries_.clear();
@@ -82,7 +79,7 @@ void EdgeLinker::link_at(std::uint32_t v, std::span<const std::uint32_t> corners
             borders_.push_back(half_edge_of(entries[begin]));
         }
         nonmanifold_edges_ += end - begin > 2;
-        join(v, other);
+        joins_ += components_.join(v, other);
         begin = end;
     }
 }
@@ -93,22 +90,6 @@ void EdgeLinker::link_cycle(std::span<const std::uint64_t> cycle) {
         const std::uint32_t next = half_edge_of(cycle[i + 1 < cycle.size() ? i + 1 : 0]);
         const bool same_way = link.origin == links_[next].origin;
         link.around = next << 1 | (same_way ? 1u : 0u);
-    }
-}
-
-std::uint32_t EdgeLinker::find_root(std::uint32_t v) {
-    while (parents_[v] != v) {
-        parents_[v] = parents_[parents_[v]];
-        v = parents_[v];
-    }
-    return v;
-}
-
-void EdgeLinker::join(std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax({find_root(a), find_root(b)});
-    if (low != high) {
-        parents_[high] = low;
-        ++joins_;
     }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geodisk/mesh.hpp"
+#include "mesh/vertex_sets.hpp"
 
 namespace geodisk {
 
@@ -56,11 +57,9 @@ class EdgeLinker {
 
   private:
     void link_cycle(std::span<const std::uint64_t> cycle);
-    std::uint32_t find_root(std::uint32_t v);
-    void join(std::uint32_t a, std::uint32_t b);
 
     std::span<Link> links_;
-    std::vector<std::uint32_t> parents_; ///< A forest with one tree per component.
+    VertexSets components_;
     std::vector<std::uint32_t> borders_;
     std::vector<std::uint64_t> entries_; ///< Of link_at(), kept for its memory.
     std::uint64_t vertices_ = 0, joins_ = 0, nonmanifold_edges_ = 0;

@@ -3,39 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/position_table.hpp"
+#include "mesh/vertex_sets.hpp"
 #include "support/guard.hpp"
 
 namespace geodisk {
 namespace {
-
-/// Sets of vertices, each known by its lowest one.
-class VertexSets {
-  public:
-    explicit VertexSets(std::size_t count) : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), 0u);
-    }
-    std::uint32_t lowest(std::uint32_t v) {
-        while (parents_[v] != v) {
-            parents_[v] = parents_[parents_[v]];
-            v = parents_[v];
-        }
-        return v;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        const auto [low, high] = std::minmax({lowest(a), lowest(b)});
-        parents_[high] = low;
-    }
-
-  private:
-    std::vector<std::uint32_t> parents_;
-};
 
 using Cell = std::array<std::int64_t, 3>;
 

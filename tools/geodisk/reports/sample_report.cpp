@@ -6,7 +6,7 @@
 
 #include <geodisk/version.hpp>
 
-#include "geometry/mesh_parts.hpp"
+#include "geodisk/reports/mesh_parts.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 

@@ -1,0 +1,38 @@
+// Vertices that belong together: a forest with a tree for each set.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace geodisk {
+
+/// Sets of vertices, each known by its lowest one; at first of one each.
+class VertexSets {
+  public:
+    explicit VertexSets(std::size_t count) : parents_(count) {
+        std::iota(parents_.begin(), parents_.end(), 0u);
+    }
+
+    std::uint32_t lowest(std::uint32_t v) {
+        while (parents_[v] != v) {
+            parents_[v] = parents_[parents_[v]];
+            v = parents_[v];
+        }
+        return v;
+    }
+
+    /// Returns whether they were in two sets.
+    bool join(std::uint32_t a, std::uint32_t b) {
+        const auto [low, high] = std::minmax({lowest(a), lowest(b)});
+        parents_[high] = low;
+        return low != high;
+    }
+
+  private:
+    std::vector<std::uint32_t> parents_;
+};
+
+} // namespace geodisk
