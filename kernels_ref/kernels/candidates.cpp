@@ -127,14 +127,13 @@ void draw_candidates(const Surface<Real>& surface, const SampleParams& params, s
     }
 }
 
-#define GEODISK_CANDIDATES_OF(Real)                                                                \
-    template std::vector<std::uint32_t> count_candidates(                                          \
-        const Surface<Real>&, const PreparedMesh&, const SampleParams&, std::uint32_t);            \
-    template void draw_candidates(const Surface<Real>&, const SampleParams&, std::uint32_t,        \
-                                  std::uint32_t, std::span<FacePoint<Real>>,                       \
-                                  std::span<std::uint32_t>);
-GEODISK_CANDIDATES_OF(float)
-GEODISK_CANDIDATES_OF(double)
-#undef GEODISK_CANDIDATES_OF
-
+template std::vector<std::uint32_t> count_candidates(const Surface<float>&, const PreparedMesh&,
+                                                     const SampleParams&, std::uint32_t);
+template void draw_candidates(const Surface<float>&, const SampleParams&, std::uint32_t,
+                              std::uint32_t, std::span<FacePoint<float>>, std::span<std::uint32_t>);
+template std::vector<std::uint32_t> count_candidates(const Surface<double>&, const PreparedMesh&,
+                                                     const SampleParams&, std::uint32_t);
+template void draw_candidates(const Surface<double>&, const SampleParams&, std::uint32_t,
+                              std::uint32_t, std::span<FacePoint<double>>,
+                              std::span<std::uint32_t>);
 } // namespace geodisk::ref

@@ -22,7 +22,7 @@ Real product3(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
 /// To 2^-23.
 template <class Real>
 Real arcsine(Real x) {
-    constexpr auto real = [](float value) { return static_cast<Real>(value); };
+    const auto real = [](float value) { return static_cast<Real>(value); };
     const Real magnitude = std::abs(x);
     const bool is_wide = magnitude > real(0.5f);
     const Real rest = real(0.5f) * (1 - magnitude);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,12 +32,14 @@ struct DiskCount {
     std::uint32_t tested = 0;       ///< Points whose distance was computed.
 };
 
-/// Triangles that lie upon each other, narrower than rounding, make windows without end.
+/// Triangles that lie upon each other, narrower than rounding, make windows without end, and edges
+/// of many faces more than can be waited for.
 struct EndlessDisk : std::runtime_error {
-    EndlessDisk()
-        : std::runtime_error(
-              "a geodesic disk does not end: triangles that lie upon each other, narrower "
-              "than rounding, defeat double precision") {}
+    explicit EndlessDisk(std::uint32_t face)
+        : std::runtime_error("the geodesic disk of a point on face " + std::to_string(face) +
+                             " does not end in any bearable time: triangles narrower than rounding "
+                             "lie upon each other there, or three and more meet at edges all over "
+                             "it") {}
 };
 
 /// For distances in double precision: only its rounding has to be allowed for.
@@ -82,6 +85,7 @@ class Detector {
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
         count_ = {};
         trims_ = trims_all_;
+        untrimmed_ = 0;
         begin();
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
         spread_from_source(source, wanted, hit);
@@ -90,10 +94,11 @@ class Detector {
         for (;;) {
             if (!trims_ && makes_many()) {
                 trims_ = true;
+                untrimmed_ = count_.windows;
                 begin();
                 spread_from_source(source, wanted, hit);
             } else if (is_endless()) {
-                throw EndlessDisk();
+                throw EndlessDisk(source.face);
             } else if (!trims_ && !windows_.empty()) {
                 const Window window = windows_.back();
                 windows_.pop_back();
@@ -438,7 +443,8 @@ class Detector {
     /// Whether the disk goes on without end though it trims.
     bool is_endless() const {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
-        return trims_ && count_.windows > gpu::kMostWindows + vertices * gpu::kMostPerVertex;
+        const std::uint32_t trimmed = count_.windows - untrimmed_;
+        return trims_ && trimmed > gpu::kMostWindows + vertices * gpu::kMostPerVertex;
     }
 
     /// Whether the window, given in the frame of h, is to go.
@@ -643,7 +649,8 @@ class Detector {
     std::uint32_t generation_ = 0;
     std::vector<Window> windows_; ///< A stack; where they are trimmed, all of the disk.
     bool trims_all_ = false;
-    bool trims_ = false; ///< In this disk.
+    bool trims_ = false;          ///< In this disk.
+    std::uint32_t untrimmed_ = 0; ///< Windows and events pushed before it began to.
     KeptWindows<Real> kept_;
     std::array<std::vector<Event>, gpu::kBands> bands_; ///< Empty between disks.
     std::size_t waiting_ = 0;                           ///< In them.

@@ -192,7 +192,7 @@ void take_event(uvec4 row) {
 void take_next() {
     if (makes_many()) {
         if (kTrims) {
-            lane.trims = 1u;
+            lane.trims = lane.pushed;
             begin_windows();
         } else {
             overflow |= kOverflowTrims;
@@ -349,6 +349,9 @@ void work_on(uint index) {
     }
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
+        if ((overflow & kOverflowEndless) != 0u) {
+            atomicMax(control.endless_face, own_face + 1u);
+        }
     }
     save_lane();
 }

@@ -75,7 +75,7 @@ vec2 lit_from_lower(bool turned, vec2 lit) {
 // other, so that windows through them hardly ever cover one another.
 bool is_endless() {
     uint vertices = min(lane.vertices, kUntrimmedVertices);
-    return trims() && lane.pushed > kMostWindows + vertices * kMostPerVertex;
+    return trims() && lane.pushed - lane.trims > kMostWindows + vertices * kMostPerVertex;
 }
 
 // Whether the window just taken is to go, where the disk trims; else it may be kept from now on.

@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 12u;
+GEODISK_CONST uint kAbi = 13u;
 
 // State of a candidate: the two low bits of its state word.
 GEODISK_CONST uint kIdle = 0u;
@@ -46,7 +46,7 @@ GEODISK_CONST uint kOverflowWindows = 1u;
 GEODISK_CONST uint kOverflowVertices = 2u;
 GEODISK_CONST uint kOverflowConflicts = 4u;
 // Not an overflow but an error: a disk does not end. A window has crossed kLongestChain edges, or the disk
-// has pushed kMostWindows and kMostPerVertex for each vertex, of up to kUntrimmedVertices, though it trims.
+// has, since it trims, pushed kMostWindows and kMostPerVertex for each vertex, of up to kUntrimmedVertices.
 GEODISK_CONST uint kOverflowEndless = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
 GEODISK_CONST uint kMostWindows = 262144u;
@@ -177,7 +177,7 @@ GEODISK_CONST uint kCallBins = 10u;
 // make some v sqrt(v).
 GEODISK_CONST uint kUntrimmedWindows = 1024u;
 GEODISK_CONST uint kUntrimmedEach = 32u;
-GEODISK_CONST uint kUntrimmedShift = 5u;
+GEODISK_CONST uint kUntrimmedShift = 2u;
 GEODISK_CONST uint kUntrimmedVertices = 65536u;
 // Edges whose windows it keeps to compare others with, a power of two.
 GEODISK_CONST uint kKeptEdges = 2048u;

@@ -85,8 +85,8 @@ struct LaneRec {
     uint remembered; // a half-edge of a face that the window came through, see turns_back()
     // The vertex whose fan is walked: the corner its path came in through, or kWholeFan.
     uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
-    // 1 where the disk trims its windows; then the first place that is free again, and a bit for each band
-    // in which something waits, see lib/bands.glsl.
+    // Windows and events pushed before the disk began again to trim them, 0 where it has not; then the
+    // first place that is free again, and a bit for each band in which something waits, see lib/bands.glsl.
     uint trims; uint free_place; uint bands_low; uint bands_high;
 };
 
@@ -121,6 +121,7 @@ struct ControlRec {
     uint undecided;        // slots neither accepted nor rejected
     uint uncounted;        // slots whose calls are not known yet, where these are counted
     uint overflow;         // kOverflow* bits
+    uint endless_face;     // with kOverflowEndless, a face of those whose disk it is, and 1
     uint done;             // 1 once no idle candidate is left, or stop_count accepted
     uint below;            // candidates of lower order than asked for, by count_orders
     uint first_open;       // while samples are put in order: the lowest order not decided
@@ -162,7 +163,7 @@ static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 160 && offsetof(LaneRec, bands_high) == 156);
-static_assert(sizeof(ControlRec) == 284 && offsetof(ControlRec, calls_high) == 280);
+static_assert(sizeof(ControlRec) == 288 && offsetof(ControlRec, calls_high) == 284);
 } // namespace geodisk::gpu
 #endif
 

@@ -161,7 +161,8 @@ TEST_SUITE("advance") {
         check(bad, Status::internal, "control record");
         bad = good;
         bad.overflow = gpu::kOverflowEndless;
-        check(bad, Status::internal, "does not end");
+        bad.endless_face = 8;
+        check(bad, Status::mesh_rejected, "on face 7 does not end");
         bad.overflow = gpu::kOverflowCandidates;
         check(bad, Status::internal, "candidates");
         bad.overflow = gpu::kOverflowSamples;

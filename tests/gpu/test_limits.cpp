@@ -128,9 +128,21 @@ TEST_SUITE("limits") {
         Runner runner = expect(Runner::create(context.device(), context.queue()));
         const auto set = runner.sample_and_wait(mesh, params);
         REQUIRE_FALSE(set);
-        CHECK(set.error().status == Status::internal);
-        CHECK(set.error().message.find("does not end") != std::string::npos);
+        CHECK(set.error().status == Status::mesh_rejected);
+        CHECK(set.error().element < mesh.face_count());
+        const std::string face = "face " + std::to_string(set.error().element) + " ";
+        CHECK(set.error().message.find(face + "does not end") != std::string::npos);
         CHECK(runner.sample_and_wait(prepared(builtin("cube", 1)), params_for(mesh, 3)));
+    }
+
+    TEST_CASE("disks that begin to trim late, among many vertices, end") {
+        const PreparedMesh mesh = prepared(tetrahedra_beyond_sheet(3, 0.15, 40));
+        SampleParams params;
+        params.min_distance = 60;
+        const SampleSet set = sample(mesh, params);
+        CHECK(set.report.plan.trims);
+        CHECK(set.report.most_vertices > 1000);
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
     TEST_CASE("an overflow decides nothing until slices are larger") {

@@ -3,6 +3,7 @@
 // no space holds, where a shortest path may enter a face twice.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -99,6 +100,27 @@ TEST_CASE("across edges where seven sheets meet, with few windows") {
     CHECK(query.count().windows < 5000);
 }
 
+TEST_CASE("disks that begin to trim late, among many vertices, end") {
+    const PreparedMesh surface = prepared(tetrahedra_beyond_sheet(3, 0.15, 40));
+    const double reach = 60;
+    const std::vector<Point> points = random_points(surface, 1, 12);
+    const Tolerances tolerances = first_tolerances(surface, reach);
+    GeodesicQuery<float> query(surface, reach, points, tolerances);
+    GeodesicQuery<double> exact(surface, reach, points, tolerances);
+    std::uint32_t many = 0;
+    for (const Point& source : points) {
+        const auto found = query.from(source);
+        const auto wanted = exact.from(source);
+        many +=
+            query.count().windows > gpu::kMostWindows && query.count().vertices > 1000 ? 1u : 0u;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            CHECK((found[i] == doctest::Approx(wanted[i]).epsilon(tolerances.guard) ||
+                   std::min(found[i], wanted[i]) > reach * (1 - tolerances.guard)));
+        }
+    }
+    CHECK(many > 0);
+}
+
 TEST_CASE("a disk that does not end in double precision is an error, and the next one is as ever") {
     const TestMesh mesh = needle_sheets();
     const PreparedMesh surface = prepared(mesh);
@@ -109,7 +131,9 @@ TEST_CASE("a disk that does not end in double precision is an error, and the nex
     for (const Point& source : points) {
         try {
             query.from(source);
-        } catch (const ref::EndlessDisk&) {
+        } catch (const ref::EndlessDisk& error) {
+            const std::string face = "face " + std::to_string(source.face) + " ";
+            CHECK(std::string(error.what()).find(face) != std::string::npos);
             ++endless;
         }
     }

@@ -293,6 +293,29 @@ TestMesh tetrahedra(std::uint32_t parts, double shift) {
     return mesh;
 }
 
+TestMesh tetrahedra_beyond_sheet(std::uint32_t parts, double shift, std::uint32_t cells) {
+    TestMesh mesh = tetrahedra(parts, shift);
+    std::mt19937_64 random(2);
+    std::vector<std::uint32_t> grid;
+    for (std::uint32_t row = 0; row <= cells; ++row) {
+        for (std::uint32_t column = 0; column <= cells; ++column) {
+            if (row == 0 && column < 2) {
+                grid.push_back(column);
+                continue;
+            }
+            grid.push_back(static_cast<std::uint32_t>(mesh.positions.size() / 3));
+            mesh.add_vertex({shift * (2 * uniform(random) - 1), -1.0 * row, 1.0 * column});
+        }
+    }
+    for (std::uint32_t row = 0; row < cells; ++row) {
+        for (std::uint32_t column = 0; column < cells; ++column) {
+            const std::uint32_t at = row * (cells + 1) + column;
+            add_quad(mesh, grid[at], grid[at + 1], grid[at + cells + 2], grid[at + cells + 1]);
+        }
+    }
+    return mesh;
+}
+
 TestMesh needle_sheets() {
     constexpr double kAside = 3.00001;
     return {{kAside, kAside, kAside,  kAside, 3, 3,       3, 3, kAside, kAside, 2,

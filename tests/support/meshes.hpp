@@ -87,6 +87,10 @@ TestMesh prism_tube(std::uint32_t sides, double side, double height, std::uint32
 /// along each axis.
 TestMesh tetrahedra(std::uint32_t parts, double shift);
 
+/// The same, and of its first edge on a rough sheet of cells^2 squares, so that disks on that meet
+/// the tetrahedra late.
+TestMesh tetrahedra_beyond_sheet(std::uint32_t parts, double shift, std::uint32_t cells);
+
 /// Sheets of needles upon each other, found by a fuzzer: windows that wind around their tips are
 /// narrower than rounding and hardly ever cover one another.
 TestMesh needle_sheets();

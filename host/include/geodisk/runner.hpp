@@ -141,9 +141,9 @@ class GEODISK_API Runner {
     /// binding or the device's memory, or may not be needed, are drawn chunk by chunk.
     ///
     /// Errors: `job_too_large`, `workspace_too_small` and `invalid_argument` as Sampler's
-    /// functions; `out_of_device_memory`, `device_lost`, `cancelled`. After `device_lost` the
-    /// runner refuses all further work; when a submission was given up as hung, what it uses is
-    /// never freed.
+    /// functions; `mesh_rejected` as Job::advance; `out_of_device_memory`, `device_lost`,
+    /// `cancelled`. After `device_lost` the runner refuses all further work; when a submission was
+    /// given up as hung, what it uses is never freed.
     Result<SampleSet> sample_and_wait(const Domain& domain,
                                       const ProgressCallback& progress = {}) noexcept;
     /// The same of Domain::surface(mesh, params), and its errors.

@@ -350,9 +350,10 @@ class GEODISK_API Job {
     /// comes after others. A larger pool is one of at most `pool_bytes`, or 0 for as much as the
     /// workspace has.
     ///
-    /// Errors: `internal` where the mesh defeats single precision, or the device its control
-    /// record; `workspace_too_small` as grow_plan(); `job_too_large` where no binding holds the
-    /// samples.
+    /// Errors: `mesh_rejected` where the mesh defeats single precision, naming the face of a
+    /// candidate (of several surfaces numbered on from one to the next); `internal` where the
+    /// device defeats its control record; `workspace_too_small` as grow_plan(); `job_too_large`
+    /// where no binding holds the samples.
     Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes = 0) noexcept;
     /// Replaces the plan, for rounds recorded from now on. Its slots must not be more than the job
     /// was made with, its stages and error_bound the same, and its pool must fit the workspace's.

@@ -38,11 +38,15 @@ Result<Done> check_overflow(const gpu::ControlRec& control, const gpu::Push& pus
                                            std::to_string(push.capacity)};
     }
     if ((control.overflow & gpu::kOverflowEndless) != 0) {
+        const std::uint32_t face = control.endless_face - 1;
         return Error{
-            Status::internal,
-            "the geodesic disk of a candidate does not end: triangles that lie upon each other, "
-            "narrower than rounding, defeat single precision; join vertices that are nearly in "
-            "one place"};
+            Status::mesh_rejected,
+            "the geodesic disk of a candidate on face " + std::to_string(face) +
+                " does not end in any bearable time: triangles narrower than rounding lie upon "
+                "each "
+                "other there, or three and more meet at edges all over it; join vertices that are "
+                "nearly in one place, or lower the minimum distance",
+            face};
     }
     return Done{};
 }

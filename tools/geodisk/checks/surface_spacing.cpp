@@ -12,6 +12,7 @@
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"
 #include "lib/surface.hpp"
+#include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 
@@ -91,14 +92,18 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
         progress.update(static_cast<double>(source) / static_cast<double>(rows.size()),
                         grouped(source) + " samples");
         detector.set_limit(std::min(cut_of(bins.order[source]), longest) / unit);
-        detector.run(
-            bins.points[source], [&](std::uint32_t place) { return place != source; },
-            [&](std::uint32_t place, double distance) {
-                if (distances[place] == kUnknown) {
-                    near.push_back(place);
-                }
-                distances[place] = std::min(distances[place], distance * unit);
-            });
+        const auto is_other = [&](std::uint32_t place) { return place != source; };
+        const auto hit = [&](std::uint32_t place, double distance) {
+            if (distances[place] == kUnknown) {
+                near.push_back(place);
+            }
+            distances[place] = std::min(distances[place], distance * unit);
+        };
+        try {
+            detector.run(bins.points[source], is_other, hit);
+        } catch (const ref::EndlessDisk& error) {
+            throw UserError(ExitCode::bad_input, error.what());
+        }
         for (const std::uint32_t place : near) {
             const double distance = std::exchange(distances[place], kUnknown);
             const auto [low, high] = std::minmax(bins.order[source], bins.order[place]);
