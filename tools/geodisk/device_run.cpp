@@ -1,8 +1,10 @@
 #include "geodisk/device_run.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "files/tuning_file.hpp"
+#include "geometry/count_search.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -63,12 +65,27 @@ void check_validation(const Context& context) {
     }
 }
 
+std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
+    return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
+}
+
+SampleSet sample(Runner& runner, const Task& task, bool bounded, ProgressLine& progress) {
+    auto result = runner.sample_and_wait(task.domain, show_progress(progress, task.expected));
+    progress.clear();
+    check_interrupted();
+    if (!result) {
+        check_run(result.error(), bounded);
+    }
+    return take(std::move(result));
+}
+
 } // namespace
 
 std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
                                               const RunnerOptions& runner_options,
-                                              const Domain& domain, double expected,
-                                              ProgressLine& progress) {
+                                              const TaskAt& task_at, double min_distance,
+                                              double wanted, ProgressLine& progress) {
+    Task task = task_at(min_distance); // Fails before a device is needed.
     DeviceRun done;
     Stopwatch watch;
     const Context context = open_device(options, progress);
@@ -79,22 +96,41 @@ std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
     watch = Stopwatch();
     Runner runner =
         take(Runner::create(context.device(), context.queue(), tuned(runner_options, done.device)));
-    take(runner.sampler().prepare(domain));
+    take(runner.sampler().prepare(task.domain));
     done.compile_seconds = watch.seconds();
     done.tuning = runner.sampler().tuning();
     check_interrupted();
 
-    progress.begin_stage("sampling");
-    auto result = runner.sample_and_wait(domain, show_progress(progress, expected));
-    progress.clear();
-    check_interrupted();
-    if (!result) {
-        check_run(result.error(), runner_options.device_bytes != 0);
+    SampleSet best;
+    decltype(RunReport::seconds) seconds;
+    const std::uint32_t dimension = task.domain.dimension();
+    CountSearch search(wanted, dimension == 0 ? 2 : dimension);
+    for (;;) {
+        progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
+        SampleSet set = sample(runner, task, runner_options.device_bytes != 0, progress);
+        ++done.runs;
+        seconds.compile += set.report.seconds.compile;
+        seconds.upload += set.report.seconds.upload;
+        seconds.sample += set.report.seconds.sample;
+        seconds.readback += set.report.seconds.readback;
+        std::optional<double> next;
+        if (wanted > 0) {
+            next = search.note(min_distance, count_of(set, task.domain));
+        }
+        if (wanted == 0 || search.is_nearest()) {
+            best = std::move(set);
+            done.min_distance = min_distance;
+        }
+        if (!next) {
+            break;
+        }
+        min_distance = *next;
+        task = task_at(min_distance);
     }
-    SampleSet set = take(std::move(result));
     check_validation(context);
-    done.run = set.report;
-    return {std::move(set), std::move(done)};
+    done.run = best.report;
+    done.run.seconds = seconds;
+    return {std::move(best), std::move(done)};
 }
 
 } // namespace geodisk::tools

@@ -1,9 +1,12 @@
 // Runs on a device, for the commands that sample.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <utility>
 
 #include <geodisk/context.hpp>
+#include <geodisk/domain.hpp>
 #include <geodisk/runner.hpp>
 
 #include "geodisk/options/run_options.hpp"
@@ -14,16 +17,27 @@ namespace geodisk::tools {
 /// How a set of samples came about.
 struct DeviceRun {
     DeviceReport device;
-    Tuning tuning; ///< As used.
-    RunReport run;
+    Tuning tuning;                                ///< As used.
+    double min_distance = 0;                      ///< As used.
+    std::uint32_t runs = 0;                       ///< At this distance and those tried before.
+    RunReport run;                                ///< With the seconds of all runs.
     double open_seconds = 0, compile_seconds = 0; ///< Those of the stages after are in `run`.
 };
 
-/// Opens the device of `options`, compiles there what the domain needs, and draws about `expected`
-/// samples of it. Returns them and how they came about; throws UserError.
+/// What there is to sample at a distance, and about how many samples that gives.
+struct Task {
+    Domain domain;
+    double expected;
+};
+using TaskAt = std::function<Task(double min_distance)>;
+
+/// Opens the device of `options`, compiles there what the domain needs, and samples it. Where a
+/// number of samples is wanted, not 0, and another comes out, it tries other distances
+/// (CountSearch) and takes the nearest. Returns the samples and how they came about; throws
+/// UserError.
 std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
                                               const RunnerOptions& runner_options,
-                                              const Domain& domain, double expected,
-                                              ProgressLine& progress);
+                                              const TaskAt& task_at, double min_distance,
+                                              double wanted, ProgressLine& progress);
 
 } // namespace geodisk::tools

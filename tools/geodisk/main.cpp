@@ -31,13 +31,7 @@ Exit status:
   143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
 Whenever the status is 2 or more, no output file is written or replaced.)";
 
-} // namespace
-
-int main(int argc, char** argv) {
-    CLI::App app(
-        "Random points on a triangle mesh, no two closer than a minimum distance along the "
-        "surface",
-        "geodisk");
+void set_up(CLI::App& app) {
     app.set_version_flag("--version", "geodisk " GEODISK_VERSION_STRING);
     app.require_subcommand(1);
     app.footer(kFooter);
@@ -47,5 +41,14 @@ int main(int argc, char** argv) {
     geodisk::tools::add_box_command(app);
     geodisk::tools::add_shapes_command(app);
     geodisk::tools::add_info_command(app);
-    return geodisk::tools::run_program(app, argc, argv);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return geodisk::tools::run_program(
+        "geodisk",
+        "Random points on a triangle mesh, no two closer than a minimum distance along the "
+        "surface",
+        set_up, argc, argv);
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -109,19 +110,23 @@ std::vector<SampleRow> to_rows(const std::vector<double>& points, std::size_t di
 }
 
 void run_box(const BoxOptions& options) {
-    const BoxJob job = parse_job(options);
-    const Domain domain = take(Domain::box(job.box)); // Fails before a device is needed.
+    BoxJob job = parse_job(options);
+    const auto dimension = static_cast<std::uint32_t>(job.box.extents.size());
     check_outputs(job.out, "the samples", {});
-    check_box_dimension(job.out.output, domain.dimension());
+    check_box_dimension(job.out.output, dimension);
     ProgressLine progress(job.out.quiet);
-    const double expected = job.method.expected(expected_count(job.box));
-    const auto [set, done] = run_on_device(job.run, job.runner, domain, expected, progress);
-    const std::vector<SampleRow> rows = to_rows(set.points, domain.dimension());
+    const auto task_at = [&](double min_distance) {
+        job.box.min_distance = min_distance;
+        return Task{take(Domain::box(job.box)), job.method.expected(expected_count(job.box))};
+    };
+    const auto [set, done] = run_on_device(job.run, job.runner, task_at, job.box.min_distance,
+                                           job.wanted_count, progress);
+    job.box.min_distance = done.min_distance;
+    const std::vector<SampleRow> rows = to_rows(set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
     const BoxReport report(job, rows.size(), done);
     write_outputs(job.out, progress, report, [&](AtomicFile& file) {
-        write_box_samples(file, job.out.output, report.header(), rows, job.out.ascii,
-                          domain.dimension());
+        write_box_samples(file, job.out.output, report.header(), rows, job.out.ascii, dimension);
     });
 }
 

@@ -77,11 +77,15 @@ void run_sample(const SampleOptions& options) {
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
     check_dimensions(job, mesh);
 
-    const SampleParams params = params_on(mesh, job);
-    const Domain domain = domain_of(job, mesh, params); // Fails before a device is needed.
-    const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
-    auto [set, done] =
-        run_on_device(job.run, job.runner, domain, job.method.expected(room), progress);
+    SampleParams params = params_on(mesh, job);
+    const auto task_at = [&](double min_distance) {
+        params.min_distance = min_distance;
+        const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
+        return Task{domain_of(job, mesh, params), job.method.expected(room)};
+    };
+    auto [set, done] = run_on_device(job.run, job.runner, task_at, params.min_distance,
+                                     job.wanted_count, progress);
+    params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
     const SampleResult result{params, std::move(done),
                               to_rows(mesh, params.min_distance, set.samples)};

@@ -44,7 +44,7 @@ std::optional<MeshWarning> other_surface(const VerifyOptions& options, const Sam
         std::string text;
         for (const auto& [key, value] : entries) {
             if (key == "lift" || key == "weld") {
-                text += " --" + key + (key == "lift" ? " " : "=") + value;
+                text.append(" --").append(key).append(key == "lift" ? " " : "=").append(value);
             }
         }
         return text.empty() ? " no --lift and no --weld" : text;

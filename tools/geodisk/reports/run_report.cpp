@@ -51,6 +51,7 @@ Json drawn_json(const Drawn& drawn) {
             {"candidates", drawn.run.candidates},
             {"chunks", drawn.run.chunks},
             {"stopped_by", stopped_by(drawn)},
+            {"runs", drawn.runs},
             {"samples", drawn.samples}};
 }
 
@@ -66,6 +67,9 @@ std::string samples_text(const Drawn& drawn) {
     if (drawn.wanted_count > 0) {
         text +=
             " of about " + grouped(static_cast<std::uint64_t>(drawn.wanted_count)) + " asked for";
+        if (drawn.runs > 1) {
+            text += ", in " + std::to_string(drawn.runs) + " runs";
+        }
     } else if (drawn.samples < drawn.method.stop_count) {
         text += " of " + grouped(drawn.method.stop_count) + " asked for, when the darts ran out";
     }

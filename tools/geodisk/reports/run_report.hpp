@@ -18,6 +18,7 @@ struct Drawn {
     const RunReport& run;
     double wanted_count; ///< Of --count, where it chooses the distance; else 0.
     std::uint64_t samples;
+    std::uint32_t runs; ///< At other distances too, where a count chooses it.
 };
 
 /// The method with what it was given, what stopped it, and how many candidates and samples.

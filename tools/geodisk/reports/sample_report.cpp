@@ -166,7 +166,7 @@ SecondsByStage SampleReport::seconds(double write_seconds) const {
 }
 
 Drawn SampleReport::drawn() const {
-    return {job_.method, result_.done.run, job_.wanted_count, samples_};
+    return {job_.method, result_.done.run, job_.wanted_count, samples_, result_.done.runs};
 }
 
 } // namespace geodisk::tools

@@ -1,0 +1,84 @@
+// The search for the distance that gives a count.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/count_search.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+struct Found {
+    std::uint64_t count;
+    std::uint32_t tries;
+};
+
+/// Follows the search from a distance, where `count_at(distance)` samples come out.
+template <class CountAt>
+Found search(double wanted, double distance, const CountAt& count_at) {
+    CountSearch search(wanted, 2);
+    Found found{};
+    for (;;) {
+        const std::uint64_t count = count_at(distance);
+        const auto next = search.note(distance, count);
+        if (search.is_nearest()) {
+            found.count = count;
+        }
+        if (!next) {
+            found.tries = search.tries();
+            return found;
+        }
+        REQUIRE(*next > 0);
+        distance = *next;
+    }
+}
+
+std::uint64_t rounded(double count) {
+    return static_cast<std::uint64_t>(std::lround(count));
+}
+
+TEST_CASE("a count that is near is not searched for") {
+    const Found found = search(1000, 0.1, [](double) { return 1049u; });
+    CHECK(found.tries == 1);
+    CHECK(found.count == 1049);
+}
+
+TEST_CASE("counts by area, by length and by parts are found in a few tries") {
+    for (const double wanted : {5.0, 30.0, 1000.0, 1e6}) {
+        for (const double first : {0.01, 0.7, 1.3, 30.0}) {
+            CAPTURE(wanted);
+            CAPTURE(first);
+            const auto by_area = [&](double d) { return rounded(wanted / (d * d)); };
+            const auto by_length = [&](double d) { return rounded(wanted / d); };
+            // As many as parts however large the distance is, and more by area.
+            const auto by_parts = [&](double d) { return rounded(wanted * (0.8 + 0.2 / (d * d))); };
+            for (const Found& found : {search(wanted, first, by_area),
+                                       search(wanted, std::sqrt(first), by_length),
+                                       search(wanted, std::sqrt(first), by_parts)}) {
+                CHECK(std::abs(static_cast<double>(found.count) - wanted) <=
+                      std::max(0.05 * wanted, 1.0));
+            }
+        }
+    }
+}
+
+TEST_CASE("a count that no distance gives ends with the nearest") {
+    // A step between 900 and 1,100.
+    const auto count_at = [](double d) { return d < 1 ? 1100u : 900u; };
+    const Found below = search(1000, 0.5, count_at);
+    CHECK(below.tries == 7);
+    CHECK((below.count == 1100 || below.count == 900));
+    const Found few = search(3, 1, [](double) { return 10u; });
+    CHECK(few.tries == 7);
+    CHECK(few.count == 10);
+}
+
+TEST_CASE("one of few samples more is near, one more than one is not") {
+    CHECK(search(10, 1, [](double) { return 11u; }).tries == 1);
+    CHECK(search(1, 1, [](double d) { return d < 1.2 ? 2u : 1u; }).count == 1);
+}
+
+} // namespace
+} // namespace geodisk::tools
