@@ -2,8 +2,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <iterator>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -141,6 +145,37 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
                            {"MESA_SHADER_CACHE_DISABLE", "true"}}; // Mesa would complain as well.
     check_fails(folder, 4, "file/geodisk", {"builtin:cube", "--tune"}, nowhere);
     check_fails(folder, 2, "contradicts", {"builtin:cube", "--tune", "--json", "t.json"}, tuned);
+}
+
+TEST_CASE("two that keep a tuning at once, and one that reads it, do not meet half a file") {
+    const TemporaryFolder folder;
+    Setting tuned = bench();
+    tuned.environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}};
+    Setting sampler = tuned;
+    sampler.program = GEODISK_COMMAND;
+    const Arguments tune{"builtin:cube", "-n", "20", "--repeats", "1", "--tune"};
+    std::array<std::future<Outcome>, 2> tuning;
+    for (auto& one : tuning) {
+        one = std::async(std::launch::async, [&] { return run(folder, tune, tuned); });
+    }
+    const auto are_done = [&] {
+        return std::all_of(tuning.begin(), tuning.end(), [](auto& one) {
+            return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        });
+    };
+    do {
+        CHECK(run(folder, {"sample", "builtin:cube", "-n", "20", "-q", "-o", "a.ply"}, sampler)
+                  .status == 0);
+    } while (!are_done());
+    for (auto& one : tuning) {
+        CHECK(one.get().status == 0);
+    }
+    const std::filesystem::directory_iterator kept(folder / "cache" / "geodisk");
+    CHECK(std::distance(begin(kept), end(kept)) == 1);
+    CHECK(
+        run(folder, {"sample", "builtin:cube", "-n", "20", "-q", "-o", "b.ply"}, sampler).status ==
+        0);
+    CHECK(bytes_of(folder / "a.ply") == bytes_of(folder / "b.ply"));
 }
 
 TEST_CASE("the benchmark sweeps samples and triangles") {

@@ -177,7 +177,8 @@ TEST_CASE("other coordinates, edge lengths and lifts make the second mesh") {
     for (const auto& [more, scale] : {std::pair{Arguments{"--coordinates-b", "in4d.txt"}, 3.0},
                                       std::pair{Arguments{"--edge-lengths-b", "lengths.txt"}, 2.0},
                                       std::pair{Arguments{"--lift-b", "normals:5"}, 1.0}}) {
-        INFO(more.front());
+        const auto& shown = more.front(); // Before Clang 16 lambdas capture no bindings.
+        CAPTURE(shown);
         Arguments arguments = transfer("a.obj", "a.obj", more);
         arguments.insert(arguments.end(), {"--json", "-"});
         const Outcome outcome = run(folder, arguments);

@@ -109,7 +109,8 @@ TEST_CASE("a context on a weak device is refused with every reason") {
     const std::pair<std::string, std::string> choices[] = {
         {"", taken}, {taken, taken}, {"0", first}};
     for (const auto& [name, refused] : choices) {
-        CAPTURE(name);
+        const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+        CAPTURE(shown);
         ContextOptions options;
         options.device = name;
         const Result<Context> context = ContextAccess::create(driver.loader(), options);

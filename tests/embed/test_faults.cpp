@@ -206,7 +206,8 @@ TEST_SUITE("faults") {
         for (const auto& [function, result] :
              {std::pair{"vkCreateComputePipelines", kNoDeviceMemory},
               {"vkAllocateMemory", VK_ERROR_TOO_MANY_OBJECTS}}) {
-            CAPTURE(function);
+            const auto& shown = function; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             bool fired = true;
             std::uint32_t number = 0;
             for (; fired; ++number) {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "constants.h"
@@ -10,6 +11,7 @@
 #include "engine/tolerances.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -77,6 +79,22 @@ TEST_SUITE("darts") {
                 CHECK(parts.report.chunks == (4 + stages - 1) / stages);
                 CHECK(points_of(parts) == points_of(whole));
                 CHECK(parts.report.candidates == whole.report.candidates);
+            }
+        }
+    }
+
+    TEST_CASE("one, two and seven chunks give one set") {
+        const TestMesh knot = builtin("torus-knot", 8);
+        const PreparedMesh mesh = prepared(knot);
+        const RadiusField radii = radius_field(mesh, wavy_factors(knot, 0.3));
+        for (const RadiusField* const field : {static_cast<const RadiusField*>(nullptr), &radii}) {
+            SampleParams params = params_for(mesh, 150, 1, field);
+            params.pool_ratio = 150;
+            const Points whole = points_of(sample(mesh, params));
+            for (const auto& [stages, chunks] : {std::pair{7u, 1u}, {4u, 2u}, {1u, 7u}}) {
+                const SampleSet parts = sample(mesh, params, by_stages(stages));
+                CHECK(parts.report.chunks == chunks);
+                CHECK(points_of(parts) == whole);
             }
         }
     }

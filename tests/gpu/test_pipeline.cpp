@@ -48,7 +48,8 @@ TEST_SUITE("pipeline") {
             {"klein-bottle", 20}, {"veronese", 4},      {"tube", 6},
             {"cone", 8},          {"spike", 6}};
         for (const auto& [name, resolution] : shapes) {
-            CAPTURE(name);
+            const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             const PreparedMesh mesh = prepared(builtin(name, resolution));
             for (const double count : {30.0, 1000.0}) {
                 CAPTURE(count);
@@ -62,7 +63,8 @@ TEST_SUITE("pipeline") {
             {"cube", 1},     {"icosphere", 4}, {"torus-knot", 12},  {"folded-sheet", 16},
             {"terrain", 48}, {"moebius", 8},   {"klein-bottle", 20}};
         for (const auto& [name, resolution] : shapes) {
-            CAPTURE(name);
+            const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             const TestMesh shape = builtin(name, resolution);
             const PreparedMesh mesh = prepared(shape);
             const RadiusField wavy = radius_field(mesh, wavy_factors(shape, 0.1));
@@ -184,7 +186,8 @@ TEST_SUITE("pipeline") {
             {"swiss-roll", "unrolled-sheet", 24},
             {"crossed-sheet", "uncrossed-sheet", 8}};
         for (const auto& [bent, flat, resolution] : sheets) {
-            CAPTURE(bent);
+            const auto& shown = bent; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             const PreparedMesh mesh = prepared(builtin(flat, resolution));
             const SampleParams params = params_for(mesh, 2000);
             const auto a = sample(prepared(builtin(bent, resolution)), params);

@@ -87,7 +87,8 @@ TEST_SUITE("space") {
             {"cube", 1},     {"icosphere", 4}, {"torus-knot", 12}, {"folded-sheet", 16},
             {"terrain", 48}, {"moebius", 8},   {"plate", 8}};
         for (const auto& [name, resolution] : shapes) {
-            CAPTURE(name);
+            const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             for (const double count : {1.0, 30.0, 1500.0}) {
                 CAPTURE(count);
                 check_sets(builtin(name, resolution), count);

@@ -151,7 +151,8 @@ TEST_CASE("darts: no candidate is rejected without cause, by CGAL") {
          {std::pair{"spot_pose_a_6k.obj", 300.0}, std::pair{"fandisk_13k.obj", 300.0},
           std::pair{"tray_4k5.ply", 300.0}}) {
         if (const auto mesh = shared_mesh(std::string("meshes/") + name)) {
-            INFO(std::string(name));
+            const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             const PreparedMesh surface = prepared(*mesh);
             check_covered(*mesh, thrown<float>(surface, params_for(surface, count)));
         }

@@ -169,7 +169,8 @@ TEST_CASE("fans: shared meshes") {
         {"bad/warn_repeated_index.obj", {42, 0, 0}}};
     for (const auto& [name, expected] : cases) {
         if (const auto mesh = shared_mesh(name)) {
-            INFO(std::string(name));
+            const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             const FanCounts found = check_fans(*mesh);
             CHECK(found.closed == expected.closed);
             CHECK(found.open == expected.open);

@@ -77,7 +77,8 @@ TEST_CASE("lengths: the same surface as from coordinates") {
                                                   {"plate", 5},   {"terrain", 20},
                                                   {"moebius", 4}, {"lattice", 1}};
     for (const auto& [name, resolution] : shapes) {
-        CAPTURE(name);
+        const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+        CAPTURE(shown);
         const TestMesh mesh = builtin(name, resolution);
         const PreparedMesh model = prepared(mesh);
         const Lengths lengths = lengths_of(model);

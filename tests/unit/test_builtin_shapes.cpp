@@ -248,7 +248,8 @@ TEST_CASE("the Clifford torus is flat: its squares keep their shape") {
 TEST_CASE("neither the Klein bottle nor the projective plane meets itself") {
     for (const auto& [name, resolution] :
          {std::pair{"klein-bottle", 24}, std::pair{"veronese", 4}}) {
-        CAPTURE(name);
+        const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+        CAPTURE(shown);
         const MeshFile mesh = make_builtin(name, resolution);
         CHECK(closest_far_apart(mesh) > 0.5 * shortest_edge(mesh));
     }
@@ -277,7 +278,8 @@ TEST_CASE("folding keeps every edge of the sheet, rolling and crossing to the la
          {Sheet{"folded-sheet", "unfolded-sheet", 1e-12}, Sheet{"swiss-roll", "unrolled-sheet", 0},
           Sheet{"crossed-sheet", "uncrossed-sheet", 0}}) {
         for (const int resolution : {3, 7, 32, 200, 1000}) {
-            CAPTURE(bent_name);
+            const auto& shown = bent_name; // Before Clang 16 lambdas capture no bindings.
+            CAPTURE(shown);
             CAPTURE(resolution);
             const MeshFile bent = make_builtin(bent_name, resolution);
             const MeshFile flat = make_builtin(flat_name, resolution);

@@ -204,12 +204,13 @@ TEST_CASE("flat surfaces have no curvature, not at their borders either") {
 
 TEST_CASE("edges are curved and faces are not") {
     const MeshFile cube = make_builtin("cube", 8);
-    const auto [low, high] = std::minmax_element(cube.positions.begin(), cube.positions.end());
+    const auto ends = std::minmax_element(cube.positions.begin(), cube.positions.end());
     const std::vector<double> curvatures = mean_curvatures(cube);
     const std::vector<double> factors = curvature_factors(cube);
     for (std::size_t v = 0; v < curvatures.size(); ++v) {
-        const auto on_edge = std::count_if(&cube.positions[3 * v], &cube.positions[3 * v] + 3,
-                                           [&](double x) { return x == *low || x == *high; });
+        const auto on_edge =
+            std::count_if(&cube.positions[3 * v], &cube.positions[3 * v] + 3,
+                          [&](double x) { return x == *ends.first || x == *ends.second; });
         CAPTURE(v);
         REQUIRE((curvatures[v] > 1) == (on_edge >= 2));
         REQUIRE((factors[v] == doctest::Approx(1)) == (on_edge < 2));
@@ -244,7 +245,8 @@ TEST_CASE("the radius of samples is written and read") {
     CHECK(has_radii(rows));
     for (const auto& [name, is_ascii] :
          {std::pair{"a.ply", false}, {"b.ply", true}, {"c.csv", false}}) {
-        CAPTURE(name);
+        const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
+        CAPTURE(shown);
         write_samples(folder / name, {}, rows, is_ascii);
         const SampleFile read = read_samples(folder / name);
         REQUIRE(read.rows.size() == 2);

@@ -94,13 +94,17 @@ void run(const bench::Options& options) {
     }
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
-    CLI::App app("Times the sampler beside a sequential reference that returns the same samples",
-                 "geodisk_bench");
+void set_up(CLI::App& app) {
     app.set_version_flag("--version", "geodisk_bench " GEODISK_VERSION_STRING);
     app.footer(kFooter);
     bench::add_options(app, run);
-    return tools::run_program(app, argc, argv);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return tools::run_program(
+        "geodisk_bench",
+        "Times the sampler beside a sequential reference that returns the same samples", set_up,
+        argc, argv);
 }

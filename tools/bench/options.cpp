@@ -27,6 +27,7 @@ struct RawOptions {
 
 std::vector<double> parse_counts(const std::string& option, const std::vector<std::string>& texts) {
     std::vector<double> counts;
+    counts.reserve(texts.size());
     for (const std::string& text : texts) {
         counts.push_back(tools::parse_count(option, text));
     }

@@ -46,6 +46,7 @@ Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
     const double distance = pool.params.min_distance;
     const auto points = ref::oriented_points(mesh.view(), pool.by_rank);
     std::vector<glm::dvec3> positions;
+    positions.reserve(points.size());
     for (const ref::OrientedPoint& point : points) {
         positions.push_back(point.position);
     }
@@ -72,6 +73,7 @@ Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
 template <class Quantity>
 double middle(const std::vector<Comparison>& runs, Quantity&& quantity) {
     std::vector<double> values;
+    values.reserve(runs.size());
     for (const Comparison& one : runs) {
         values.push_back(quantity(one));
     }

@@ -47,7 +47,8 @@ Densities measured(const Options& options, const ref::Box& box, double min_dista
     for (int i = 0; i < options.common.repeats; ++i) {
         tools::check_interrupted();
         const std::vector<double> points = sample(box, options.common.seed_of(i));
-        const auto count = static_cast<double>(points.size() / 2);
+        const std::size_t samples = points.size() / 2;
+        const auto count = static_cast<double>(samples);
         densities.add(count, packing_density(1, min_distance, count), options.common.repeats);
     }
     return densities;

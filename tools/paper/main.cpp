@@ -21,10 +21,7 @@ Examples:
 
 The exit status is that of geodisk_bench. Whenever it is not 0, no file is written or replaced.)";
 
-} // namespace
-
-int main(int argc, char** argv) {
-    CLI::App app("Measures what the paper's tables and figures show", "geodisk_paper");
+void set_up(CLI::App& app) {
     app.set_version_flag("--version", "geodisk_paper " GEODISK_VERSION_STRING);
     app.footer(kFooter);
     app.require_subcommand(1);
@@ -36,5 +33,11 @@ int main(int argc, char** argv) {
     geodisk::paper::add_fig13(app);
     geodisk::paper::add_fig14(app);
     geodisk::paper::add_boxes(app);
-    return geodisk::tools::run_program(app, argc, argv);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return geodisk::tools::run_program(
+        "geodisk_paper", "Measures what the paper's tables and figures show", set_up, argc, argv);
 }

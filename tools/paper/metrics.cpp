@@ -32,6 +32,7 @@ Violations find_violations(const PaperMesh& mesh, const Pool& pool,
                            const std::vector<std::uint32_t>& samples) {
     constexpr double kRounding = 1e-9;
     std::vector<ref::FacePoint<double>> points;
+    points.reserve(samples.size());
     for (const std::uint32_t rank : samples) {
         points.push_back(pool.by_rank[rank]);
     }

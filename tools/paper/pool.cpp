@@ -20,6 +20,7 @@ PaperMesh load_mesh(const std::string& path) {
 
 std::vector<PaperMesh> load_meshes(const std::vector<std::string>& paths) {
     std::vector<PaperMesh> meshes;
+    meshes.reserve(paths.size());
     for (const std::string& path : paths) {
         meshes.push_back(load_mesh(path));
     }

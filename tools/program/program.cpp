@@ -16,9 +16,9 @@
 namespace geodisk::tools {
 namespace {
 
-int fail(const CLI::App& app, ExitCode code, const std::string& message) {
+int fail(const char* program, ExitCode code, const std::string& message) {
     std::cout.flush();
-    std::cerr << app.get_name() << ": " << one_line(message) << '\n';
+    std::cerr << program << ": " << one_line(message) << '\n';
     return static_cast<int>(code);
 }
 
@@ -54,7 +54,8 @@ void check_values(const std::vector<std::string>& arguments) {
     }
 }
 
-int run(CLI::App& app, int argc, char** argv) {
+int parse(CLI::App& app, int argc, char** argv) {
+    const char* const name = app.get_name().c_str();
     try {
         std::vector<std::string> arguments = utf8_arguments(argc, argv);
         check_values(arguments);
@@ -65,19 +66,27 @@ int run(CLI::App& app, int argc, char** argv) {
     } catch (const CLI::CallForVersion& version) {
         std::cout << version.what() << '\n';
     } catch (const CLI::ParseError& error) {
-        return fail(app, ExitCode::usage, usage_message(error) + hint(app));
+        return fail(name, ExitCode::usage, usage_message(error) + hint(app));
     } catch (const UserError& error) {
         const bool is_usage = error.code() == ExitCode::usage;
-        return fail(app, error.code(), error.what() + (is_usage ? hint(app) : ""));
-    } catch (const std::bad_alloc&) {
-        return fail(app, ExitCode::out_of_memory, "the memory of this machine does not suffice");
-    } catch (const std::exception& error) {
-        return fail(app, ExitCode::internal, error.what());
+        return fail(name, error.code(), error.what() + (is_usage ? hint(app) : ""));
     }
     if (!std::cout.flush()) {
-        return fail(app, ExitCode::bad_output, "standard output cannot be written");
+        return fail(name, ExitCode::bad_output, "standard output cannot be written");
     }
     return 0;
+}
+
+int run(const char* name, const char* description, SetUp set_up, int argc, char** argv) {
+    try {
+        CLI::App app(description, name);
+        set_up(app);
+        return parse(app, argc, argv);
+    } catch (const std::bad_alloc&) {
+        return fail(name, ExitCode::out_of_memory, "the memory of this machine does not suffice");
+    } catch (const std::exception& error) {
+        return fail(name, ExitCode::internal, error.what());
+    }
 }
 
 } // namespace
@@ -92,12 +101,11 @@ std::string fault_of_value(const std::string& given) {
     return is_option ? "needs a value before " + given : "";
 }
 
-int run_program(CLI::App& app, int argc, char** argv) {
+int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv) {
     occupy_closed_streams();
-    const std::string name = app.get_name();
-    install_signal_handlers(name.c_str());
-    install_crash_handlers(name.c_str());
-    const int status = run(app, argc, argv);
+    install_signal_handlers(name);
+    install_crash_handlers(name);
+    const int status = run(name, description, set_up, argc, argv);
     expect_exit();
     return status;
 }

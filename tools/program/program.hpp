@@ -26,9 +26,12 @@ CLI::Option* add_option(CLI::App& command, const std::string& names, Value& valu
         ->check(fault_of_value, "", "");
 }
 
-/// Parses the arguments with `app`, whose callbacks do the work, and returns the exit status of the
-/// process, for main() to return. Prints help and version to standard output, and "NAME: MESSAGE"
-/// to standard error for any exception, signal and crash.
-int run_program(CLI::App& app, int argc, char** argv);
+/// Gives a program its options and commands, whose callbacks do the work.
+using SetUp = void (*)(CLI::App&);
+
+/// The body of main(): sets the program up, parses the arguments, and returns the exit status of
+/// the process. Prints help and version to standard output, and "NAME: MESSAGE" to standard error
+/// for any exception, signal and crash.
+int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv);
 
 } // namespace geodisk::tools

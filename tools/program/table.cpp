@@ -18,8 +18,8 @@ std::string csv_line(const std::vector<std::string>& cells) {
 }
 
 const std::string& shown(const std::string& cell) {
-    static const std::string missing = "-";
-    return cell.empty() ? missing : cell;
+    static const std::string kMissing = "-";
+    return cell.empty() ? kMissing : cell;
 }
 
 /// The names of columns line by line, from the top; short ones stand at the bottom.

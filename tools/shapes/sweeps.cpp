@@ -54,7 +54,7 @@ Section control_point(std::size_t i) {
     if (i < kHalfSection.size()) {
         return kHalfSection[i];
     }
-    const Section mirrored = kHalfSection[kSectionPoints - 1 - i];
+    const Section& mirrored = kHalfSection[kSectionPoints - 1 - i];
     return {mirrored.x, -mirrored.y};
 }
 

@@ -98,8 +98,9 @@ std::uint64_t GridDomain::cells(std::uint32_t candidates, double error_bound) co
 void GridDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                            const RunPlan& plan) const {
     needs.bytes[gpu::kBindAxes] = upload_size(BufferRole::axes);
-    needs.bytes[gpu::kBindPoints] =
-        ((words_per_point_ + 1) * std::uint64_t{candidates} + words_per_point_ * plan.slots) * 4;
+    needs.bytes[gpu::kBindPoints] = ((words_per_point_ + 1) * std::uint64_t{candidates} +
+                                     words_per_point_ * std::uint64_t{plan.slots}) *
+                                    4;
 }
 
 const char* GridDomain::name_of(BufferRole role) const {

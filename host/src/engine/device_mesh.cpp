@@ -172,7 +172,7 @@ std::size_t radii_bytes(PlacedSurfaces surfaces) {
 
 std::size_t key_bytes(PlacedSurfaces surfaces) {
     if (surfaces.size() > 1) {
-        return 2 * face_count(surfaces) * sizeof(std::uint32_t) +
+        return std::size_t{2} * face_count(surfaces) * sizeof(std::uint32_t) +
                surfaces.size() * sizeof(gpu::PartRec);
     }
     return std::max<std::size_t>(surfaces[0].params.face_keys.size_bytes(), sizeof(std::uint32_t));
@@ -181,7 +181,7 @@ std::size_t key_bytes(PlacedSurfaces surfaces) {
 void write_half_edges(PlacedSurfaces surfaces, std::span<std::byte> out) {
     for (const PlacedSurface& surface : surfaces) {
         const PreparedMesh& mesh = *surface.mesh;
-        const auto own = out.subspan(surface.first_face * gpu::kFaceRows * kRowBytes);
+        const auto own = out.subspan(std::size_t{surface.first_face} * gpu::kFaceRows * kRowBytes);
         for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
             const HalfEdge& e = mesh.half_edges()[h];
             const bool bends = (mesh.fans()[e.origin].flags & gpu::kFanBends) != 0;

@@ -35,8 +35,8 @@ Result<ReportTable> load_report_table(const DeviceRefs& refs) {
 
 /// What a kernel is specialized for, in words.
 std::string text_of(const KernelVariant& variant) {
-    const std::string surfaces = std::string(variant.several ? "surfaces, " : "surface, ") +
-                                 (variant.adaptive ? "varying radii" : "one radius");
+    std::string surfaces = std::string(variant.several ? "surfaces, " : "surface, ") +
+                           (variant.adaptive ? "varying radii" : "one radius");
     switch (variant.domain) {
     case DomainKind::surface:
         return surfaces + (variant.event_heap ? ", heap" : ", ring") +

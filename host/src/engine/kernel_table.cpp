@@ -54,10 +54,7 @@ namespace {
 
 using namespace gpu;
 
-constexpr Access storage = Access::storage;
-constexpr Access read = Access::read;
-constexpr Access read_own = Access::read_own;
-constexpr Access read_before = Access::read_before;
+using enum Access;
 
 constexpr Binding kCount[] = {{kBindFaces, read},
                               {kBindFans, read},

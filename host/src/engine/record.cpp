@@ -190,8 +190,9 @@ class Recorder {
 
     void bind(Kernel kernel, const gpu::Push& push, SetRole role) {
         // A round repeats small dispatches; binding anew what is bound costs as much as they do.
-        if (kernel == bound_ && role == bound_role_ &&
-            std::memcmp(&push, &bound_push_, sizeof push) == 0) {
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the device gets bits, not values.
+        const bool same_push = std::memcmp(&push, &bound_push_, sizeof push) == 0;
+        if (kernel == bound_ && role == bound_role_ && same_push) {
             return;
         }
         bound_ = kernel;

@@ -20,8 +20,8 @@ void name_object(const DeviceTable& vk, VkDevice device, VkObjectType type, Hand
     VkDebugUtilsObjectNameInfoEXT info{};
     info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
     info.objectType = type;
-    static_assert(sizeof handle <= sizeof info.objectHandle);
-    std::memcpy(&info.objectHandle, &handle, sizeof handle);
+    static_assert(sizeof(Handle) <= sizeof info.objectHandle);
+    std::memcpy(&info.objectHandle, &handle, sizeof(Handle));
     info.pObjectName = name;
     vk.vkSetDebugUtilsObjectNameEXT(device, &info);
 }

@@ -18,7 +18,7 @@ constexpr std::uint64_t kNeededStorageBufferRange = std::uint64_t{1} << 27;
 constexpr std::uint64_t kNeededStorageBuffersPerStage = 8;
 constexpr std::uint64_t kNeededWorkgroupSize = 128;
 constexpr std::uint64_t kNeededPushConstantsSize = 128;
-constexpr std::uint64_t kNeededSharedMemorySize = 16 * 1024;
+constexpr std::uint64_t kNeededSharedMemorySize = 16'384;
 
 /// A string of a fixed-size field, which a faulty driver may have left without its terminator.
 template <std::size_t Size>
