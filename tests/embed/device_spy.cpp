@@ -145,6 +145,7 @@ struct DeviceSpy::Functions {
                                                    const VkAllocationCallbacks* allocator,
                                                    VkDeviceMemory* memory) {
         if (info->allocationSize > active->memory_left) {
+            ++active->refused;
             make_garbage(*memory);
             return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         }

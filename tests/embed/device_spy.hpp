@@ -47,7 +47,8 @@ class DeviceSpy {
 
     bool never_signal = false; ///< Waiting for a fence times out, though the work ends.
     VkDeviceSize memory_left = std::numeric_limits<VkDeviceSize>::max();
-    bool gives_back = false; ///< What is freed adds to the memory left.
+    std::uint32_t refused = 0; ///< Allocations of more than that.
+    bool gives_back = false;   ///< What is freed adds to the memory left.
     /// Called with what is mapped, after the work that a fence stood for has ended.
     std::function<void(std::span<const std::span<std::byte>>)> on_done;
 

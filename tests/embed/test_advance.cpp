@@ -125,12 +125,13 @@ TEST_SUITE("advance") {
         };
         CHECK(next({}) == Next::begin);
         run.begin(1);
+        CHECK(next({}) == Next::begin); // What is left of it.
+        CHECK(next(run.control()) == Next::begin);
+        run.begin();
         CHECK(next({}) == Next::go_on);
-        CHECK(next(run.control()) == Next::go_on);
         gpu::ControlRec garbage;
         std::memset(&garbage, 0x5b, sizeof garbage);
         CHECK(next(garbage) == Next::go_on);
-        run.begin();
         while (run.control().done == 0) {
             run.rounds(1);
         }
@@ -139,6 +140,8 @@ TEST_SUITE("advance") {
         run.rewind();
         CHECK(next(done) == Next::go_on);
         CHECK(next(run.control()) == Next::finish);
+        run.finish(1);
+        CHECK(next(run.control()) == Next::finish); // What is left of it.
         run.finish();
         CHECK(next(run.control()) == Next::complete);
     }

@@ -238,7 +238,9 @@ TEST_CASE("each missing function is named") {
     DeviceRefs refs = context.device();
     refs.get_instance_proc_addr = driver.loader().get_instance_proc_addr();
     REQUIRE(load_device_table(refs));
+    REQUIRE(load_query_table(refs));
     REQUIRE(load_instance_table(refs.get_instance_proc_addr, refs.instance));
+    REQUIRE(load_owner_table(refs.get_instance_proc_addr, refs.instance));
 
     const auto check_error = [](const Error& error, const char* name) {
         CAPTURE(name);
@@ -250,11 +252,21 @@ TEST_CASE("each missing function is named") {
     check_error(load_device_table(refs).error(), #name);
     GEODISK_DEVICE_FUNCTIONS(GEODISK_CHECK_DEVICE)
 #undef GEODISK_CHECK_DEVICE
+#define GEODISK_CHECK_QUERY(name)                                                                  \
+    driver.missing = {#name};                                                                      \
+    check_error(load_query_table(refs).error(), #name);
+    GEODISK_QUERY_FUNCTIONS(GEODISK_CHECK_QUERY)
+#undef GEODISK_CHECK_QUERY
 #define GEODISK_CHECK_INSTANCE(name)                                                               \
     driver.missing = {#name};                                                                      \
     check_error(load_instance_table(refs.get_instance_proc_addr, refs.instance).error(), #name);
     GEODISK_INSTANCE_FUNCTIONS(GEODISK_CHECK_INSTANCE)
 #undef GEODISK_CHECK_INSTANCE
+#define GEODISK_CHECK_OWNER(name)                                                                  \
+    driver.missing = {#name};                                                                      \
+    check_error(load_owner_table(refs.get_instance_proc_addr, refs.instance).error(), #name);
+    GEODISK_OWNER_FUNCTIONS(GEODISK_CHECK_OWNER)
+#undef GEODISK_CHECK_OWNER
 }
 
 TEST_CASE("null arguments are refused by name") {
@@ -278,6 +290,13 @@ TEST_CASE("null arguments are refused by name") {
     bad = good;
     bad.get_instance_proc_addr = nullptr;
     CHECK(contains(message_of(bad), "DeviceRefs::get_instance_proc_addr"));
+    bad = good;
+    MemoryHooks hooks{nullptr, nullptr, [](void*, const MemoryGrant&) {}};
+    bad.memory_hooks = &hooks;
+    CHECK(contains(message_of(bad), "MemoryHooks::allocate"));
+    hooks = {nullptr, [](void*, const MemoryRequest&, MemoryGrant&) { return VK_SUCCESS; },
+             nullptr};
+    CHECK(contains(message_of(bad), "MemoryHooks::free"));
     bad = good;
     bad.api_version = VK_API_VERSION_1_0;
     CHECK(load_device_table(bad).error().status == Status::device_lacks);

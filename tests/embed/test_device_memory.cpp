@@ -118,11 +118,14 @@ TEST_SUITE("device memory") {
             CHECK(points_of(set) == points_of(wanted));
             CHECK(set.report.device_bytes <= bytes);
         }
-        free_bytes = VkDeviceSize{1} << 20;
-        const auto none = job.run(true);
-        REQUIRE_FALSE(none);
-        CHECK(none.error().status == Status::out_of_device_memory);
-        CHECK(none.error().message.find("may take only 1048576") != std::string::npos);
+        for (const VkDeviceSize bytes : {VkDeviceSize{1} << 20, VkDeviceSize{0}}) {
+            free_bytes = bytes;
+            const auto none = job.run(true);
+            REQUIRE_FALSE(none);
+            CHECK(none.error().status == Status::out_of_device_memory);
+            CHECK(none.error().message.find("may take only " + std::to_string(bytes)) !=
+                  std::string::npos);
+        }
     }
 }
 

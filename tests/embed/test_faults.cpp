@@ -106,7 +106,7 @@ std::uint32_t sweep_prepare(Bench& bench, const char* function, VkResult result)
 /// What a run tries anew with less, where that would do.
 bool makes_buffers(std::string_view function) {
     return function == "vkCreateBuffer" || function == "vkAllocateMemory" ||
-           function == "vkBindBufferMemory";
+           function == "vkBindBufferMemory" || function == "vkMapMemory";
 }
 
 /// Fails every call that a run makes of `function`; the runner works again after each.

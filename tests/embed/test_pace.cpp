@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -190,6 +191,21 @@ TEST_SUITE("pace") {
         const SampleSet points = expect(slow.sample_and_wait(domain));
         CHECK(points.report.most_conflicts > 5 * gpu::kListPerDispatch);
         CHECK(points.points == expect(fast.sample_and_wait(domain)).points);
+    }
+
+    TEST_CASE("seconds that are no time are refused") {
+        const Context& context = shared_context();
+        for (double RunnerOptions::*const field :
+             {&RunnerOptions::submission_seconds, &RunnerOptions::stall_seconds}) {
+            for (const double seconds : {-1.0, std::nan(""), HUGE_VAL}) {
+                RunnerOptions options;
+                options.*field = seconds;
+                const auto runner = Runner::create(context.device(), context.queue(), options);
+                REQUIRE_FALSE(runner);
+                CHECK(runner.error().status == Status::invalid_argument);
+                CHECK(runner.error().message.find("_seconds is ") != std::string::npos);
+            }
+        }
     }
 
     TEST_CASE("a device that does nothing is an error, not an endless loop") {

@@ -1,11 +1,13 @@
 // What a runner keeps from run to run, and what a job does.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "gpu/device_run.hpp"
@@ -218,6 +220,58 @@ TEST_SUITE("reuse") {
         CHECK(refused.error().message.find("may take only 100000") != std::string::npos);
     }
 
+    TEST_CASE("what is kept from run to run, and what grows in one, stays within the bytes") {
+        // Of each buffer, which the device may round up.
+        constexpr VkDeviceSize kRounding = kBufferRoles * 1024;
+        RunnerOptions tight;
+        tight.plan.window_capacity = 2;
+        tight.plan.list_capacity = 4;
+        for (RunnerOptions options : {RunnerOptions{}, growing(), tight}) {
+            Bench bench;
+            bench.spy.gives_back = true;
+            const PreparedMesh large = prepared(builtin("torus-knot", 12));
+            const PreparedMesh small = prepared(builtin("cube", 1));
+            const std::pair<const PreparedMesh*, SampleParams> jobs[] = {
+                {&large, params_for(large, 100)}, {&small, params_for(small, 3000)}};
+            std::vector<Points> wanted;
+            for (const auto& [mesh, params] : jobs) {
+                Runner alone = expect(bench.create(options));
+                const SampleSet set = expect(alone.sample_and_wait(*mesh, params));
+                options.device_bytes = std::max(options.device_bytes, set.report.device_bytes);
+                wanted.push_back(points_of(set));
+            }
+            bench.spy.memory_left = options.device_bytes + kRounding;
+            Runner runner = expect(bench.create(options));
+            for (std::size_t i = 0; i < 4; ++i) {
+                const auto& [mesh, params] = jobs[i % 2];
+                const SampleSet set = expect(runner.sample_and_wait(*mesh, params));
+                CHECK(points_of(set) == wanted[i % 2]);
+                CHECK(set.report.device_bytes <= options.device_bytes);
+            }
+            CHECK(bench.spy.refused == 0);
+        }
+    }
+
+    TEST_CASE("kinds of domains take turns without new descriptors") {
+        Bench bench;
+        BoxParams box{{1, 1}, true};
+        box.min_distance = 0.1;
+        const Domain domains[] = {expect(Domain::surface(bench.mesh, bench.params)),
+                                  expect(Domain::box(box))};
+        Runner runner = expect(bench.create());
+        std::vector<SampleSet> first;
+        for (std::size_t i = 0; i < 6; ++i) {
+            if (i == 4) { // All that they need is there.
+                bench.spy.fail("vkCreateDescriptorPool", 0, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+            }
+            const SampleSet set = expect(runner.sample_and_wait(domains[i % 2]));
+            first.push_back(set);
+            CHECK(points_of(set) == points_of(first[i % 2]));
+            CHECK(set.points == first[i % 2].points);
+        }
+        CHECK_FALSE(bench.spy.end_of_fault());
+    }
+
     TEST_CASE("where memory is short, half as much is tried") {
         Bench bench;
         bench.params = params_for(bench.mesh, 2000);
@@ -229,6 +283,32 @@ TEST_SUITE("reuse") {
         const SampleSet set = expect(runner.sample_and_wait(bench.mesh, bench.params));
         CHECK(points_of(set) == points_of(whole));
         CHECK(set.report.device_bytes <= whole.report.device_bytes * 3 / 4);
+    }
+
+    TEST_CASE("and where half as much is too little, what lies between") {
+        Bench bench;
+        bench.params = params_for(bench.mesh, 2000);
+        bench.spy.gives_back = true;
+        RunnerOptions options;
+        options.device_bytes = 1;
+        Runner none = expect(bench.create(options));
+        const auto refused = none.sample_and_wait(bench.mesh, bench.params);
+        REQUIRE_FALSE(refused);
+        const std::string& message = refused.error().message;
+        const std::uint64_t least = std::stoull(message.substr(message.find("takes ") + 6));
+        Runner runner = expect(bench.create());
+        const SampleSet whole = expect(runner.sample_and_wait(bench.mesh, bench.params));
+        CHECK(whole.report.device_bytes > least);
+        runner.release_memory();
+        bench.spy.memory_left = least + kBufferRoles * std::uint64_t{1024};
+        const SampleSet set = expect(runner.sample_and_wait(bench.mesh, bench.params));
+        CHECK(points_of(set) == points_of(whole));
+        runner.release_memory();
+        bench.spy.memory_left = least / 2;
+        const auto too_little = runner.sample_and_wait(bench.mesh, bench.params);
+        REQUIRE_FALSE(too_little);
+        CHECK(too_little.error().status == Status::out_of_device_memory);
+        CHECK(too_little.error().message.find("on the device at least") != std::string::npos);
     }
 
     TEST_CASE("a job with another seed, and one renewed, in the same workspace") {

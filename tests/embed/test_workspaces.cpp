@@ -64,6 +64,10 @@ TEST_SUITE("workspaces") {
                       "alignment");
                 check({range.buffer, range.offset, VK_WHOLE_SIZE}, Status::invalid_argument,
                       "binds at most");
+                check({range.buffer, VkDeviceSize{1} << 40, range.size}, Status::invalid_argument,
+                      "ends behind its VkBuffer");
+                check({range.buffer, ~VkDeviceSize{0} << 12, range.size}, Status::invalid_argument,
+                      "ends behind its VkBuffer");
                 check({range.buffer, good.workspace()[(i + 1) % kBufferRoles].offset, range.size},
                       Status::invalid_argument, "overlaps");
             }
@@ -83,8 +87,7 @@ TEST_SUITE("workspaces") {
             wrong[static_cast<std::size_t>(role)].buffer = VK_NULL_HANDLE;
             const Result<Job> job = sampler.make_job(domain, plan, wrong);
             REQUIRE_FALSE(job);
-            CHECK(job.error().message ==
-                  std::string("the workspace's buffer ") + name + " is null");
+            CHECK(job.error().message == std::string("the buffer range ") + name + " is null");
         };
         BoxParams box;
         box.min_distance = 0.1;
@@ -151,6 +154,27 @@ TEST_SUITE("workspaces") {
             REQUIRE_FALSE(set);
             CHECK(set.error().message.find("pool") != std::string::npos);
         }
+        const auto range = [&](BufferRole role) {
+            return good.workspace()[static_cast<std::size_t>(role)];
+        };
+        const BufferRange upon{pool.buffer, range(BufferRole::faces).offset, pool.size};
+        CHECK(good.job().set_plan(good.plan(), upon).error().status == Status::invalid_argument);
+        const BufferRange samples = range(BufferRole::samples);
+        const BufferRange accepted = range(BufferRole::accepted);
+        const BufferRange buckets = range(BufferRole::buckets);
+        const std::uint32_t capacity = good.plan().sample_capacity;
+        const auto refused_samples = [&](std::uint32_t count, const BufferRange& first,
+                                         const BufferRange& second, const char* part) {
+            const Result<Done> set = good.job().set_samples(count, first, second, buckets);
+            REQUIRE_FALSE(set);
+            CHECK(set.error().status == Status::invalid_argument);
+            CHECK(set.error().message.find(part) != std::string::npos);
+        };
+        refused_samples(capacity, samples, samples, "overlaps");
+        refused_samples(capacity, samples, pool, "overlaps");
+        refused_samples(capacity, {samples.buffer, VkDeviceSize{1} << 40, samples.size}, accepted,
+                        "ends behind");
+        refused_samples(good.plan().slots, samples, accepted, "slots");
         CHECK(good.job().plan().slots == good.plan().slots);
         good.run(); // As if nothing had been asked.
     }
@@ -171,6 +195,9 @@ TEST_SUITE("workspaces") {
         }
         std::vector<std::byte> none;
         CHECK_FALSE(sampler.write_upload(domain, plan, BufferRole::pool, none));
+        const std::span<std::byte> nowhere(static_cast<std::byte*>(nullptr),
+                                           sampler.upload_size(domain, BufferRole::faces));
+        CHECK_FALSE(sampler.write_upload(domain, plan, BufferRole::faces, nowhere));
     }
 
     TEST_CASE("a workspace may hold what regrowths take") {

@@ -1,6 +1,6 @@
-// Whole runs on the device, on small complexes of triangles of any kind, with any distance, radii and
-// plan: the set is that of sequential dart throwing as the float twin decides, and its decisions are
-// those of double precision but for ties within the guard.
+// Whole runs on the device, on small complexes of triangles of any kind, with any distance, radii
+// and plan: the set is that of sequential dart throwing as the float twin decides, and its
+// decisions are those of double precision but for ties within the guard.
 #include <array>
 #include <cstdint>
 #include <cstdio>

@@ -89,7 +89,7 @@ TEST_SUITE("darts") {
         const RadiusField radii = radius_field(mesh, wavy_factors(knot, 0.3));
         for (const RadiusField* const field : {static_cast<const RadiusField*>(nullptr), &radii}) {
             SampleParams params = params_for(mesh, 150, 1, field);
-            params.pool_ratio = 150;
+            params.pool_ratio = 35;
             const Points whole = points_of(sample(mesh, params));
             for (const auto& [stages, chunks] : {std::pair{7u, 1u}, {4u, 2u}, {1u, 7u}}) {
                 const SampleSet parts = sample(mesh, params, by_stages(stages));

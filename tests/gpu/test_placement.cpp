@@ -256,13 +256,13 @@ TEST_SUITE("placement") {
         const auto source = scene.source;
         const auto target = scene.target;
         scene.source.vertices.buffer = VK_NULL_HANDLE;
-        CHECK(scene.refusal() == "the workspace's buffer vertices is null");
+        CHECK(scene.refusal() == "the buffer range vertices is null");
         scene.source = source;
         scene.source.vertices.size -= sizeof(Vertex);
-        CHECK(scene.refusal() == "the workspace's buffer vertices has 1476 bytes and needs 1492");
+        CHECK(scene.refusal() == "the buffer range vertices has 1476 bytes and needs 1492");
         scene.source = source;
         scene.source.indices.size -= 4;
-        CHECK(scene.refusal() == "the workspace's buffer indices has 956 bytes and needs 960");
+        CHECK(scene.refusal() == "the buffer range indices has 956 bytes and needs 960");
         scene.source = source;
         scene.source.stride = 10;
         CHECK(scene.refusal().find("a stride is at least 12 bytes") == 0);
@@ -274,7 +274,7 @@ TEST_SUITE("placement") {
         CHECK_FALSE(scene.place());
         scene.target = target;
         scene.target.arguments = scene.target.placed;
-        CHECK(scene.refusal().find("overlaps the buffer") != std::string::npos);
+        CHECK(scene.refusal().find("overlaps the range") != std::string::npos);
         scene.target = target;
         scene.target.placed.size -= 1;
         CHECK_FALSE(scene.place());

@@ -54,9 +54,9 @@ TEST_CASE("counts by area, by length and by parts are found in a few tries") {
             const auto by_length = [&](double d) { return rounded(wanted / d); };
             // As many as parts however large the distance is, and more by area.
             const auto by_parts = [&](double d) { return rounded(wanted * (0.8 + 0.2 / (d * d))); };
-            for (const Found& found : {search(wanted, first, by_area),
-                                       search(wanted, std::sqrt(first), by_length),
-                                       search(wanted, std::sqrt(first), by_parts)}) {
+            for (const Found& found :
+                 {search(wanted, first, by_area), search(wanted, std::sqrt(first), by_length),
+                  search(wanted, std::sqrt(first), by_parts)}) {
                 CHECK(std::abs(static_cast<double>(found.count) - wanted) <=
                       std::max(0.05 * wanted, 1.0));
             }

@@ -31,12 +31,14 @@ std::optional<double> CountSearch::note(double distance, std::uint64_t count) {
     const std::optional<Try> before = last.count > wanted_ ? above_ : below_;
     (last.count > wanted_ ? above_ : below_) = last;
     if (above_ && below_) {
-        const double part = std::log(above_->count / wanted_) / std::log(above_->count / below_->count);
-        return above_->distance *
-               std::pow(below_->distance / above_->distance, std::clamp(part, kMargin, 1 - kMargin));
+        const double part =
+            std::log(above_->count / wanted_) / std::log(above_->count / below_->count);
+        return above_->distance * std::pow(below_->distance / above_->distance,
+                                           std::clamp(part, kMargin, 1 - kMargin));
     }
     if (before && before->count != last.count) {
-        const double slope = std::log(before->count / last.count) / std::log(last.distance / before->distance);
+        const double slope =
+            std::log(before->count / last.count) / std::log(last.distance / before->distance);
         exponent_ = std::clamp(slope, kLeastExponent, exponent_);
     } else if (before) {
         exponent_ = std::max(exponent_ / 2, kLeastExponent);

@@ -37,8 +37,7 @@ struct SampleParams {
     std::uint32_t stop_count = 0;
     /// Radii that vary over the surface: samples p and q are (g(p) + g(q)) * min_distance / 2
     /// apart, so min_distance is that of two with the largest radius. Null: all radii are
-    /// min_distance / 2. It must be of the same mesh and outlive the run, and the sampler must be
-    /// one for it (`SamplerOptions::adaptive`).
+    /// min_distance / 2. It must be of the same mesh and outlive the run.
     const RadiusField* radii = nullptr;
     /// What the candidates of each face are drawn by, besides the seed: the same triangle with the
     /// same key has the same candidates in every mesh. Empty: the index of the face. Otherwise one

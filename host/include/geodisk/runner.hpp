@@ -123,7 +123,8 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 class GEODISK_API Runner {
   public:
     /// Makes a Sampler and checks on the device that arithmetic rounds as decisions need.
-    /// Errors: as Sampler::create; `device_lacks` when the check fails.
+    /// Errors: as Sampler::create; `device_lacks` when the check fails; `invalid_argument` for
+    /// seconds that are no time.
     static Result<Runner> create(const DeviceRefs& device, const QueueRef& queue,
                                  const RunnerOptions& options = {}) noexcept;
     /// The same with a Sampler that other runners may share, which has compiled its pipelines, and

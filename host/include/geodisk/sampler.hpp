@@ -200,9 +200,10 @@ struct SyncScope {
 
 /// What comes next for a job.
 enum class Next : std::uint32_t {
-    begin,          ///< record_begin: the first stages, or more of them.
+    begin,          ///< record_begin: the first stages, more of them, or what is left of it.
     go_on,          ///< record_rounds; or the control record is older than what was recorded last.
-    finish,         ///< record_finish: all candidates of these stages are decided.
+    finish,         ///< record_finish, or what is left of it: all candidates of these stages are
+                    ///< decided.
     larger_pool,    ///< Job::set_plan with Advice::plan, then record_rewind.
     larger_samples, ///< Job::set_samples with Advice::sample_capacity, then record_rewind.
     start_over,     ///< A new job, of Advice::plan: the guard was made for shorter window chains.

@@ -71,8 +71,12 @@ std::uint32_t Job::Impl::stages_left(const gpu::ControlRec& control) const {
 
 Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes) {
     Advice advice{Next::go_on, plan, push.sample_capacity};
-    if (is_begin_due) {
+    if (is_begin_due || !begun.is_at_start()) {
         advice.next = Next::begin;
+        return advice;
+    }
+    if (!finished.is_at_start()) {
+        advice.next = Next::finish;
         return advice;
     }
     if (control.generation != generation || control.abi == 0) {

@@ -6,13 +6,14 @@ namespace geodisk {
 namespace {
 
 Error range_error(Status status, const std::string& name, const std::string& what) {
-    return Error{status, "the workspace's buffer " + name + ' ' + what};
+    return Error{status, "the buffer range " + name + ' ' + what};
 }
 
 } // namespace
 
 Result<Done> check_range(const BufferRange& range, const std::string& name, VkDeviceSize needed,
-                         const DeviceLimits& limits) {
+                         const Sampler::Impl& sampler) {
+    const DeviceLimits& limits = sampler.report.limits;
     if (range.buffer == VK_NULL_HANDLE) {
         return range_error(Status::invalid_argument, name, "is null");
     }
@@ -35,15 +36,25 @@ Result<Done> check_range(const BufferRange& range, const std::string& name, VkDe
                            "starts at " + std::to_string(range.offset) +
                                ", off the device's alignment of " + std::to_string(alignment));
     }
+    // At least the bytes that the buffer was created with, and hardly more.
+    VkMemoryRequirements requirements{};
+    sampler.vk.vkGetBufferMemoryRequirements(sampler.device.device, range.buffer, &requirements);
+    if (range.offset > requirements.size || range.size > requirements.size - range.offset) {
+        return range_error(Status::invalid_argument, name,
+                           "of " + std::to_string(range.size) + " bytes starts at " +
+                               std::to_string(range.offset) + " and ends behind its VkBuffer of " +
+                               std::to_string(requirements.size));
+    }
     return Done{};
 }
 
 bool overlap(const BufferRange& a, const BufferRange& b) {
-    return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+    return a.buffer == b.buffer && a.size > 0 && b.size > 0 && a.offset < b.offset + b.size &&
+           b.offset < a.offset + a.size;
 }
 
 Error overlap_error(const std::string& name, const std::string& other) {
-    return range_error(Status::invalid_argument, name, "overlaps the buffer " + other);
+    return range_error(Status::invalid_argument, name, "overlaps the range " + other);
 }
 
 } // namespace geodisk

@@ -24,19 +24,34 @@ namespace {
 constexpr double kMostError = 0.5;
 
 Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
-                             const Domain::Impl& of, const DeviceLimits& limits) {
+                             const Domain::Impl& of, const Sampler::Impl& sampler) {
     const auto name = [&of](std::size_t i) { return of.name_of(static_cast<BufferRole>(i)); };
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         if (needs.bytes[i] == 0) {
             continue;
         }
-        if (auto checked = check_range(workspace[i], name(i), needs.bytes[i], limits); !checked) {
+        if (auto checked = check_range(workspace[i], name(i), needs.bytes[i], sampler); !checked) {
             return checked;
         }
         for (std::size_t k = 0; k < i; ++k) {
             if (overlap(workspace[i], workspace[k])) {
                 return overlap_error(name(i), name(k));
             }
+        }
+    }
+    return Done{};
+}
+
+/// Whether a range may take the place of one of a workspace that is in use.
+Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
+                               const Sampler::Impl& sampler) {
+    const auto name = [](std::size_t i) { return to_string(static_cast<BufferRole>(i)); };
+    if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {
+        return checked;
+    }
+    for (std::size_t k = 0; k < kBufferRoles; ++k) {
+        if (k != role && overlap(workspace[role], workspace[k])) {
+            return overlap_error(name(role), name(k));
         }
     }
     return Done{};
@@ -214,8 +229,10 @@ Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
 
 Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked = check_range(pool, to_string(BufferRole::pool), plan.pool_bytes(),
-                                       impl_->sampler->report.limits);
+        Workspace changed = impl_->workspace;
+        changed[gpu::kBindPool] = pool;
+        if (auto checked =
+                check_replacement(changed, gpu::kBindPool, plan.pool_bytes(), *impl_->sampler);
             !checked) {
             return checked;
         }
@@ -277,10 +294,19 @@ Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples
             {{gpu::kBindSamples, samples},
              {gpu::kBindAccepted, accepted},
              {gpu::kBindBuckets, buckets}}};
+        if (capacity <= impl_->plan.slots) {
+            return Error{Status::invalid_argument, "room for " + std::to_string(capacity) +
+                                                       " samples is not more than the plan's " +
+                                                       std::to_string(impl_->plan.slots) +
+                                                       " slots"};
+        }
+        Workspace changed = impl_->workspace;
+        for (const auto& [role, range] : ranges) {
+            changed[role] = range;
+        }
         for (std::size_t i = 0; i < ranges.size(); ++i) {
-            const auto& [role, range] = ranges[i];
-            if (auto checked = check_range(range, to_string(static_cast<BufferRole>(role)),
-                                           bytes[i], impl_->sampler->report.limits);
+            if (auto checked =
+                    check_replacement(changed, ranges[i].first, bytes[i], *impl_->sampler);
                 !checked) {
                 return checked;
             }
@@ -332,7 +358,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
         return needs.error();
     }
     const Domain::Impl& of = Domain::Impl::of(of_domain);
-    if (auto checked = check_workspace(ranges, *needs, of, sampler->report.limits); !checked) {
+    if (auto checked = check_workspace(ranges, *needs, of, *sampler); !checked) {
         return checked;
     }
     if (auto chosen = choose_kernels(sampler->variant_for(of_domain), new_plan); !chosen) {

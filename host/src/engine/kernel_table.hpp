@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,6 +56,11 @@ enum class DomainKind : std::uint8_t {
     any = 7,
     placement = 8, ///< No domain: of the kernel that places samples for a caller.
 };
+/// Surface, box and space.
+inline constexpr std::size_t kDomainKinds = 3;
+constexpr std::size_t index_of(DomainKind kind) {
+    return static_cast<std::size_t>(std::countr_zero(static_cast<std::uint8_t>(kind)));
+}
 
 /// What the kernels of a job are specialized for, besides what all jobs of a device share.
 struct KernelVariant {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "engine/domain_impl.hpp"
 #include "engine/plan.hpp"
@@ -32,50 +33,66 @@ std::uint64_t upload_bytes(const Sampler& sampler, const Domain& domain) {
     return bytes;
 }
 
-std::uint64_t bytes_of(const Sampler& sampler, const Domain& domain, const WorkspaceNeeds& needs) {
-    return needs.total() + RunMemory::staging_bytes(upload_bytes(sampler, domain));
-}
-
-Result<RunPlan> plan_within(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes) {
+Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes,
+                         std::uint32_t samples) {
     const Sampler& sampler = runner.sampler;
     const std::uint64_t one = sampler.report().limits.max_memory_allocation_size;
     std::uint64_t pool = std::min(runner.options.pool_bytes, one);
     const Domain::Impl& of = Domain::Impl::of(domain);
     std::uint32_t stages = stages_at_once(of.stages, candidates_in(runner.memory, of));
     for (;;) {
-        auto plan = sampler.plan_run(domain, pool);
-        if (!plan) {
-            return plan;
+        const auto planned = sampler.plan_run(domain, pool);
+        if (!planned) {
+            return planned.error();
         }
-        plan->stages = std::min(plan->stages, stages);
-        *plan = overridden(*plan, runner.options.plan);
-        const auto needs = sampler.workspace_needs(domain, *plan);
+        Fitting fitting{overridden(*planned, runner.options.plan)};
+        RunPlan& plan = fitting.plan;
+        const bool is_fixed = runner.options.plan.stages != 0;
+        plan.stages = is_fixed ? plan.stages : std::min(plan.stages, stages);
+        plan.sample_capacity = std::max(plan.sample_capacity, samples);
+        const auto needs = sampler.workspace_needs(domain, plan);
         if (!needs) {
             return needs.error();
         }
-        const std::uint64_t total = bytes_of(sampler, domain, *needs);
-        const auto largest = *std::max_element(needs->bytes.begin(), needs->bytes.end());
-        if (total <= bytes && largest <= one) {
-            return plan;
+        fitting.bytes = needs->total() + RunMemory::staging_bytes(upload_bytes(sampler, domain));
+        const auto largest = std::max_element(needs->bytes.begin(), needs->bytes.end());
+        fitting.largest = static_cast<BufferRole>(largest - needs->bytes.begin());
+        fitting.largest_bytes = *largest;
+        fitting.fits = fitting.bytes <= bytes && *largest <= one;
+        if (fitting.fits) {
+            return fitting;
         }
-        const std::uint64_t half = plan->pool_bytes() / 2;
-        const bool is_fixed = runner.options.plan.stages != 0 || plan->stages == 1;
-        // The larger part first.
+        const std::uint64_t half = plan.pool_bytes() / 2;
         const bool may_halve = half < pool && sampler.plan_run(domain, half);
-        if (may_halve && (is_fixed || half >= total / 4)) {
+        const bool may_shorten = !is_fixed && plan.stages > 1;
+        if (!may_halve && !may_shorten) {
+            return fitting;
+        }
+        // The larger part first.
+        if (may_halve && (!may_shorten || half >= fitting.bytes / 4)) {
             pool = half;
-        } else if (!is_fixed) {
-            stages = plan->stages - 1;
         } else {
-            return Error{Status::out_of_device_memory,
-                         largest > one ? "a buffer of the run takes " + std::to_string(largest) +
-                                             " bytes, but the device allocates at most " +
-                                             std::to_string(one) + " at once"
-                                       : "the run takes " + std::to_string(total) +
-                                             " bytes on the device at least, but may take only " +
-                                             std::to_string(bytes)};
+            stages = plan.stages - 1;
         }
     }
+}
+
+Result<Fitting> fit_within(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes,
+                           std::uint32_t samples) {
+    auto fitting = fit_plan(runner, domain, bytes, samples);
+    if (!fitting || fitting->fits) {
+        return fitting;
+    }
+    const std::uint64_t one = runner.sampler.report().limits.max_memory_allocation_size;
+    std::string message = "the run takes " + std::to_string(fitting->bytes) +
+                          " bytes on the device at least, but may take only " +
+                          std::to_string(bytes);
+    if (fitting->largest_bytes > one) {
+        message = std::string("the buffer ") + Domain::Impl::of(domain).name_of(fitting->largest) +
+                  " of the run takes " + std::to_string(fitting->largest_bytes) +
+                  " bytes, but the device allocates at most " + std::to_string(one) + " at once";
+    }
+    return Error{Status::out_of_device_memory, std::move(message)};
 }
 
 } // namespace geodisk

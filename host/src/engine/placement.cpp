@@ -58,10 +58,10 @@ Result<Done> check_layout(const PlacementSource& source) {
 }
 
 Result<Done> check_ranges(const CallersRanges& ranges, const Workspace& workspace,
-                          const DeviceLimits& limits) {
+                          const Sampler::Impl& sampler) {
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const NamedRange& own = ranges[i];
-        if (auto checked = check_range(own.range, own.name, own.needed, limits); !checked) {
+        if (auto checked = check_range(own.range, own.name, own.needed, sampler); !checked) {
             return checked;
         }
         const bool is_written =
@@ -154,7 +154,7 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
               VkDeviceSize{own.plan.sample_capacity} * sizeof(gpu::PlacedRec)},
              {gpu::kBindArguments, "arguments", target.arguments, kArgumentBytes}}};
         const Sampler::Impl& with = Sampler::Impl::of(sampler);
-        if (auto checked = check_ranges(ranges, own.workspace, with.report.limits); !checked) {
+        if (auto checked = check_ranges(ranges, own.workspace, with); !checked) {
             return checked.error();
         }
         KernelVariant variant;

@@ -38,9 +38,11 @@ constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
 /// One run: its memory, its job and what the device reported last.
 class Run {
   public:
-    Run(Runner::Impl& runner, const Domain& domain)
-        : runner_(runner), domain_(domain), of_(Domain::Impl::of(domain)),
-          memory_(*runner.workspace), job_(runner.job), passes_(runner.submission_seconds()),
+    /// Takes at most so many bytes on the device.
+    Run(Runner::Impl& runner, const Domain& domain, std::uint64_t most_bytes)
+        : runner_(runner), domain_(domain), most_bytes_(most_bytes), of_(Domain::Impl::of(domain)),
+          memory_(*runner.workspace), kept_(runner.jobs[index_of(of_.kernels.domain)]),
+          job_(kept_.job), passes_(runner.submission_seconds()),
           rounds_(runner.submission_seconds()) {}
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
@@ -72,6 +74,7 @@ class Run {
     Task<Result<Done>> run_passes(Passes record, InOne in_one);
     Task<Result<std::uint32_t>> count_before(std::uint32_t order);
     Result<Done> grow(const RunPlan& grown);
+    bool fit_samples(Advice& advice) const;
     Task<Result<Done>> enlarge_samples(std::uint32_t capacity);
     void record_all(VkCommandBuffer commands, Budget& budget);
     void record_samples(VkCommandBuffer commands, Budget&);
@@ -80,8 +83,10 @@ class Run {
 
     Runner::Impl& runner_;
     const Domain& domain_;
+    const std::uint64_t most_bytes_;
     const Domain::Impl& of_;
     RunMemory& memory_;
+    Runner::Impl::KeptJob& kept_;
     std::optional<Job>& job_;
     RunPlan wanted_; ///< But for dispatches that have to be shorter.
     Pace passes_, rounds_;
@@ -101,12 +106,11 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     if (!needs) {
         return needs.error();
     }
-    const std::uint32_t made = memory_.made();
     const std::uint64_t uploaded = upload_bytes(runner_.sampler, domain_);
-    if (auto allocated = memory_.allocate(*needs, uploaded); !allocated) {
+    if (auto allocated = memory_.allocate(*needs, uploaded, most_bytes_); !allocated) {
         return allocated;
     }
-    if (job_ && memory_.made() == made) {
+    if (job_ && kept_.made == memory_.made()) {
         if (auto renewed = job_->renew(domain_, plan); !renewed) {
             return renewed;
         }
@@ -117,6 +121,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
             return job.error();
         }
         job_.emplace(std::move(*job));
+        kept_.made = memory_.made();
     }
     if (runner_.clock) {
         job().clock = &*runner_.clock;
@@ -236,19 +241,23 @@ Result<Done> Run::grow(const RunPlan& grown) {
     wanted_.dispatch_items = before.dispatch_items;
     wanted_.step_budget = before.step_budget;
     wanted_.detect_passes = before.detect_passes;
-    return job_->set_plan(wanted_, memory_.range(BufferRole::pool));
+    auto set = job_->set_plan(wanted_, memory_.range(BufferRole::pool));
+    kept_.made = memory_.made();
+    return set;
 }
 
 Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
-    auto enlarged =
-        co_await memory_.enlarge_samples(job_->sample_bytes(capacity), control_.accepted);
+    auto enlarged = co_await memory_.enlarge_samples(job_->sample_bytes(capacity),
+                                                     control_.accepted, most_bytes_);
     if (!enlarged) {
         co_return enlarged;
     }
     wanted_.sample_capacity = capacity;
-    co_return job_->set_samples(capacity, memory_.range(BufferRole::samples),
-                                memory_.range(BufferRole::accepted),
-                                memory_.range(BufferRole::buckets));
+    auto set =
+        job_->set_samples(capacity, memory_.range(BufferRole::samples),
+                          memory_.range(BufferRole::accepted), memory_.range(BufferRole::buckets));
+    kept_.made = memory_.made();
+    co_return set;
 }
 
 /// Until the samples are there, or the run has to start over.
@@ -257,6 +266,10 @@ Task<Result<Advice>> Run::sample(const ProgressCallback& progress) {
         // What is free is asked for only where it matters.
         auto advice = job_->advance(control_, control_.overflow != 0 ? pool_bytes() : 0);
         if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
+            co_return advice;
+        }
+        if (advice->next == Next::larger_samples && !fit_samples(*advice)) {
+            advice->next = Next::start_over;
             co_return advice;
         }
         if (auto done = co_await follow(*advice); !done) {
@@ -269,9 +282,26 @@ Task<Result<Advice>> Run::sample(const ProgressCallback& progress) {
     }
 }
 
+/// Whether there is room for the samples advised, or fewer that go on, beside the pool as it is.
+bool Run::fit_samples(Advice& advice) const {
+    std::uint64_t others = memory_.bytes();
+    for (const BufferRole role : {BufferRole::samples, BufferRole::accepted, BufferRole::buckets}) {
+        others -= memory_.range(role).size;
+    }
+    const auto fits = [&](std::uint32_t capacity) {
+        const auto bytes = job_->sample_bytes(capacity);
+        return others + bytes[0] + bytes[1] + bytes[2] <= most_bytes_;
+    };
+    const std::uint32_t least = control_.accepted + job_->plan().slots + 1;
+    if (!fits(advice.sample_capacity) && fits(least)) {
+        advice.sample_capacity = least;
+    }
+    return fits(advice.sample_capacity);
+}
+
 std::uint64_t Run::pool_bytes() const {
     const std::uint64_t others = memory_.bytes() - memory_.range(BufferRole::pool).size;
-    const std::uint64_t allowed = runner_.bytes_allowed();
+    const std::uint64_t allowed = std::min(most_bytes_, runner_.bytes_allowed());
     const std::uint64_t left = allowed > others ? allowed - others : 0;
     // It has what it has.
     return std::max(std::min(left, runner_.options.pool_bytes),
@@ -466,6 +496,7 @@ Task<Result<std::optional<SampleSet>>> Run::go(const ProgressCallback& progress,
     }
     if (advice->next == Next::start_over) {
         plan.error_bound = advice->plan.error_bound;
+        plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
         co_return std::optional<SampleSet>();
     }
     report_.seconds.sample = runner_.now() - start;
@@ -545,34 +576,41 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain,
         co_return usable.error();
     }
     Releaser releaser{runner};
-    auto plan = plan_within(runner, domain, runner.bytes_allowed());
-    while (plan) {
+    std::uint64_t most = runner.bytes_allowed();
+    std::uint32_t samples = 0; // That there has to be room for.
+    double error_bound = 0;
+    for (;;) {
+        const auto fitting = fit_within(runner, domain, most, samples);
+        if (!fitting) {
+            co_return fitting.error();
+        }
+        RunPlan plan = fitting->plan;
+        plan.error_bound = std::max(plan.error_bound, error_bound);
         runner.keep();
-        Run run(runner, domain);
-        auto set = co_await run.go(progress, *plan);
+        Run run(runner, domain, most);
+        auto set = co_await run.go(progress, plan);
         if (set && *set) {
             releaser.has_succeeded = true;
             co_return std::move(**set);
         }
-        if (set) {
-            continue; // With a wider guard.
+        if (set) { // To start over, with a wider guard or more room for samples.
+            samples = plan.sample_capacity;
+            error_bound = plan.error_bound;
+            continue;
         }
         if (!runner.workspace->was_short()) {
             co_return set.error();
         }
         runner.release();
-        const auto needs = runner.sampler.workspace_needs(domain, *plan);
-        if (!needs) {
-            co_return set.error();
+        const auto less = fit_plan(runner, domain, fitting->bytes / 2, samples);
+        if (!less || less->bytes >= fitting->bytes) {
+            Error error = set.error();
+            error.message += "; the run takes " + std::to_string(fitting->bytes) +
+                             " bytes on the device at least";
+            co_return error;
         }
-        auto smaller = plan_within(runner, domain, bytes_of(runner.sampler, domain, *needs) / 2);
-        if (!smaller) {
-            co_return set.error();
-        }
-        smaller->error_bound = plan->error_bound;
-        plan = std::move(smaller);
+        most = less->fits ? fitting->bytes / 2 : (fitting->bytes + less->bytes) / 2;
     }
-    co_return plan.error();
 }
 
 } // namespace geodisk

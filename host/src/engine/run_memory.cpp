@@ -90,18 +90,34 @@ Result<Done> RunMemory::reserve(const WorkspaceNeeds& needs, VkDeviceSize stagin
     return reserve_staging(staging_bytes);
 }
 
-Result<Done> RunMemory::allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes) {
+void RunMemory::free_all() {
+    for (DeviceBuffer& buffer : buffers_) {
+        buffer = {};
+    }
+    held_ = {};
+    staging_ = {};
+}
+
+std::uint64_t RunMemory::bytes_with(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes) const {
+    std::uint64_t sum = std::max(staging_.size(), staging_bytes);
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        sum += std::max(buffers_[i].size(), needs.bytes[i]);
+    }
+    return sum;
+}
+
+Result<Done> RunMemory::allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes,
+                                 std::uint64_t most) {
     uploads_.clear();
     staged_ = 0;
     const VkDeviceSize staging = staging_bytes(upload_bytes);
+    if (bytes_with(needs, staging) > most) {
+        free_all();
+    }
     const bool had_any = bytes() > 0;
     auto reserved = reserve(needs, staging);
     if (!reserved && reserved.error().status == Status::out_of_device_memory && had_any) {
-        for (DeviceBuffer& buffer : buffers_) {
-            buffer = {};
-        }
-        held_ = {};
-        staging_ = {};
+        free_all();
         reserved = reserve(needs, staging);
     }
     return reserved;
@@ -233,6 +249,7 @@ gpu::ControlRec RunMemory::control() const {
 
 Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
     if (bytes > buffer(BufferRole::pool).size()) {
+        buffer(BufferRole::pool) = {}; // Before there is another: never both.
         auto larger = create(to_string(BufferRole::pool), bytes);
         if (!larger) {
             return larger.error();
@@ -242,10 +259,25 @@ Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
     return Done{};
 }
 
-Task<Result<Done>> RunMemory::enlarge_samples(std::array<VkDeviceSize, 3> bytes,
-                                              std::uint32_t kept) {
+Task<Result<Done>> RunMemory::enlarge_samples(std::array<VkDeviceSize, 3> bytes, std::uint32_t kept,
+                                              std::uint64_t most) {
     constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
+    constexpr std::size_t kHeld = 2; // What the buckets held is of no use any more.
+    const std::size_t kept_bytes = std::size_t{kept} * sizeof(gpu::SampleRec);
+    const bool by_host = kept > 0 && this->bytes() + bytes[0] + bytes[1] + bytes[2] > most;
+    std::array<std::vector<std::byte>, kHeld> copies;
     InUse larger{submitter_, {}};
+    if (by_host || kept == 0) {
+        for (std::size_t i = 0; i < kHeld && by_host; ++i) {
+            copies[i].resize(kept_bytes);
+            if (auto copied = co_await read(kRoles[i], copies[i]); !copied) {
+                co_return copied;
+            }
+        }
+        for (const BufferRole role : kRoles) {
+            buffer(role) = {};
+        }
+    }
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
         auto allocated = create(to_string(kRoles[i]), bytes[i]);
         if (!allocated) {
@@ -253,11 +285,11 @@ Task<Result<Done>> RunMemory::enlarge_samples(std::array<VkDeviceSize, 3> bytes,
         }
         larger.buffers[i] = std::move(*allocated);
     }
-    if (kept > 0) {
+    if (kept > 0 && !by_host) {
         const DeviceTable& vk = sampler_.vk;
         auto copied = submitter_.submit([&](VkCommandBuffer commands) {
-            const VkBufferCopy copy{0, 0, VkDeviceSize{kept} * sizeof(gpu::SampleRec)};
-            for (std::size_t i = 0; i < 2; ++i) { // What the buckets held is of no use any more.
+            const VkBufferCopy copy{0, 0, kept_bytes};
+            for (std::size_t i = 0; i < kHeld; ++i) {
                 vk.vkCmdCopyBuffer(commands, buffer(kRoles[i]).handle(), larger.buffers[i].handle(),
                                    1, &copy);
             }
@@ -272,6 +304,11 @@ Task<Result<Done>> RunMemory::enlarge_samples(std::array<VkDeviceSize, 3> bytes,
     }
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
         buffer(kRoles[i]) = std::move(larger.buffers[i]);
+    }
+    for (std::size_t i = 0; i < kHeld && by_host; ++i) {
+        if (auto copied = co_await upload(kRoles[i], 0, copies[i]); !copied) {
+            co_return copied;
+        }
     }
     co_return Done{};
 }

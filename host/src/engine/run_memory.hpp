@@ -31,9 +31,10 @@ class RunMemory {
     static std::uint64_t staging_bytes(std::uint64_t upload_bytes);
 
     /// Buffers for the needs, those there are where they are large enough, and for uploads of so
-    /// many bytes at once, if that is not too much. Where memory is short, all others are freed
-    /// before.
-    Result<Done> allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes);
+    /// many bytes at once, if that is not too much. Where memory is short, or larger ones of before
+    /// would make it more than `most` bytes, all others are freed before.
+    Result<Done> allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes,
+                          std::uint64_t most);
     Workspace workspace() const;
     BufferRange range(BufferRole role) const;
     /// Of all buffers and the staging.
@@ -65,8 +66,10 @@ class RunMemory {
 
     /// A pool of at least so many bytes; it loses what it held.
     Result<Done> enlarge_pool(VkDeviceSize bytes);
-    /// The buffers of samples, as Job::sample_bytes has them; the first `kept` samples stay.
-    Task<Result<Done>> enlarge_samples(std::array<VkDeviceSize, 3> bytes, std::uint32_t kept);
+    /// The buffers of samples, as Job::sample_bytes has them; the first `kept` samples stay. They
+    /// go by way of the host where old and new ones together would make it more than `most` bytes.
+    Task<Result<Done>> enlarge_samples(std::array<VkDeviceSize, 3> bytes, std::uint32_t kept,
+                                       std::uint64_t most);
 
   private:
     struct Upload {
@@ -78,6 +81,9 @@ class RunMemory {
                                 VkBufferUsageFlags usage = kWorkspaceUsage,
                                 MemoryKind kind = MemoryKind::device);
     Result<Done> reserve(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes);
+    void free_all();
+    /// That it would be once there is so much.
+    std::uint64_t bytes_with(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes) const;
     Result<Done> reserve_staging(VkDeviceSize bytes);
     DeviceBuffer& buffer(BufferRole role) { return buffers_[static_cast<std::size_t>(role)]; }
     const DeviceBuffer& buffer(BufferRole role) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "engine/run.hpp"
 #include "engine/runner_impl.hpp"
 #include "support/guard.hpp"
+#include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
@@ -40,6 +42,19 @@ check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const Que
                                                    ", which is no family with compute"};
     }
     return families[queue.family];
+}
+
+/// 0 leaves them to be chosen.
+Result<Done> check_seconds(const RunnerOptions& options) {
+    const auto check = [](const char* name, double seconds) -> Result<Done> {
+        if (seconds >= 0 && std::isfinite(seconds)) {
+            return Done{};
+        }
+        return Error{Status::invalid_argument, std::string("RunnerOptions::") + name + " is " +
+                                                   number_text(seconds) + ", neither 0 nor a time"};
+    };
+    auto checked = check("submission_seconds", options.submission_seconds);
+    return checked ? check("stall_seconds", options.stall_seconds) : checked;
 }
 
 } // namespace
@@ -93,16 +108,18 @@ std::uint64_t Runner::Impl::bytes_allowed() const {
     VkPhysicalDeviceMemoryProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2;
     properties.pNext = &budget;
-    instance.vkGetPhysicalDeviceMemoryProperties2(refs.physical_device, &properties);
+    memory_properties2(refs.physical_device, &properties);
     std::uint64_t most_free = 0;
+    bool is_told = false;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
         const bool is_local = (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0;
         const VkDeviceSize used = std::min(budget.heapUsage[i], budget.heapBudget[i]);
+        is_told = is_told || (is_local && budget.heapBudget[i] > 0);
         most_free = is_local ? std::max(most_free, budget.heapBudget[i] - used) : most_free;
     }
     // What is kept serves as well.
     const std::uint64_t kept = workspace ? workspace->bytes() : 0;
-    return most_free > 0 ? std::min(bytes, most_free + kept) : bytes;
+    return is_told ? std::min(bytes, most_free + kept) : bytes;
 }
 
 Result<Done> Runner::Impl::submit_timed(const std::function<void(VkCommandBuffer)>& record) {
@@ -150,8 +167,21 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
         if (!family) {
             return family.error();
         }
+        if (auto checked = check_seconds(options); !checked) {
+            return checked.error();
+        }
         impl->options = options;
-        impl->instance = *instance;
+        if (device.memory_budget) {
+            constexpr const char* kName = "vkGetPhysicalDeviceMemoryProperties2";
+            impl->memory_properties2 = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties2>(
+                device.get_instance_proc_addr(device.instance, kName));
+            if (impl->memory_properties2 == nullptr) {
+                return Error{Status::device_lacks, std::string("DeviceRefs::memory_budget is set, "
+                                                               "but the instance does not provide "
+                                                               "the function ") +
+                                                       kName};
+            }
+        }
         instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
         auto submitter = Submitter::create(device, vk, queue, impl->stall_limit());
         if (!submitter) {
@@ -159,9 +189,8 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
         }
         impl->submitter.emplace(std::move(*submitter));
         if (options.time_stages && family->timestampValidBits != 0) {
-            auto clock =
-                StageClock::create(device, vk, impl->sampler.report().limits.timestamp_period,
-                                   family->timestampValidBits);
+            auto clock = StageClock::create(device, impl->sampler.report().limits.timestamp_period,
+                                            family->timestampValidBits);
             if (!clock) {
                 return clock.error();
             }

@@ -1,8 +1,10 @@
 // What Runner holds; shared by the files that implement it.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,13 +26,18 @@ struct Runner::Impl {
     std::shared_ptr<const Sampler> shared_sampler;
     const Sampler& sampler = *shared_sampler;
     RunnerOptions options;
-    InstanceTable instance;
+    /// Where what is free is to be asked for.
+    PFN_vkGetPhysicalDeviceMemoryProperties2 memory_properties2 = nullptr;
     VkPhysicalDeviceMemoryProperties memory{};
     std::optional<Submitter> submitter;
     std::optional<StageClock> clock;
     // Kept from run to run.
     std::optional<RunMemory> workspace;
-    std::optional<Job> job;
+    struct KeptJob {
+        std::optional<Job> job;
+        std::uint32_t made = 0; ///< RunMemory::made() of the buffers that it is bound to.
+    };
+    std::array<KeptJob, kDomainKinds> jobs; ///< By index_of(DomainKind).
     // Of the run that was started.
     std::optional<Task<Result<SampleSet>>> run;
     Progress progress{};
@@ -65,7 +72,7 @@ struct Runner::Impl {
     /// Frees what is kept.
     void release() noexcept {
         settle();
-        job.reset();
+        jobs = {};
         workspace.reset();
     }
     const Sampler::Impl& engine() const { return *sampler.impl_; }

@@ -97,7 +97,8 @@ Result<Done> Sampler::write_upload(const Domain& domain, const RunPlan& plan, Bu
                                    std::span<std::byte> out, std::size_t from) const noexcept {
     return guarded([&]() -> Result<Done> {
         const bool is_whole = from == 0 || from == mesh_bytes(domain, role);
-        if (!is_whole || out.empty() || out.size() != upload_size(domain, role) - from) {
+        if (!is_whole || out.empty() || out.data() == nullptr ||
+            out.size() != upload_size(domain, role) - from) {
             return Error{Status::invalid_argument,
                          "not a buffer that is uploaded, or not of its size"};
         }

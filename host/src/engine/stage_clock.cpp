@@ -18,11 +18,15 @@ const char* to_string(Stage stage) noexcept {
     return kNames[static_cast<std::size_t>(stage)];
 }
 
-Result<StageClock> StageClock::create(const DeviceRefs& refs, const DeviceTable& vk, float period,
+Result<StageClock> StageClock::create(const DeviceRefs& refs, float period,
                                       std::uint32_t valid_bits) {
+    const auto table = load_query_table(refs);
+    if (!table) {
+        return table.error();
+    }
     StageClock clock;
     clock.refs_ = &refs;
-    clock.vk_ = &vk;
+    clock.vk_ = *table;
     clock.seconds_per_tick_ = period * 1e-9;
     clock.mask_ = valid_bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << valid_bits) - 1;
     VkQueryPoolCreateInfo info{};
@@ -30,7 +34,8 @@ Result<StageClock> StageClock::create(const DeviceRefs& refs, const DeviceTable&
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = kQueries;
     const VkResult result = null_unless_success(
-        vk.vkCreateQueryPool(refs.device, &info, refs.host_allocator, &clock.pool_), clock.pool_);
+        clock.vk_.vkCreateQueryPool(refs.device, &info, refs.host_allocator, &clock.pool_),
+        clock.pool_);
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateQueryPool", result);
     }
@@ -44,27 +49,27 @@ StageClock::StageClock(StageClock&& other) noexcept
 
 StageClock::~StageClock() {
     if (pool_ != VK_NULL_HANDLE) {
-        vk_->vkDestroyQueryPool(refs_->device, pool_, refs_->host_allocator);
+        vk_.vkDestroyQueryPool(refs_->device, pool_, refs_->host_allocator);
     }
 }
 
 void StageClock::begin(VkCommandBuffer commands) {
     stages_.clear();
-    vk_->vkCmdResetQueryPool(commands, pool_, 0, kQueries);
-    vk_->vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_, 0);
+    vk_.vkCmdResetQueryPool(commands, pool_, 0, kQueries);
+    vk_.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_, 0);
 }
 
 void StageClock::mark(VkCommandBuffer commands, Stage stage) {
     if (stages_.size() + 1 < kQueries) {
         stages_.push_back(stage);
-        vk_->vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_,
-                                 static_cast<std::uint32_t>(stages_.size()));
+        vk_.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_,
+                                static_cast<std::uint32_t>(stages_.size()));
     }
 }
 
 Result<Done> StageClock::collect() {
     std::vector<std::uint64_t> ticks(stages_.size() + 1);
-    const VkResult result = vk_->vkGetQueryPoolResults(
+    const VkResult result = vk_.vkGetQueryPoolResults(
         refs_->device, pool_, 0, static_cast<std::uint32_t>(ticks.size()),
         ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);

@@ -13,9 +13,9 @@ namespace geodisk {
 
 class StageClock {
   public:
-    /// `refs` and `vk` must outlive the clock. `period` is in nanoseconds per tick, `valid_bits` of
+    /// `refs` must outlive the clock. `period` is in nanoseconds per tick, `valid_bits` of
     /// the queue family, not 0.
-    static Result<StageClock> create(const DeviceRefs& refs, const DeviceTable& vk, float period,
+    static Result<StageClock> create(const DeviceRefs& refs, float period,
                                      std::uint32_t valid_bits);
     StageClock(StageClock&& other) noexcept;
     StageClock& operator=(StageClock&&) = delete;
@@ -37,7 +37,7 @@ class StageClock {
     StageClock() = default;
 
     const DeviceRefs* refs_ = nullptr;
-    const DeviceTable* vk_ = nullptr;
+    QueryTable vk_;
     VkQueryPool pool_ = VK_NULL_HANDLE;
     double seconds_per_tick_ = 0;
     std::uint64_t mask_ = 0;

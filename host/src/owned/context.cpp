@@ -32,9 +32,10 @@ struct Extensions {
 
 /// A device with one queue of `family`, the extensions that `enabled` names, and no optional
 /// feature but theirs, robustBufferAccess included: the kernels check their indices themselves.
-Result<VkDevice> create_device(const InstanceTable& vk, VkPhysicalDevice physical_device,
+Result<VkDevice> create_device(const Instance& instance, VkPhysicalDevice physical_device,
                                std::uint32_t family, const Extensions& enabled) {
-    const Result<bool> portability = has_device_extension(vk, physical_device, kPortabilitySubset);
+    const Result<bool> portability =
+        has_device_extension(instance.functions(), physical_device, kPortabilitySubset);
     if (!portability)
         return portability.error();
 
@@ -68,7 +69,8 @@ Result<VkDevice> create_device(const InstanceTable& vk, VkPhysicalDevice physica
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;
-    const VkResult result = vk.vkCreateDevice(physical_device, &info, nullptr, &device);
+    const VkResult result =
+        instance.owner_functions().vkCreateDevice(physical_device, &info, nullptr, &device);
     if (result != VK_SUCCESS)
         return vk_error("vkCreateDevice", result);
     return device;
@@ -121,9 +123,9 @@ Result<Done> Context::Impl::choose_extensions(const ContextOptions& options) {
 
 /// Creates the device of `physical_device` and `report`.
 Result<Done> Context::Impl::open_device() {
-    const InstanceTable& vk = instance->functions();
+    const OwnerTable& vk = instance->owner_functions();
     const std::uint32_t family = report.compute_queue_family.value_or(0);
-    const Result<VkDevice> created = create_device(vk, physical_device, family, extensions);
+    const Result<VkDevice> created = create_device(*instance, physical_device, family, extensions);
     if (!created)
         return created.error();
     device = *created;

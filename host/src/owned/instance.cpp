@@ -214,11 +214,16 @@ Result<Done> Instance::create_handle(bool validation) {
         return driver_error("vkCreateInstance", result);
     }
     // Apart from the rest, so that a failure to load the table leaks nothing.
-    functions_.vkDestroyInstance = find<PFN_vkDestroyInstance>(get, handle_, "vkDestroyInstance");
+    owner_functions_.vkDestroyInstance =
+        find<PFN_vkDestroyInstance>(get, handle_, "vkDestroyInstance");
     Result<InstanceTable> table = load_instance_table(get, handle_);
     if (!table)
         return table.error();
     functions_ = *table;
+    Result<OwnerTable> owners = load_owner_table(get, handle_);
+    if (!owners)
+        return owners.error();
+    owner_functions_ = *owners;
     return Done{};
 }
 
@@ -244,14 +249,14 @@ Instance::~Instance() {
         if (destroy != nullptr)
             destroy(handle_, messenger_, nullptr);
     }
-    if (handle_ != VK_NULL_HANDLE && functions_.vkDestroyInstance != nullptr)
-        functions_.vkDestroyInstance(handle_, nullptr);
+    if (handle_ != VK_NULL_HANDLE && owner_functions_.vkDestroyInstance != nullptr)
+        owner_functions_.vkDestroyInstance(handle_, nullptr);
 }
 
 Result<std::vector<FoundDevice>> Instance::find_devices() const {
     std::vector<VkPhysicalDevice> handles;
     const VkResult result = enumerate(handles, [&](auto* count, auto* elements) {
-        return functions_.vkEnumeratePhysicalDevices(handle_, count, elements);
+        return owner_functions_.vkEnumeratePhysicalDevices(handle_, count, elements);
     });
     if (result != VK_SUCCESS)
         return driver_error("vkEnumeratePhysicalDevices", result);

@@ -43,6 +43,7 @@ class Instance {
 
     VkInstance handle() const noexcept { return handle_; }
     const InstanceTable& functions() const noexcept { return functions_; }
+    const OwnerTable& owner_functions() const noexcept { return owner_functions_; }
     PFN_vkGetInstanceProcAddr get_instance_proc_addr() const noexcept {
         return loader_.get_instance_proc_addr();
     }
@@ -62,6 +63,7 @@ class Instance {
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     InstanceTable functions_;
+    OwnerTable owner_functions_;
 };
 
 } // namespace geodisk

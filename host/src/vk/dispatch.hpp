@@ -12,14 +12,16 @@
 
 // clang-format off
 #define GEODISK_INSTANCE_FUNCTIONS(X)            \
-    X(vkDestroyInstance)                         \
-    X(vkEnumeratePhysicalDevices)                \
     X(vkEnumerateDeviceExtensionProperties)      \
     X(vkGetPhysicalDeviceProperties)             \
     X(vkGetPhysicalDeviceProperties2)            \
     X(vkGetPhysicalDeviceMemoryProperties)       \
-    X(vkGetPhysicalDeviceMemoryProperties2)      \
-    X(vkGetPhysicalDeviceQueueFamilyProperties)  \
+    X(vkGetPhysicalDeviceQueueFamilyProperties)
+
+// What makes a device, for Context.
+#define GEODISK_OWNER_FUNCTIONS(X)               \
+    X(vkDestroyInstance)                         \
+    X(vkEnumeratePhysicalDevices)                \
     X(vkCreateDevice)                            \
     X(vkGetDeviceProcAddr)
 
@@ -71,8 +73,10 @@
     X(vkCreateFence)                      \
     X(vkDestroyFence)                     \
     X(vkResetFences)                      \
-    X(vkWaitForFences)                    \
-                                          \
+    X(vkWaitForFences)
+
+// For RunnerOptions::time_stages.
+#define GEODISK_QUERY_FUNCTIONS(X)        \
     X(vkCreateQueryPool)                  \
     X(vkDestroyQueryPool)                 \
     X(vkGetQueryPoolResults)              \
@@ -95,11 +99,20 @@ struct InstanceTable {
     GEODISK_INSTANCE_FUNCTIONS(GEODISK_MEMBER)
 };
 
+/// Those of an instance that geodisk owns, beside.
+struct OwnerTable {
+    GEODISK_OWNER_FUNCTIONS(GEODISK_MEMBER)
+};
+
 /// Functions of one device, without the loader's trampolines. Members carry the names of the
 /// functions.
 struct DeviceTable {
     GEODISK_DEVICE_FUNCTIONS(GEODISK_MEMBER)
     GEODISK_DEBUG_FUNCTIONS(GEODISK_MEMBER)
+};
+
+struct QueryTable {
+    GEODISK_QUERY_FUNCTIONS(GEODISK_MEMBER)
 };
 
 #undef GEODISK_MEMBER
@@ -109,8 +122,16 @@ struct DeviceTable {
 GEODISK_API Result<InstanceTable>
 load_instance_table(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance) noexcept;
 
-/// Fills the table of `refs.device`. Errors: `invalid_argument` naming the handle that is null,
-/// `device_lacks` for an API version below 1.1 or naming the first function that is missing.
+/// The same, and its errors.
+GEODISK_API Result<OwnerTable> load_owner_table(PFN_vkGetInstanceProcAddr get_instance_proc_addr,
+                                                VkInstance instance) noexcept;
+
+/// Fills the table of `refs.device`. Errors: `invalid_argument` naming the handle, or function of
+/// DeviceRefs::memory_hooks, that is null, `device_lacks` for an API version below 1.1 or naming
+/// the first function that is missing.
 GEODISK_API Result<DeviceTable> load_device_table(const DeviceRefs& refs) noexcept;
+
+/// The same, and its errors.
+GEODISK_API Result<QueryTable> load_query_table(const DeviceRefs& refs) noexcept;
 
 } // namespace geodisk
