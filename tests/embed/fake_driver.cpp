@@ -67,6 +67,11 @@ struct FakeDriver::Functions {
         return VK_SUCCESS;
     }
 
+    static VKAPI_ATTR VkResult VKAPI_CALL enumerate_version(std::uint32_t* version) {
+        *version = VK_API_VERSION_1_0;
+        return VK_SUCCESS;
+    }
+
     static VKAPI_ATTR VkResult VKAPI_CALL enumerate_devices(VkInstance instance,
                                                             std::uint32_t* count,
                                                             VkPhysicalDevice* devices) {
@@ -156,6 +161,8 @@ struct FakeDriver::Functions {
         }
         if (active->hide_layers && name == "vkEnumerateInstanceLayerProperties")
             return reinterpret_cast<PFN_vkVoidFunction>(&enumerate_layers);
+        if (active->answer_1_0 && name == "vkEnumerateInstanceVersion")
+            return reinterpret_cast<PFN_vkVoidFunction>(&enumerate_version);
         return nullptr;
     }
 };

@@ -33,6 +33,7 @@ class FakeDriver {
     std::map<std::string, VkResult> failing;
     bool hide_devices = false;
     bool hide_layers = false;
+    bool answer_1_0 = false; ///< vkEnumerateInstanceVersion, as of Wine without an X display.
 
     int live_instances() const { return live_instances_; }
     int live_devices() const { return live_devices_; }

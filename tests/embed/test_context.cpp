@@ -253,6 +253,9 @@ TEST_CASE("a machine without a working driver is reported with a hint") {
     SUBCASE("a loader of Vulkan 1.0") {
         driver.missing = {"vkEnumerateInstanceVersion"};
     }
+    SUBCASE("a loader that reaches no driver") {
+        driver.answer_1_0 = true;
+    }
 
     const Result<Context> context = ContextAccess::create(driver.loader(), {});
     REQUIRE_FALSE(context);

@@ -65,9 +65,15 @@ Result<GlobalTable> load_global_table(PFN_vkGetInstanceProcAddr get) {
     std::uint32_t version = VK_API_VERSION_1_0;
     if (vk.vkEnumerateInstanceVersion != nullptr)
         vk.vkEnumerateInstanceVersion(&version);
-    if (version < Instance::kApiVersion)
+    if (version < Instance::kApiVersion) {
+        // Wine's loader has the function, and answers 1.0 where it reaches no driver.
+        if (vk.vkEnumerateInstanceVersion != nullptr)
+            return Error{Status::no_device, "the Vulkan loader reaches no driver; install one or, "
+                                            "under Wine, set DISPLAY to an X server (xvfb-run "
+                                            "starts one)"};
         return Error{Status::no_device,
                      "the Vulkan loader is of version 1.0, but 1.1 is needed; update it"};
+    }
     if (vk.vkEnumerateInstanceExtensionProperties == nullptr ||
         vk.vkEnumerateInstanceLayerProperties == nullptr || vk.vkCreateInstance == nullptr)
         return Error{Status::no_device, "the Vulkan loader lacks basic functions; reinstall it"};
