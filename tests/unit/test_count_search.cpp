@@ -18,7 +18,7 @@ struct Found {
 /// Follows the search from a distance, where `count_at(distance)` samples come out.
 template <class CountAt>
 Found search(double wanted, double distance, const CountAt& count_at) {
-    CountSearch search(wanted, 2);
+    CountSearch search(wanted);
     Found found{};
     for (;;) {
         const std::uint64_t count = count_at(distance);

@@ -103,8 +103,7 @@ std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
 
     SampleSet best;
     decltype(RunReport::seconds) seconds;
-    const std::uint32_t dimension = task.domain.dimension();
-    CountSearch search(wanted, dimension == 0 ? 2 : dimension);
+    CountSearch search(wanted);
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
         SampleSet set = sample(runner, task, runner_options.device_bytes != 0, progress);

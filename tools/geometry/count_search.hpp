@@ -8,8 +8,7 @@ namespace geodisk::tools {
 
 class CountSearch {
   public:
-    /// Counts are taken to fall with the distance to the power of `dimension`, until they tell.
-    CountSearch(double wanted, double dimension) : wanted_(wanted), exponent_(dimension) {}
+    explicit CountSearch(double wanted) : wanted_(wanted) {}
 
     /// Notes how many samples a distance gave. Returns the distance to try next; nothing once that
     /// many are within 5 % of those wanted, or one, or several tries have not come so close.
@@ -24,9 +23,9 @@ class CountSearch {
         double distance, count;
     };
 
-    double wanted_, exponent_;
+    double wanted_;
     std::optional<Try> above_, below_; ///< With more samples, and with fewer: the nearest.
-    std::optional<double> least_miss_;
+    double least_miss_ = 0;
     bool is_nearest_ = false;
     std::uint32_t tries_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "files/sidecar_files.hpp"
+#include "geometry/angles.hpp"
 #include "geometry/vec.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -49,7 +50,7 @@ std::vector<Vec3> normal_sums(const MeshFile& mesh) {
             const Vec3 to_next = direction(corners[(k + 1) % 3] - corners[k]);
             const Vec3 to_last = direction(corners[(k + 2) % 3] - corners[k]);
             const Vec3 normal = cross(to_next, to_last);
-            const double angle = std::atan2(length(normal), dot(to_next, to_last));
+            const double angle = angle_of(length(normal), dot(to_next, to_last));
             sums[mesh.triangles[i + k]] += angle * direction(normal);
         }
     }

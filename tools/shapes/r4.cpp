@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <set>
 
+#include "geometry/angles.hpp"
 #include "geometry/mesh.hpp"
 #include "shapes/shape_makers.hpp"
 
@@ -60,7 +60,7 @@ MeshFile make_clifford_torus(int resolution) {
         const double u = angle(i, around);
         for (std::uint32_t j = 0; j < around; ++j) {
             const double v = angle(j, around);
-            add_vertex(mesh, {std::cos(u), std::sin(u), std::cos(v), std::sin(v)});
+            add_vertex(mesh, {cosine(u), sine(u), cosine(v), sine(v)});
         }
     }
     add_grid(mesh, around, around,
@@ -78,10 +78,10 @@ MeshFile make_klein_bottle(int resolution) {
         for (std::uint32_t j = 0; j < around; ++j) {
             const double v = angle(j, around);
             // Half a turn into the fourth dimension brings the tube back turned over.
-            const double radius = 1 + kTubeRadius * std::cos(v);
-            const double up = kTubeRadius * std::sin(v);
-            add_vertex(mesh, {radius * std::cos(u), radius * std::sin(u), up * std::cos(u / 2),
-                              up * std::sin(u / 2)});
+            const double radius = 1 + kTubeRadius * cosine(v);
+            const double up = kTubeRadius * sine(v);
+            add_vertex(
+                mesh, {radius * cosine(u), radius * sine(u), up * cosine(u / 2), up * sine(u / 2)});
         }
     }
     add_grid(mesh, along, around, [&](std::uint32_t i, std::uint32_t j) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/angles.hpp"
 #include "geometry/mesh.hpp"
 #include "shapes/shape_makers.hpp"
 
@@ -23,7 +24,7 @@ constexpr int kStripsPerTurn = 4;
 /// Layers of length 1 that lead back and forth above each other, joined by turns that go half
 /// around a polygon. As every strip stays flat, folding keeps all distances within the sheet.
 std::vector<Strip> fold_pattern(int parts_per_layer) {
-    const double turn_length = kLayerGap * std::sin(kPi / (2 * kStripsPerTurn));
+    const double turn_length = kLayerGap * sine(kPi / (2 * kStripsPerTurn));
     std::vector<Strip> strips;
     for (int layer = 0; layer < kLayers; ++layer) {
         const double direction = layer % 2 == 0 ? 1 : -1;
@@ -32,8 +33,8 @@ std::vector<Strip> fold_pattern(int parts_per_layer) {
         }
         for (int i = 0; i < kStripsPerTurn && layer + 1 < kLayers; ++i) {
             const double heading = kPi * (i + 0.5) / kStripsPerTurn;
-            strips.push_back({turn_length, turn_length * (direction * std::cos(heading)),
-                              turn_length * std::sin(heading)});
+            strips.push_back({turn_length, turn_length * (direction * cosine(heading)),
+                              turn_length * sine(heading)});
         }
     }
     return strips;
@@ -75,7 +76,7 @@ std::vector<Strip> roll_pattern(int parts_per_turn) {
     return strips_along(kTurns * parts_per_turn, [&](int i) {
         const double turns = static_cast<double>(i) / parts_per_turn;
         const double radius = kInnerRadius + kTurnGap * turns;
-        return Vec3{radius * std::cos(2 * kPi * turns), 0, radius * std::sin(2 * kPi * turns)};
+        return Vec3{radius * cosine(2 * kPi * turns), 0, radius * sine(2 * kPi * turns)};
     });
 }
 

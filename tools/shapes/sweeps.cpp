@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/angles.hpp"
 #include "geometry/mesh.hpp"
 #include "shapes/shape_makers.hpp"
 
@@ -99,7 +100,7 @@ Section ruffled(Section p, double u) {
     constexpr double kRoot = 1.1;
     constexpr double kWaves = 14;
     const double outward = std::max(0.0, p.x - kRoot);
-    p.y += 0.14 * outward * outward * std::sin(kWaves * u);
+    p.y += 0.14 * outward * outward * sine(kWaves * u);
     return p;
 }
 
@@ -113,8 +114,8 @@ MeshFile make_torus_knot(int resolution) {
     constexpr double kTubeRadius = 0.24;
     return make_closed_grid(along, around, [&](std::uint32_t i, std::uint32_t j) {
         const double t = angle(i, along);
-        const double c2 = std::cos(2 * t), s2 = std::sin(2 * t);
-        const double c3 = std::cos(3 * t), s3 = std::sin(3 * t);
+        const double c2 = cosine(2 * t), s2 = sine(2 * t);
+        const double c3 = cosine(3 * t), s3 = sine(3 * t);
         const double radius = 1 + kMinorRadius * c3;
         const Vec3 centre{radius * c2, radius * s2, kMinorRadius * s3};
         const Vec3 tangent =
@@ -123,7 +124,7 @@ MeshFile make_torus_knot(int resolution) {
         const Vec3 normal{c3 * c2, c3 * s2, s3};
         const Vec3 binormal = cross(normal, normalize(tangent));
         const double s = angle(j, around);
-        return centre + kTubeRadius * (std::cos(s) * normal + std::sin(s) * binormal);
+        return centre + kTubeRadius * (cosine(s) * normal + sine(s) * binormal);
     });
 }
 
@@ -136,8 +137,8 @@ MeshFile make_moebius(int resolution) {
         const double u = angle(i, along);
         for (std::uint32_t j = 0; j <= across; ++j) {
             const double v = kHalfWidth * (2.0 * j / across - 1);
-            const double radius = 1 + v * std::cos(u / 2);
-            add_vertex(mesh, {radius * std::cos(u), radius * std::sin(u), v * std::sin(u / 2)});
+            const double radius = 1 + v * cosine(u / 2);
+            add_vertex(mesh, {radius * cosine(u), radius * sine(u), v * sine(u / 2)});
         }
     }
     add_grid(mesh, along, across, [&](std::uint32_t i, std::uint32_t j) {
@@ -155,10 +156,10 @@ MeshFile make_showpiece(int resolution) {
         const double u = angle(i, along);
         const Section p = ruffled(section[j], u);
         const double twist = u; // One full turn on the way around.
-        const double out = p.x * std::cos(twist) - p.y * std::sin(twist);
-        const double up = p.x * std::sin(twist) + p.y * std::cos(twist);
+        const double out = p.x * cosine(twist) - p.y * sine(twist);
+        const double up = p.x * sine(twist) + p.y * cosine(twist);
         const double radius = kRingRadius + out;
-        return (1 / kRingRadius) * Vec3{radius * std::cos(u), radius * std::sin(u), up};
+        return (1 / kRingRadius) * Vec3{radius * cosine(u), radius * sine(u), up};
     });
 }
 

@@ -1,8 +1,8 @@
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "geometry/angles.hpp"
 #include "geometry/mesh.hpp"
 #include "shapes/shape_makers.hpp"
 
@@ -23,7 +23,7 @@ MeshFile make_turned(std::span<const Ring> rings, std::uint32_t around) {
         for (std::uint32_t i = 0; i < points; ++i) {
             const double turn = angle(i, around);
             const std::uint32_t vertex = add_vertex(
-                mesh, {ring.radius * std::cos(turn), ring.radius * std::sin(turn), ring.height});
+                mesh, {ring.radius * cosine(turn), ring.radius * sine(turn), ring.height});
             if (i == 0) {
                 first.push_back(vertex);
             }
@@ -59,8 +59,10 @@ MeshFile make_tube(int resolution) {
 
 MeshFile make_spike(int resolution) {
     std::vector<Ring> rings;
-    for (int power = 0; power <= 7; ++power) {
-        rings.push_back({std::pow(10.0, -power), power / 7.0});
+    double height = 0;
+    for (const double radius : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
+        rings.push_back({radius, height / 7});
+        ++height;
     }
     rings.push_back({0, 1});
     return make_turned(rings, static_cast<std::uint32_t>(resolution));
