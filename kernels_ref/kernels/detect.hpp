@@ -37,9 +37,9 @@ struct DiskCount {
 struct EndlessDisk : std::runtime_error {
     explicit EndlessDisk(std::uint32_t face)
         : std::runtime_error("the geodesic disk of a point on face " + std::to_string(face) +
-                             " does not end in any bearable time: triangles narrower than rounding "
-                             "lie upon each other there, or three and more meet at edges all over "
-                             "it") {}
+                             " does not end in any bearable time: it holds triangles narrower "
+                             "than rounding upon each other, edges of three and more all over it, "
+                             "or very many triangles far smaller than the distance") {}
 };
 
 /// For distances in double precision: only its rounding has to be allowed for.

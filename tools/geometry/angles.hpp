@@ -1,5 +1,5 @@
-// Sines, cosines and angles that are the same to the bit on every system. Those of C libraries differ in
-// the last bits, and with them surfaces and their samples would.
+// Sines, cosines and angles that are the same to the bit on every system. Those of C libraries
+// differ in the last bits, and with them surfaces and their samples would.
 #pragma once
 
 namespace geodisk::tools {

@@ -42,10 +42,11 @@ Result<Done> check_overflow(const gpu::ControlRec& control, const gpu::Push& pus
         return Error{
             Status::mesh_rejected,
             "the geodesic disk of a candidate on face " + std::to_string(face) +
-                " does not end in any bearable time: triangles narrower than rounding lie upon "
-                "each "
-                "other there, or three and more meet at edges all over it; join vertices that are "
-                "nearly in one place, or lower the minimum distance",
+                " does not end in any bearable time: it holds triangles narrower than rounding "
+                "upon "
+                "each other, edges of three and more all over it, or very many triangles far "
+                "smaller than the minimum distance; join vertices that are nearly in one place, "
+                "coarsen the mesh there or lower the distance",
             face};
     }
     return Done{};
