@@ -51,6 +51,7 @@ Channel open_channel(bool is_terminal) {
                           const Setting& setting, int out, int err) {
     arguments.insert(arguments.begin(), setting.program);
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) {
         pointers.push_back(argument.data());
     }

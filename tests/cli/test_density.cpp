@@ -24,9 +24,9 @@ void write_square(const TemporaryFolder& folder) {
             const std::string at =
                 std::to_string(x / double{kParts}) + " " + std::to_string(y / double{kParts});
             const std::string g = std::to_string(0.2 + 0.8 * x / kParts);
-            vertices += at + " 0 " + g + " " + at + "\n";
-            values += g + "\n";
-            obj += "v " + at + " 0\nvt " + at + "\n";
+            vertices.append(at).append(" 0 ").append(g).append(" ").append(at).append("\n");
+            values.append(g).append("\n");
+            obj.append("v ").append(at).append(" 0\nvt ").append(at).append("\n");
         }
     }
     for (int y = 0; y < kParts; ++y) {

@@ -64,7 +64,7 @@ TEST_CASE("fig5 sweeps samples and candidates") {
 }
 
 TEST_CASE("fig7 shows what each metric loses, and that exact distances lose nothing") {
-    const Outcome outcome = check_figure("fig7", {"fig7.svg"}, 4 * 3 * 2,
+    const Outcome outcome = check_figure("fig7", {"fig7.svg"}, std::ptrdiff_t{4} * 3 * 2,
                                          {"fig7", "--distances", "0.15,0.3", "--repeats", "1"});
     CHECK(contains(outcome.out, "same set"));
     CHECK_FALSE(contains(outcome.out, "another set"));

@@ -46,7 +46,7 @@ Json check_transfer(const TemporaryFolder& folder, const std::string& from, cons
     const Outcome outcome = run(folder, transfer(from, to, {"--json", "b.json"}));
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
-    const Json report = Json::parse(bytes_of(folder / "b.json"));
+    Json report = Json::parse(bytes_of(folder / "b.json"));
     const tools::SampleFile before = tools::read_samples(folder / "a.ply");
     const tools::SampleFile after = tools::read_samples(folder / "b.ply");
     REQUIRE(after.rows.size() == before.rows.size());

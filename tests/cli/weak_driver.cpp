@@ -14,8 +14,8 @@ namespace {
 
 template <class Function>
 Function real_symbol(const char* name) {
-    static void* const library = dlopen(std::getenv("GEODISK_TEST_DRIVER"), RTLD_NOW);
-    return library != nullptr ? reinterpret_cast<Function>(dlsym(library, name)) : nullptr;
+    static void* const kLibrary = dlopen(std::getenv("GEODISK_TEST_DRIVER"), RTLD_NOW);
+    return kLibrary != nullptr ? reinterpret_cast<Function>(dlsym(kLibrary, name)) : nullptr;
 }
 
 PFN_vkVoidFunction real_function(VkInstance instance, const char* name) {

@@ -91,6 +91,7 @@ class Arena {
         block.used = offset + request.requirements.size;
         grant = {block.memory, offset,
                  block.mapped == nullptr || forget_to_map ? nullptr : block.mapped + offset,
+                 // NOLINTNEXTLINE(performance-no-int-to-ptr): a name, which nobody follows.
                  reinterpret_cast<void*>(std::uintptr_t{asked})};
         alive.insert(grant.allocation);
         return VK_SUCCESS;

@@ -11,22 +11,22 @@ namespace {
 DeviceSpy* active = nullptr;
 
 /// A function's name as a template argument.
-template <std::size_t Size>
+template <std::size_t kSize>
 struct Name {
-    char text[Size];
-    consteval Name(const char (&from)[Size]) { std::copy_n(from, Size, text); }
+    char text[kSize];
+    consteval Name(const char (&from)[kSize]) { std::copy_n(from, kSize, text); }
 };
 
 template <class Handle>
 std::uint64_t number_of(Handle handle) {
     std::uint64_t number = 0;
-    std::memcpy(&number, &handle, sizeof handle);
+    std::memcpy(&number, &handle, sizeof(Handle));
     return number;
 }
 
 template <class Handle>
 void make_garbage(Handle& handle) {
-    std::memset(&handle, 0x5b, sizeof handle);
+    std::memset(&handle, 0x5b, sizeof(Handle));
 }
 
 // The specification promises a null handle for a pipeline that could not be created.
@@ -59,30 +59,30 @@ struct DeviceSpy::Functions {
     }
 
     /// A function that creates nothing, or nothing that has to be destroyed.
-    template <Name name, class Function>
+    template <Name kName, class Function>
     struct Step;
-    template <Name name, class... Args>
-    struct Step<name, VkResult(VKAPI_PTR*)(Args...)> {
+    template <Name kName, class... Args>
+    struct Step<kName, VkResult(VKAPI_PTR*)(Args...)> {
         static VKAPI_ATTR VkResult VKAPI_CALL call(Args... args) {
-            const VkResult failure = enter(name.text);
+            const VkResult failure = enter(kName.text);
             return failure != VK_SUCCESS ? failure
-                                         : real<VkResult(VKAPI_PTR*)(Args...)>(name.text)(args...);
+                                         : real<VkResult(VKAPI_PTR*)(Args...)>(kName.text)(args...);
         }
     };
 
     /// A function whose last argument takes the new handle.
-    template <Name name, Name destroy, class Function>
+    template <Name kName, Name kDestroy, class Function>
     struct Create;
-    template <Name name, Name destroy, class... Args>
-    struct Create<name, destroy, VkResult(VKAPI_PTR*)(Args...)> {
+    template <Name kName, Name kDestroy, class... Args>
+    struct Create<kName, kDestroy, VkResult(VKAPI_PTR*)(Args...)> {
         static VKAPI_ATTR VkResult VKAPI_CALL call(Args... args) {
             auto* handle = std::get<sizeof...(Args) - 1>(std::tie(args...));
-            const VkResult failure = enter(name.text);
+            const VkResult failure = enter(kName.text);
             if (failure != VK_SUCCESS) {
                 make_garbage(*handle);
                 return failure;
             }
-            const VkResult result = real<VkResult(VKAPI_PTR*)(Args...)>(name.text)(args...);
+            const VkResult result = real<VkResult(VKAPI_PTR*)(Args...)>(kName.text)(args...);
             if (result == VK_SUCCESS) {
                 const VkDevice device = std::get<0>(std::tie(args...));
                 const VkAllocationCallbacks* allocator =
@@ -95,21 +95,21 @@ struct DeviceSpy::Functions {
         template <class Handle>
         static void keep(VkDevice device, Handle handle, const VkAllocationCallbacks* allocator) {
             using Function = void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*);
-            active->objects_.push_back({destroy.text, number_of(handle), [=] {
-                                            real<Function>(destroy.text)(device, handle, allocator);
-                                        }});
+            active->objects_.push_back(
+                {kDestroy.text, number_of(handle),
+                 [=] { real<Function>(kDestroy.text)(device, handle, allocator); }});
         }
     };
 
-    template <Name name, class Function>
+    template <Name kName, class Function>
     struct Destroy;
-    template <Name name, class Handle>
-    struct Destroy<name, void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
+    template <Name kName, class Handle>
+    struct Destroy<kName, void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
         static VKAPI_ATTR void VKAPI_CALL call(VkDevice device, Handle handle,
                                                const VkAllocationCallbacks* allocator) {
-            enter(name.text);
-            if (handle != VK_NULL_HANDLE && forget(name.text, number_of(handle))) {
-                real<void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)>(name.text)(
+            enter(kName.text);
+            if (handle != VK_NULL_HANDLE && forget(kName.text, number_of(handle))) {
+                real<void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)>(kName.text)(
                     device, handle, allocator);
             }
         }
@@ -238,7 +238,7 @@ PFN_vkVoidFunction DeviceSpy::Functions::find(std::string_view name) {
     {#f, reinterpret_cast<PFN_vkVoidFunction>(&Create<#f, #g, PFN_##f>::call)}, {                  \
 #g, reinterpret_cast < PFN_vkVoidFunction>(&Destroy <#g, PFN_##g>::call)                   \
     }
-    static const std::map<std::string_view, PFN_vkVoidFunction> replacements = {
+    static const std::map<std::string_view, PFN_vkVoidFunction> kReplacements = {
         GEODISK_PAIR(vkCreateBuffer, vkDestroyBuffer),
         GEODISK_PAIR(vkCreateBufferView, vkDestroyBufferView),
         GEODISK_PAIR(vkCreateShaderModule, vkDestroyShaderModule),
@@ -267,8 +267,8 @@ PFN_vkVoidFunction DeviceSpy::Functions::find(std::string_view name) {
     };
 #undef GEODISK_PAIR
 #undef GEODISK_STEP
-    const auto found = replacements.find(name);
-    return found != replacements.end() ? found->second : nullptr;
+    const auto found = kReplacements.find(name);
+    return found != kReplacements.end() ? found->second : nullptr;
 }
 
 DeviceSpy::DeviceSpy(PFN_vkGetInstanceProcAddr real) : real_(real) {

@@ -440,7 +440,7 @@ TEST_SUITE("faults") {
             Runner runner = expect(Runner::create(refs, context.queue()));
             CHECK(runner.sample_and_wait(mesh, params_for(mesh, 30)));
             // A sample takes 16 bytes; one percent more of them than fit.
-            const double most = range / 16;
+            const double most = range / 16.0;
             const auto set = runner.sample_and_wait(mesh, params_for(mesh, 1.01 * most));
             REQUIRE_FALSE(set);
             CHECK(set.error().status == Status::job_too_large);

@@ -117,7 +117,7 @@ TEST_SUITE("pace") {
         const RunPlan half = shortened(plan, {}, whole / 2);
         CHECK(half.detect_passes < 8);
         CHECK(half.step_budget == 50);
-        CHECK(items_of_round(half) <= whole / 2 + 16 * plan.slots);
+        CHECK(items_of_round(half) <= whole / 2 + std::uint64_t{16} * plan.slots);
         const RunPlan least = shortened(plan, {}, 1);
         CHECK(least.detect_passes == 1);
         CHECK(least.step_budget == 1);

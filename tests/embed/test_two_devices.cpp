@@ -31,7 +31,7 @@ Work work(const char* shape, int resolution, double count, std::uint64_t seed) {
 
 /// Differing in every buffer's size, so that what one run leaves behind would show in another.
 const std::vector<Work>& all_work() {
-    static const std::vector<Work> list = [] {
+    static const std::vector<Work> kWork = [] {
         std::vector<Work> made;
         made.push_back(work("torus-knot", 8, 200, 1));
         made.push_back(work("icosphere", 3, 60, 2));
@@ -39,7 +39,7 @@ const std::vector<Work>& all_work() {
         made.push_back(work("torus-knot", 8, 90, 4));
         return made;
     }();
-    return list;
+    return kWork;
 }
 
 Points wanted(const Work& work, const SampleSet& set) {
@@ -113,6 +113,7 @@ TEST_SUITE("several at once") {
         std::array<std::optional<Result<Runner>>, 2> runners;
         {
             std::vector<std::jthread> threads;
+            threads.reserve(runners.size());
             for (auto& runner : runners) {
                 threads.emplace_back(
                     [&] { runner.emplace(Runner::create(context.device(), context.queue())); });

@@ -9,28 +9,28 @@ namespace {
 
 // From the SPIR-V specification, version 1.3, and its extended instructions for GLSL.
 enum Operation : std::uint32_t {
-    kOpName = 5,
-    kOpMemberName = 6,
-    kOpExtInst = 12,
-    kOpTypeImage = 25,
-    kOpTypeSampledImage = 27,
-    kOpTypePointer = 32,
-    kOpFunction = 54,
-    kOpVariable = 59,
-    kOpDecorate = 71,
-    kOpMemberDecorate = 72,
-    kOpFAdd = 129,
-    kOpFSub = 131,
-    kOpFMul = 133,
-    kOpFRem = 140,
-    kOpFMod = 141,
-    kOpVectorTimesScalar = 142,
-    kOpMatrixTimesScalar = 143,
-    kOpVectorTimesMatrix = 144,
-    kOpMatrixTimesVector = 145,
-    kOpMatrixTimesMatrix = 146,
-    kOpOuterProduct = 147,
-    kOpDot = 148,
+    op_name = 5,
+    op_member_name = 6,
+    op_ext_inst = 12,
+    op_type_image = 25,
+    op_type_sampled_image = 27,
+    op_type_pointer = 32,
+    op_function = 54,
+    op_variable = 59,
+    op_decorate = 71,
+    op_member_decorate = 72,
+    op_f_add = 129,
+    op_f_sub = 131,
+    op_f_mul = 133,
+    op_f_rem = 140,
+    op_f_mod = 141,
+    op_vector_times_scalar = 142,
+    op_matrix_times_scalar = 143,
+    op_vector_times_matrix = 144,
+    op_matrix_times_vector = 145,
+    op_matrix_times_matrix = 146,
+    op_outer_product = 147,
+    op_dot = 148,
 };
 constexpr std::uint32_t kDecorationBinding = 33;
 constexpr std::uint32_t kDecorationDescriptorSet = 34;
@@ -43,15 +43,15 @@ constexpr std::uint32_t kImageSampled = 1;
 
 /// One rounding per component, unless contracted with what follows.
 bool rounds_once(std::uint32_t operation) {
-    return operation == kOpFAdd || operation == kOpFSub || operation == kOpFMul ||
-           operation == kOpVectorTimesScalar || operation == kOpMatrixTimesScalar;
+    return operation == op_f_add || operation == op_f_sub || operation == op_f_mul ||
+           operation == op_vector_times_scalar || operation == op_matrix_times_scalar;
 }
 
 /// The order and number of its roundings are the driver's own, decorated or not.
 bool rounds_at_will(std::uint32_t operation) {
-    return operation == kOpFRem || operation == kOpFMod || operation == kOpVectorTimesMatrix ||
-           operation == kOpMatrixTimesVector || operation == kOpMatrixTimesMatrix ||
-           operation == kOpOuterProduct || operation == kOpDot;
+    return operation == op_f_rem || operation == op_f_mod || operation == op_vector_times_matrix ||
+           operation == op_matrix_times_vector || operation == op_matrix_times_matrix ||
+           operation == op_outer_product || operation == op_dot;
 }
 
 /// Of the extended instructions for GLSL: RoundEven to Ceil, Sqrt, minima to clamps, FindILsb to
@@ -101,15 +101,15 @@ VkDescriptorType type_of_image(std::span<const std::uint32_t> words) {
 Declarations declarations_of(std::span<const std::uint32_t> spirv) {
     Declarations all;
     for_each_instruction(spirv, [&](std::uint32_t operation, const auto& words) {
-        if (operation == kOpName) {
+        if (operation == op_name) {
             all.names[words[1]] = text_at(words.subspan(2));
-        } else if (operation == kOpDecorate) {
+        } else if (operation == op_decorate) {
             all.decorations[words[1]][words[2]] = words.size() > 3 ? words[3] : 0;
-        } else if (operation == kOpTypeImage) {
+        } else if (operation == op_type_image) {
             all.types[words[1]] = type_of_image(words);
-        } else if (operation == kOpTypeSampledImage) {
+        } else if (operation == op_type_sampled_image) {
             all.types[words[1]] = all.types[words[2]];
-        } else if (operation == kOpTypePointer) {
+        } else if (operation == op_type_pointer) {
             all.pointees[words[1]] = words[3];
         }
     });
@@ -136,7 +136,7 @@ std::string why_loose(const Declarations& all, std::uint32_t operation,
     if (rounds_at_will(operation)) {
         return "operation " + std::to_string(operation) + " has roundings of its own";
     }
-    if (operation == kOpExtInst && !is_exact_function(words[4])) {
+    if (operation == op_ext_inst && !is_exact_function(words[4])) {
         return "GLSL function " + std::to_string(words[4]) + " is not exact";
     }
     return {};
@@ -149,11 +149,11 @@ std::map<std::string, Offsets> struct_offsets(std::span<const std::uint32_t> spi
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> members;
     std::map<std::string, Offsets> result;
     for_each_instruction(spirv, [&](std::uint32_t operation, const auto& words) {
-        if (operation == kOpName) {
+        if (operation == op_name) {
             names[words[1]] = text_at(words.subspan(2));
-        } else if (operation == kOpMemberName) {
+        } else if (operation == op_member_name) {
             members[{words[1], words[2]}] = text_at(words.subspan(3));
-        } else if (operation == kOpMemberDecorate && words[3] == kDecorationOffset) {
+        } else if (operation == op_member_decorate && words[3] == kDecorationOffset) {
             result[names[words[1]]][members[{words[1], words[2]}]] = words[4];
         }
     });
@@ -164,7 +164,7 @@ std::vector<DeclaredBinding> declared_bindings(std::span<const std::uint32_t> sp
     const Declarations all = declarations_of(spirv);
     std::vector<DeclaredBinding> result;
     for_each_instruction(spirv, [&](std::uint32_t operation, const auto& words) {
-        if (operation == kOpVariable && all.decorated(words[2], kDecorationBinding)) {
+        if (operation == op_variable && all.decorated(words[2], kDecorationBinding)) {
             const auto& decorations = all.decorations.at(words[2]);
             result.push_back({decorations.at(kDecorationDescriptorSet),
                               decorations.at(kDecorationBinding),
@@ -181,7 +181,7 @@ std::vector<LooseOperation> loose_operations(std::span<const std::uint32_t> spir
     std::vector<LooseOperation> result;
     std::uint32_t function = 0;
     for_each_instruction(spirv, [&](std::uint32_t operation, const auto& words) {
-        if (operation == kOpFunction) {
+        if (operation == op_function) {
             function = words[2];
         }
         if (std::string why = why_loose(all, operation, words); !why.empty()) {

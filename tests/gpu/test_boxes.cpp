@@ -310,8 +310,8 @@ TEST_SUITE("boxes") {
                     CHECK(set.points == plain_set(box));
                     CHECK(set.report.candidates == ref::draw_in_box(box).points.size());
                     CHECK(smallest_distance2(box, set) >= box.min_distance * box.min_distance);
-                    CHECK(std::abs(static_cast<double>(set.points.size() / n) - count) <
-                          0.1 * count + 6);
+                    CHECK(std::abs(static_cast<double>(set.points.size()) / static_cast<double>(n) -
+                                   count) < 0.1 * count + 6);
                 }
             }
         }

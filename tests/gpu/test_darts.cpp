@@ -267,7 +267,7 @@ TEST_SUITE("darts") {
             return; // A GPU that binds all.
         }
         const SampleParams params =
-            params_for(mesh, 1.5 * static_cast<double>(binding / 4) / kDefaultPoolRatio);
+            params_for(mesh, 1.5 * static_cast<double>(binding) / (4 * kDefaultPoolRatio));
         const Domain domain = expect(Domain::surface(mesh, params));
         const RunPlan plan = expect(sampler.plan_run(domain, std::uint64_t{64} << 20));
         CHECK(plan.stages == 2);

@@ -70,7 +70,7 @@ void check_density(const Case& c, std::uint32_t count, int parts) {
     params.throws = count;
     const ref::Surface<double> surface(c.surface, params);
     const auto points = ref::draw_pool(surface, c.surface, params).by_rank();
-    const auto cells = static_cast<std::size_t>(parts * parts);
+    const auto cells = static_cast<std::size_t>(parts) * static_cast<std::size_t>(parts);
     std::vector<double> drawn(c.surface.face_count() * cells, 0.0);
     std::vector<double> expected(drawn.size(), 0.0);
     for (const auto& p : points) {

@@ -36,6 +36,7 @@ ref::Pool<Real> pool_of(const PreparedMesh& mesh, const SampleParams& params) {
 template <class Real>
 std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
     std::vector<ref::FacePoint<Real>> result;
+    result.reserve(points.size());
     for (const Point& p : points) {
         result.push_back({p.face, static_cast<Real>(p.weight1), static_cast<Real>(p.weight2)});
     }
@@ -169,8 +170,8 @@ TEST_CASE("candidates: those of a face by hand") {
     for (std::uint32_t k = 0; k < count; ++k) {
         const auto random = ref::philox(params.seed, {keys[2], k, 3, 0});
         CHECK(priorities[k] == random[0] / 16);
-        const double alpha = (random[2] / 512 + 0.5) * 0x1p-23;
-        const double beta = (random[3] / 512 + 0.5) * 0x1p-23;
+        const double alpha = ((random[2] >> 9) + 0.5) * 0x1p-23;
+        const double beta = ((random[3] >> 9) + 0.5) * 0x1p-23;
         CHECK(points[k].face == 2);
         CHECK(std::abs(static_cast<double>(points[k].weight1) - std::sqrt(alpha) * (1 - beta)) <
               0x1p-22);
@@ -232,7 +233,7 @@ TEST_CASE("candidates: uniform by area over the triangles") {
 TEST_CASE("candidates: uniform inside a triangle, in every stage") {
     const TestMesh mesh{{0, 0, 0, 1, 0, 0, 0.2, 0.7, 0}, {0, 1, 2}};
     const PreparedMesh surface = prepared(mesh);
-    constexpr std::uint32_t kParts = 16; // 256 equal sub-triangles
+    constexpr std::size_t kParts = 16; // 256 equal sub-triangles
     const SampleParams params = params_for(surface, 50000, 99);
     const auto pool = pool_of<double>(surface, params);
     std::vector<std::vector<double>> counts(4, std::vector<double>(kParts * kParts, 0));

@@ -48,8 +48,8 @@ struct Part {
         for (std::uint32_t f = whole.face_count(); f-- > 0;) {
             if (whole.corner(f, 0).x + whole.corner(f, 1).x + whole.corner(f, 2).x > 0) {
                 keys.push_back(f);
-                mesh.add_triangle(whole.triangles[3 * f], whole.triangles[3 * f + 1],
-                                  whole.triangles[3 * f + 2]);
+                const std::uint32_t* const corners = &whole.triangles[std::size_t{3} * f];
+                mesh.add_triangle(corners[0], corners[1], corners[2]);
             }
         }
     }

@@ -135,7 +135,7 @@ TEST_CASE("views: layouts that cannot be read are refused") {
     const std::uint16_t narrow[4] = {0, 1, 2};
     REQUIRE(PreparedMesh::prepare({{floats, 3, 16}, wide}));
     const auto off = [](const auto* pointer, std::size_t bytes) {
-        // Never read: an address alone.
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): an address alone, never read.
         return reinterpret_cast<decltype(pointer)>(reinterpret_cast<std::uintptr_t>(pointer) +
                                                    bytes);
     };

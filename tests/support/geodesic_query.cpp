@@ -14,6 +14,7 @@ ref::FacePoint<Real> converted(const Point& p) {
 template <class Real>
 std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
     std::vector<ref::FacePoint<Real>> result;
+    result.reserve(points.size());
     for (const Point& p : points) {
         result.push_back(converted<Real>(p));
     }

@@ -160,14 +160,14 @@ TEST_CASE("hostile glTF files are refused") {
             R"(, {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}])";
         return parts;
     };
-    const char* const kBeyond = "mesh 0, primitive 0: its data reach beyond";
+    const char* const beyond = "mesh 0, primitive 0: its data reach beyond";
     check_refused(
         with_accessor(
             R"({"bufferView": 0, "componentType": 5126, "count": 1000000000, "type": "VEC3"})"),
-        kBeyond);
+        beyond);
     check_refused(
         with_accessor(R"({"bufferView": 0, "componentType": 5126, "count": 5, "type": "VEC3"})"),
-        kBeyond);
+        beyond);
     check_refused(
         with_accessor(
             R"({"bufferView": 0, "componentType": 5126, "count": 4611686018427387905, "type": "VEC3"})"),
@@ -175,7 +175,7 @@ TEST_CASE("hostile glTF files are refused") {
     check_refused(
         with_accessor(
             R"({"bufferView": 0, "byteOffset": 4, "componentType": 5126, "count": 4, "type": "VEC3"})"),
-        kBeyond);
+        beyond);
     check_refused(
         with_accessor(
             R"({"bufferView": 0, "byteOffset": 18446744073709551612, "componentType": 5126, "count": 4, "type": "VEC3"})"),
@@ -196,7 +196,7 @@ TEST_CASE("hostile glTF files are refused") {
             R"({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "sparse":
              {"count": 2, "indices": {"bufferView": 1, "byteOffset": 8, "componentType": 5125},
               "values": {"bufferView": 0}}})"),
-        kBeyond);
+        beyond);
     check_refused(
         with_accessor(
             R"({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "sparse":
