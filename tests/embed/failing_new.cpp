@@ -14,7 +14,8 @@ thread_local bool failed = false;
 
 } // namespace
 
-// Of the whole program; the other forms of the operators call these.
+// Of the whole program; the other forms of the operators call these. That of no exceptions does so
+// here, as sanitizers bring one that does not, whose memory would reach this operator delete.
 void* operator new(std::size_t size) {
     if (left != kNever && left-- == 0) {
         left = kNever;
@@ -25,6 +26,14 @@ void* operator new(std::size_t size) {
         return memory;
     }
     throw std::bad_alloc();
+}
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
 }
 
 void operator delete(void* memory) noexcept {

@@ -33,7 +33,8 @@ std::vector<gpu::SampleRec> finish_often(DeviceRun& run, std::uint32_t stages) {
         run.finish();
         const auto now = run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready);
         REQUIRE(now.size() >= ready.size());
-        changed += std::memcmp(now.data(), ready.data(), ready.size() * sizeof ready[0]) != 0;
+        changed += !ready.empty() &&
+                   std::memcmp(now.data(), ready.data(), ready.size() * sizeof ready[0]) != 0;
         steps += now.size() > ready.size();
         ready = now;
     };
