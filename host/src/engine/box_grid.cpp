@@ -98,8 +98,8 @@ BoxGrid::BoxGrid(const BoxParams& box, const DrawAxes& lattice, std::uint32_t ca
         axes[i].per_step = cells > 1 ? static_cast<std::uint32_t>(per_step) : 0;
         axes[i].width = static_cast<float>(cells > 1 ? 0x1p32 / per_step * step : side);
     }
-    heads = std::bit_ceil(
-        static_cast<std::uint32_t>(std::min<double>(all_cells, kHeadsPerCandidate * candidates)));
+    const auto most = static_cast<double>(kHeadsPerCandidate * candidates);
+    heads = std::bit_ceil(static_cast<std::uint32_t>(std::min(all_cells, most)));
     const bool fits = all_cells <= heads;
     std::uint32_t cells_before = 1;
     for (std::size_t i = 0; i < box.extents.size(); ++i) {
