@@ -17,6 +17,7 @@ struct Name {
     consteval Name(const char (&from)[kSize]) { std::copy_n(from, kSize, text); }
 };
 
+// NOLINTBEGIN(bugprone-sizeof-expression): of a handle, which may be a pointer.
 template <class Handle>
 std::uint64_t number_of(Handle handle) {
     std::uint64_t number = 0;
@@ -28,6 +29,7 @@ template <class Handle>
 void make_garbage(Handle& handle) {
     std::memset(&handle, 0x5b, sizeof(Handle));
 }
+// NOLINTEND(bugprone-sizeof-expression)
 
 // The specification promises a null handle for a pipeline that could not be created.
 void make_garbage(VkPipeline& pipeline) {

@@ -172,12 +172,11 @@ std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceRepo
 // there is room for all of it.
 std::uint32_t wanted_sample_capacity(double samples, std::uint32_t stop_count, std::uint32_t slots,
                                      const DeviceReport& report) {
-    const auto bound =
-        static_cast<double>(report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec));
+    const std::uint64_t most = report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec);
     double capacity = std::ceil(1.5 * samples) + 64;
     capacity = stop_count != 0 ? std::min<double>(capacity, stop_count) : capacity;
-    return static_cast<std::uint32_t>(
-        std::min(capacity + slots, std::max(bound, std::ceil(samples) + slots)));
+    return static_cast<std::uint32_t>(std::min(
+        capacity + slots, std::max(static_cast<double>(most), std::ceil(samples) + slots)));
 }
 
 std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) noexcept {

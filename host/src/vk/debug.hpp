@@ -20,8 +20,10 @@ void name_object(const DeviceTable& vk, VkDevice device, VkObjectType type, Hand
     VkDebugUtilsObjectNameInfoEXT info{};
     info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
     info.objectType = type;
+    // NOLINTBEGIN(bugprone-sizeof-expression): of a handle, which may be a pointer.
     static_assert(sizeof(Handle) <= sizeof info.objectHandle);
     std::memcpy(&info.objectHandle, &handle, sizeof(Handle));
+    // NOLINTEND(bugprone-sizeof-expression)
     info.pObjectName = name;
     vk.vkSetDebugUtilsObjectNameEXT(device, &info);
 }
