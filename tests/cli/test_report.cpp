@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <nlohmann/json.hpp>
 
@@ -52,6 +53,25 @@ bool is_plain(const std::string& text) {
 
 } // namespace
 
+TEST_CASE("a count that its distance misses is come near to, by a distance that can be given") {
+    const TemporaryFolder folder;
+    const auto sample = [&](const Arguments& more, const std::string& name) {
+        const Arguments all =
+            joined({"sample", "builtin:tube", "-o", name + ".csv", "--json", "a.json"}, more);
+        const Outcome outcome = run(folder, all);
+        REQUIRE(outcome.status == 0);
+        CHECK(contains(outcome.out, " of about 30 asked for, in ") == (name == "near"));
+        return Json::parse(bytes_of(folder / "a.json"));
+    };
+    const Json near = sample({"--count", "30"}, "near");
+    CHECK(near["runs"] > 1);
+    CHECK(std::abs(near["samples"].get<int>() - 30) <= 1);
+    const Json given = sample({"--min-distance", near["min_distance"].dump()}, "given");
+    CHECK(given["runs"] == 1);
+    CHECK(given["samples"] == near["samples"]);
+    CHECK(bytes_of(folder / "near.csv") == bytes_of(folder / "given.csv"));
+}
+
 TEST_CASE("the report has every documented key") {
     const TemporaryFolder folder;
     const Outcome outcome = run(folder, {"sample", "builtin:cube", "-o", "a.ply", "-n", "300",
@@ -62,7 +82,7 @@ TEST_CASE("the report has every documented key") {
     check_seconds(report["seconds"]);
     for (const char* const key :
          {"seed", "candidates", "samples", "iterations", "dispatches", "disks", "windows",
-          "most_waiting", "regrown", "device_bytes", "tested", "longest_chain", "chunks"}) {
+          "most_waiting", "regrown", "device_bytes", "tested", "longest_chain", "chunks", "runs"}) {
         INFO(key);
         CHECK(report[key].is_number_unsigned());
     }
