@@ -77,9 +77,9 @@ Result<Done> Runner::Impl::check_rounding() {
         return results.error();
     }
     std::memcpy(results->bytes().data(), vectors.data(), vectors.size() * sizeof(Vector));
-    constexpr auto k = static_cast<std::size_t>(Kernel::self_test);
-    const VkDescriptorSetLayout set_layout = sampler_impl.pipelines.set_layout(k);
-    const VkPipelineLayout layout = sampler_impl.pipelines.layout(k);
+    constexpr auto kKernel = static_cast<std::size_t>(Kernel::self_test);
+    const VkDescriptorSetLayout set_layout = sampler_impl.pipelines.set_layout(kKernel);
+    const VkPipelineLayout layout = sampler_impl.pipelines.layout(kKernel);
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
     VkDescriptorPool pool = VK_NULL_HANDLE;
     if (auto created = create_descriptor_pool(sampler_impl.device, vk, {&size, 1}, 1, pool);
@@ -99,7 +99,7 @@ Result<Done> Runner::Impl::check_rounding() {
     push.scan_count = kVectors;
     const auto record = [&](VkCommandBuffer commands) {
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                             sampler_impl.pipelines.common()[k]);
+                             sampler_impl.pipelines.common()[kKernel]);
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0,
                                    nullptr);
         vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
