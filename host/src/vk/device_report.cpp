@@ -21,9 +21,9 @@ constexpr std::uint64_t kNeededPushConstantsSize = 128;
 constexpr std::uint64_t kNeededSharedMemorySize = 16'384;
 
 /// A string of a fixed-size field, which a faulty driver may have left without its terminator.
-template <std::size_t Size>
-std::string text_of(const char (&field)[Size]) {
-    return std::string(field, std::find(field, field + Size, '\0'));
+template <std::size_t kSize>
+std::string text_of(const char (&field)[kSize]) {
+    return std::string(field, std::find(field, field + kSize, '\0'));
 }
 
 void read_properties(const VkPhysicalDeviceProperties& properties, DeviceReport& report) {
