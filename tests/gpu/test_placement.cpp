@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -97,7 +98,8 @@ struct Scene {
         CHECK(draw.firstInstance == 0);
         REQUIRE(draw.instanceCount == run.control().ready);
         std::vector<gpu::PlacedRec> points(draw.instanceCount);
-        std::memcpy(points.data(), placed.bytes().data(), points.size() * sizeof points[0]);
+        const auto bytes = std::as_writable_bytes(std::span(points));
+        std::copy_n(placed.bytes().begin(), bytes.size(), bytes.begin());
         return points;
     }
 
