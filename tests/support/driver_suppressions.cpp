@@ -1,5 +1,5 @@
 // Under AddressSanitizer and ThreadSanitizer: leaves out the leaks and races of the validation
-// layer and of lavapipe, which are not ours. What we fail to destroy is found by the validation
+// layer and of drivers, which are not ours. What we fail to destroy is found by the validation
 // layer instead.
 #include "sanitizers.hpp"
 
@@ -14,7 +14,8 @@
 // NOLINTBEGIN(bugprone-reserved-identifier): names of the sanitizers'.
 GEODISK_LOOKED_UP const char* __lsan_default_suppressions() {
     return "leak:libVkLayer_khronos_validation\n"
-           "leak:libvulkan_lvp\n";
+           "leak:libvulkan_lvp\n"
+           "leak:libvulkan_radeon\n";
 }
 
 // What it suppresses would follow what the program prints.
@@ -36,7 +37,8 @@ namespace {
 
 // A library is known by its name, and has to stay loaded for that.
 [[maybe_unused]] const bool kKeptLoaded = [] {
-    for (const char* name : {"libVkLayer_khronos_validation.so", "libvulkan_lvp.so"}) {
+    for (const char* name :
+         {"libVkLayer_khronos_validation.so", "libvulkan_lvp.so", "libvulkan_radeon.so"}) {
         dlopen(name, RTLD_LAZY | RTLD_NODELETE);
     }
     return true;
