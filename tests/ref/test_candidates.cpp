@@ -244,7 +244,7 @@ TEST_CASE("candidates: uniform inside a triangle, in every stage") {
         const bool upper = p.weight1 * kParts - i + p.weight2 * kParts - j > 1;
         // Rows of 2 (kParts - i) - 1 triangles.
         counts[pool.word(rank) >> 28]
-              [kParts * kParts - (kParts - i) * (kParts - i) + 2 * j + upper] += 1;
+              [kParts * kParts - (kParts - i) * (kParts - i) + std::size_t{2} * j + upper] += 1;
     }
     for (const std::vector<double>& stage : counts) {
         const double total = std::accumulate(stage.begin(), stage.end(), 0.0);
