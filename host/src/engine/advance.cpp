@@ -17,7 +17,7 @@ namespace {
 Result<std::uint32_t> larger_capacity(const gpu::ControlRec& control, std::uint32_t slots,
                                       const DeviceReport& report) {
     const std::uint64_t most = report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec);
-    const std::uint64_t least = std::uint64_t{control.accepted} + slots + 1;
+    const std::uint64_t least = least_sample_capacity(control, slots);
     const std::uint64_t capacity = std::min(least + control.accepted / 2, std::max(most, least));
     if (capacity > most) {
         return Error{Status::job_too_large,

@@ -23,6 +23,20 @@ namespace {
 // Beside a minimum distance of one.
 constexpr double kMostError = 0.5;
 
+/// Whether a buffer of a workspace will do, beside the first `others` buffers of it.
+Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
+                          std::size_t others, const auto& name, const Sampler::Impl& sampler) {
+    if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {
+        return checked;
+    }
+    for (std::size_t k = 0; k < others; ++k) {
+        if (k != role && overlap(workspace[role], workspace[k])) {
+            return overlap_error(name(role), name(k));
+        }
+    }
+    return Done{};
+}
+
 Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
                              const Domain::Impl& of, const Sampler::Impl& sampler) {
     const auto name = [&of](std::size_t i) { return of.name_of(static_cast<BufferRole>(i)); };
@@ -30,13 +44,8 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
         if (needs.bytes[i] == 0) {
             continue;
         }
-        if (auto checked = check_range(workspace[i], name(i), needs.bytes[i], sampler); !checked) {
+        if (auto checked = check_buffer(workspace, i, needs.bytes[i], i, name, sampler); !checked) {
             return checked;
-        }
-        for (std::size_t k = 0; k < i; ++k) {
-            if (overlap(workspace[i], workspace[k])) {
-                return overlap_error(name(i), name(k));
-            }
         }
     }
     return Done{};
@@ -46,15 +55,7 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
                                const Sampler::Impl& sampler) {
     const auto name = [](std::size_t i) { return to_string(static_cast<BufferRole>(i)); };
-    if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {
-        return checked;
-    }
-    for (std::size_t k = 0; k < kBufferRoles; ++k) {
-        if (k != role && overlap(workspace[role], workspace[k])) {
-            return overlap_error(name(role), name(k));
-        }
-    }
-    return Done{};
+    return check_buffer(workspace, role, needed, kBufferRoles, name, sampler);
 }
 
 /// What the shaders rely on without looking.

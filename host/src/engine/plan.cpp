@@ -136,6 +136,10 @@ std::uint32_t bucket_count(std::uint32_t capacity) noexcept {
     return std::clamp(std::bit_ceil(capacity / kCandidatesPerBucket), kLeastBuckets, kMostBuckets);
 }
 
+std::uint64_t least_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept {
+    return std::uint64_t{control.accepted} + slots + 1;
+}
+
 std::uint32_t cpu_lanes(const DeviceReport& report) {
     return std::max(1u, std::thread::hardware_concurrency()) *
            std::max(1u, report.limits.subgroup_size);

@@ -47,6 +47,9 @@ std::uint32_t bucket_count(std::uint32_t capacity) noexcept;
 /// Bytes of samples, accepted and buckets.
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept;
 
+/// Room that a run needs to go on: for the samples so far and all of a batch.
+std::uint64_t least_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept;
+
 /// Invocations that a CPU runs at a time.
 std::uint32_t cpu_lanes(const DeviceReport& report);
 

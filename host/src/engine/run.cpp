@@ -292,7 +292,9 @@ bool Run::fit_samples(Advice& advice) const {
         const auto bytes = job_->sample_bytes(capacity);
         return others + bytes[0] + bytes[1] + bytes[2] <= most_bytes_;
     };
-    const std::uint32_t least = control_.accepted + job_->plan().slots + 1;
+    // advance() has found that it fits 32 bits.
+    const auto least =
+        static_cast<std::uint32_t>(least_sample_capacity(control_, job_->plan().slots));
     if (!fits(advice.sample_capacity) && fits(least)) {
         advice.sample_capacity = least;
     }

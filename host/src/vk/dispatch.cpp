@@ -42,6 +42,17 @@ const char* first_null(const DeviceRefs& refs) noexcept {
     if (table.name == nullptr && missing == nullptr)                                               \
         missing = #name;
 
+/// A table that `fill` fills by `find`, of functions of `owner`.
+template <class Table, class Find, class Fill>
+Result<Table> filled(const char* owner, const Find& find, Fill&& fill) {
+    Table table;
+    const char* missing = nullptr;
+    fill(table, find, missing);
+    if (missing != nullptr)
+        return missing_function(owner, missing);
+    return table;
+}
+
 /// Fills a table of functions of an instance.
 template <class Table, class Fill>
 Result<Table> instance_table(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
@@ -50,13 +61,8 @@ Result<Table> instance_table(PFN_vkGetInstanceProcAddr get_instance_proc_addr, V
         return null_argument("get_instance_proc_addr");
     if (instance == VK_NULL_HANDLE)
         return null_argument("instance");
-    Table table;
-    const char* missing = nullptr;
-    fill(
-        table, [&](const char* name) { return get_instance_proc_addr(instance, name); }, missing);
-    if (missing != nullptr)
-        return missing_function("instance", missing);
-    return table;
+    const auto find = [&](const char* name) { return get_instance_proc_addr(instance, name); };
+    return filled<Table>("instance", find, fill);
 }
 
 /// Fills a table of functions of a device.
@@ -70,13 +76,8 @@ Result<Table> device_table(const DeviceRefs& refs, Fill&& fill) {
         refs.get_instance_proc_addr(refs.instance, "vkGetDeviceProcAddr"));
     if (get_device_proc_addr == nullptr)
         return missing_function("instance", "vkGetDeviceProcAddr");
-    Table table;
-    const char* missing = nullptr;
-    fill(
-        table, [&](const char* name) { return get_device_proc_addr(refs.device, name); }, missing);
-    if (missing != nullptr)
-        return missing_function("device", missing);
-    return table;
+    const auto find = [&](const char* name) { return get_device_proc_addr(refs.device, name); };
+    return filled<Table>("device", find, fill);
 }
 
 } // namespace
