@@ -126,7 +126,7 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
 
 /// The buffer behind a binding; the scan kernels work on whatever is bound as cells.
 std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
-    if (binding == gpu::kBindCells || binding == gpu::kBindCellsTexels) {
+    if (binding == gpu::kBindCells) {
         switch (role) {
         case SetRole::workspace:
         case SetRole::cell_scan:
@@ -137,16 +137,7 @@ std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
             return gpu::kBindBuckets;
         }
     }
-    switch (binding) {
-    case gpu::kBindPoolTexels:
-        return gpu::kBindPool;
-    case gpu::kBindStatesTexels:
-        return gpu::kBindStates;
-    case gpu::kBindOrdersTexels:
-        return gpu::kBindOrders;
-    default:
-        return binding;
-    }
+    return binding == gpu::kBindPoolTexels ? gpu::kBindPool : binding;
 }
 
 /// Whether some kernel reads this buffer as texels, by whatever binding.
