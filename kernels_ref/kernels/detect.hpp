@@ -3,13 +3,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,14 +32,12 @@ struct DiskCount {
     std::uint32_t tested = 0;       ///< Points whose distance was computed.
 };
 
-/// Triangles that lie upon each other, narrower than rounding, make windows without end, and edges
-/// of many faces more than can be waited for.
+/// Edges of many faces make more windows than can be waited for, and very many triangles in a disk.
 struct EndlessDisk : std::runtime_error {
     explicit EndlessDisk(std::uint32_t face)
         : std::runtime_error("the geodesic disk of a point on face " + std::to_string(face) +
-                             " does not end in any bearable time: it holds triangles narrower "
-                             "than rounding upon each other, edges of three and more all over it, "
-                             "or very many triangles far smaller than the distance") {}
+                             " does not end in any bearable time: it holds edges of many faces all "
+                             "over it, or very many triangles far smaller than the distance") {}
 };
 
 /// For distances in double precision: only its rounding has to be allowed for.
@@ -103,15 +101,14 @@ class Detector {
                 const Window window = windows_.back();
                 windows_.pop_back();
                 cross_edge(window, wanted, hit);
-            } else if (trims_ && waiting_ > 0) {
-                const Event event = take_nearest();
+            } else if (events_taken_ < events_.size()) {
+                const Event event = take_event();
                 if (event.vertex == gpu::kWindowWaits) {
-                    cross_edge(Window{windows_[event.corner]}, wanted, hit);
+                    free_windows_.push_back(event.place);
+                    cross_edge(Window{windows_[event.place]}, wanted, hit);
                 } else {
                     spread_from_vertex(event, wanted, hit);
                 }
-            } else if (events_taken_ < events_.size()) {
-                spread_from_vertex(take_event(), wanted, hit);
             } else {
                 return count_;
             }
@@ -130,14 +127,16 @@ class Detector {
         std::uint32_t remembered;
     };
     /// A vertex reached by a path of length sigma that came in through `corner`. Where windows are
-    /// trimmed they wait with the events: kWindowWaits, and where they are in windows_.
+    /// trimmed they wait with the events, by their distance: kWindowWaits, how many were pushed
+    /// before, and where in windows_ they are.
     struct Event {
         std::uint32_t vertex, corner;
         Real sigma;
         std::uint32_t chain;
+        std::uint32_t place = 0;
     };
     static bool is_farther(const Event& a, const Event& b) {
-        return a.sigma > b.sigma || (a.sigma == b.sigma && a.vertex > b.vertex);
+        return std::tie(a.sigma, a.vertex, a.corner) > std::tie(b.sigma, b.vertex, b.corner);
     }
     struct VertexNote {
         Real distance;
@@ -154,12 +153,9 @@ class Detector {
         ++generation_;
         kept_.begin_disk();
         windows_.clear();
+        free_windows_.clear();
         events_.clear();
         events_taken_ = 0;
-        if (waiting_ > 0) { // Of a disk that did not end.
-            bands_ = {};
-            waiting_ = 0;
-        }
         count_.vertices = 0;
     }
 
@@ -185,56 +181,46 @@ class Detector {
     }
 
     void push(const Window& record, Real distance) {
-        windows_.push_back(record);
-        ++count_.windows;
         if (trims_) {
-            wait(Event{gpu::kWindowWaits, static_cast<std::uint32_t>(windows_.size() - 1), distance,
-                       record.chain});
+            push(Event{gpu::kWindowWaits, count_.windows, distance, record.chain, keep(record)});
         } else {
+            windows_.push_back(record);
+            ++count_.windows;
             count_waiting(windows_.size(), record.chain);
         }
     }
 
+    /// Where windows are trimmed; returns the place.
+    std::uint32_t keep(const Window& record) {
+        if (free_windows_.empty()) {
+            windows_.push_back(record);
+            return static_cast<std::uint32_t>(windows_.size() - 1);
+        }
+        const std::uint32_t place = free_windows_.back();
+        free_windows_.pop_back();
+        windows_[place] = record;
+        return place;
+    }
+
     void push(const Event& event) {
         ++count_.windows;
-        if (trims_) {
-            wait(event);
-            return;
-        }
         events_.push_back(event);
-        if (!oldest_first_) {
+        if (in_heap()) {
             std::push_heap(events_.begin(), events_.end(), is_farther);
         }
         count_waiting(events_.size() - events_taken_, event.chain);
     }
 
+    /// Whether events are taken by distance, and not in the order they came.
+    bool in_heap() const { return trims_ || !oldest_first_; }
+
     Event take_event() {
-        if (oldest_first_) {
+        if (!in_heap()) {
             return events_[events_taken_++];
         }
         std::pop_heap(events_.begin(), events_.end(), is_farther);
         const Event event = events_.back();
         events_.pop_back();
-        return event;
-    }
-
-    /// Where windows are trimmed all waits in bands by distance.
-    void wait(const Event& event) {
-        const Real bands = event.sigma * static_cast<Real>(gpu::kBandsPerDistance);
-        bands_[std::min(static_cast<std::uint32_t>(bands), gpu::kBands - 1)].push_back(event);
-        ++waiting_;
-        count_waiting(waiting_, event.chain);
-    }
-
-    /// Of the nearest band the last one.
-    Event take_nearest() {
-        auto band = bands_.begin();
-        while (band->empty()) {
-            ++band;
-        }
-        const Event event = band->back();
-        band->pop_back();
-        --waiting_;
         return event;
     }
 
@@ -647,13 +633,12 @@ class Detector {
     std::vector<Grid> grids_;
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
-    std::vector<Window> windows_; ///< A stack; where they are trimmed, all of the disk.
+    std::vector<Window> windows_; ///< A stack; where they are trimmed, in places of their own.
+    std::vector<std::uint32_t> free_windows_; ///< Those places of windows taken.
     bool trims_all_ = false;
     bool trims_ = false;          ///< In this disk.
     std::uint32_t untrimmed_ = 0; ///< Windows and events pushed before it began to.
     KeptWindows<Real> kept_;
-    std::array<std::vector<Event>, gpu::kBands> bands_; ///< Empty between disks.
-    std::size_t waiting_ = 0;                           ///< In them.
     bool oldest_first_ = false;
     std::vector<Event> events_;    ///< A heap, the nearest on top; or all of the disk as they came.
     std::size_t events_taken_ = 0; ///< Of those.

@@ -15,8 +15,8 @@
 
 namespace geodisk::ref {
 
-/// Of the windows of a disk that came to edges, the widest and the last for each edge; of some
-/// edges, since there is room for kKeptEdges.
+/// Of the windows of a disk that came to edges, the widest for each edge and the last that was
+/// narrower; of some edges, since there is room for kKeptEdges.
 template <class Real>
 class KeptWindows {
   public:
@@ -48,11 +48,15 @@ class KeptWindows {
                 return true;
             }
         }
-        auto& [widest, last] = kept;
-        last = {start, end, generation_, window};
-        if (!is_of_edge(widest) || window.b1 - window.b0 >= widest.window.b1 - widest.window.b0) {
-            widest = last;
-        }
+        // The narrowest gives way, or one of another edge.
+        const auto width = [&](const Row& row) {
+            return is_of_edge(row) ? row.window.b1 - row.window.b0 : Real{-1};
+        };
+        Row& narrowest =
+            *std::min_element(kept.begin(), kept.end() - 1,
+                              [&](const Row& a, const Row& b) { return width(a) < width(b); });
+        Row& own = window.b1 - window.b0 < width(narrowest) ? kept.back() : narrowest;
+        own = {start, end, generation_, window};
         return false;
     }
 

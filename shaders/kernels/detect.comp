@@ -199,20 +199,17 @@ void take_next() {
         }
     } else if (is_endless()) {
         overflow |= kOverflowEndless;
-    } else if (trims() && lane.event_tail > 0u) {
-        uint place = take_place();
-        uvec4 row = own_row_at(pool, event_row(place));
-        if (row.x == kWindowWaits) {
-            take_window(place);
-        } else {
-            take_event(row);
-        }
-        free_place(place);
     } else if (!trims() && lane.windows > 0u) {
         --lane.windows;
         take_window(lane.windows);
     } else if (lane.event_head != lane.event_tail) {
-        take_event(pop_event());
+        uvec4 row = pop_event();
+        if (kTrims && row.x == kWindowWaits) {
+            take_window(row.z);
+            give_back_window(row.z);
+        } else {
+            take_event(row);
+        }
     } else {
         lane.phase = kPhaseBlock;
         lane.cursor = 0u;

@@ -9,7 +9,6 @@ uint first_event;  // among the rows of the lane
 uint first_remembered;
 uint first_vertex;
 uint first_kept;
-uint first_band;
 
 // A row of this lane in the pool.
 uint own_row(uint at) { return slice + at * kPoolBlock; }
@@ -21,7 +20,6 @@ void load_lane(uint index) {
     first_remembered = first_event + P.window_capacity;
     first_vertex = first_remembered + ((P.window_capacity + 3u) >> 2);
     first_kept = first_vertex + P.table_capacity;
-    first_band = first_kept + kKeptRows * kKeptPerEdge * kKeptEdges;
     overflow = 0u;
     uvec4 a = own_row_at(pool, own_row(0u));
     uvec4 b = own_row_at(pool, own_row(1u));
@@ -44,7 +42,7 @@ void load_lane(uint index) {
     lane.scan_columns = g.x, lane.scan_stride = g.y, lane.tested = g.z, lane.pushed = g.w;
     lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z, lane.remembered = h.w;
     lane.entered_by = i.x, lane.entry_angles = i.y, lane.fan_angle = i.z, lane.fan_flags = i.w;
-    lane.trims = j.x, lane.free_place = j.y, lane.bands_low = j.z, lane.bands_high = j.w;
+    lane.trims = j.x, lane.free_place = j.y;
 }
 
 void save_lane() {
@@ -62,7 +60,7 @@ void save_lane() {
         uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, lane.remembered);
     pool[own_row(8u)] =
         uvec4(lane.entered_by, lane.entry_angles, lane.fan_angle, lane.fan_flags);
-    pool[own_row(9u)] = uvec4(lane.trims, lane.free_place, lane.bands_low, lane.bands_high);
+    pool[own_row(9u)] = uvec4(lane.trims, lane.free_place, 0u, 0u);
 }
 
 // What the lane knows of vertices and windows is empty, as of its table's next disk.
@@ -71,9 +69,7 @@ void begin_windows() {
     lane.generation = wrapped ? 1u : lane.generation + 1u;
     lane.phase = wrapped ? kPhaseClear : kPhaseSource;
     lane.windows = 0u;
-    lane.free_place = kNothingWaits;
-    lane.bands_low = 0u;
-    lane.bands_high = 0u;
+    lane.free_place = kNoWindow;
     lane.event_head = 0u;
     lane.event_tail = 0u;
     lane.mode = kModeInside;

@@ -25,13 +25,19 @@ float reach() { return kAdaptive ? limit_with(radii.w) : P.limit; }
 // Nor, beyond this one, to a candidate in the face.
 float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : P.limit; }
 
+// Of a struct that is assigned whole, by an index that comes from its own members, glslang 12 asks
+// without end what is precise. It does not look into functions.
+void load_into(out Edge side, uint face, uint corner, uvec4 lengths) {
+    side = load_edge(face, corner, lengths);
+}
+
 void load_face() {
     uint face = lane.half_edge / 3u;
     uint corner = lane.half_edge - 3u * face;
     uvec4 lengths = load_lengths(face);
-    edge = load_edge(face, corner, lengths);
-    right = load_edge(face, next_corner(corner), lengths);
-    left = load_edge(face, previous_corner(corner), lengths);
+    load_into(edge, face, corner, lengths);
+    load_into(right, face, next_corner(corner), lengths);
+    load_into(left, face, previous_corner(corner), lengths);
     apex = apex_of(edge, left);
     cell_word = P.all_single != 0u ? kSingleCell << kFaceCornerShift | face * P.stages : lengths.w;
     if (kAdaptive) {

@@ -1,7 +1,8 @@
 // Windows trimmed against each other (Mitchell, Mount and Papadimitriou 1987), in disks that make very
 // many: around needles and thin tubes, and at edges of many faces. Of the windows that came to an edge,
-// from whichever face, the widest and the last are kept, in a table of constant size where other edges may
-// take their place, which only lets windows live. kernels_ref/kernels/trim.hpp is the same.
+// from whichever face, the widest are kept and the last that was narrower, in a table of constant size
+// where other edges may take their place, which only lets windows live. kernels_ref/kernels/trim.hpp is
+// the same.
 //
 // Whether a disk trims hangs on nothing but the disk, and never on the plan of the run, so that what it
 // computes does not either. Rows of a window, in the frame of the edge from its lower vertex on: (lower
@@ -9,9 +10,10 @@
 #ifndef GEODISK_TRIM_GLSL
 #define GEODISK_TRIM_GLSL
 
-#include "bands.glsl"
-
 bool window_taken; // in this trip
+
+// Rows of what lies behind the vertex table.
+uint trim_rows() { return kTrims ? kKeptRows * kKeptPerEdge * kKeptEdges : 0u; }
 
 // Edges that share rows do so in whatever place of a job their mesh has its vertices: the sum is linear.
 uint kept_row(uvec2 ends) {
@@ -71,8 +73,8 @@ vec2 lit_from_lower(bool turned, vec2 lit) {
     return vec2(from_lower(turned, ends.x), from_lower(turned, ends.y));
 }
 
-// Whether the disk goes on without end though it trims: triangles narrower than rounding lie upon each
-// other, so that windows through them hardly ever cover one another.
+// Whether the disk goes on without end though it trims: at edges of
+// many faces windows branch, and those kept hardly cover what comes.
 bool is_endless() {
     uint vertices = min(lane.vertices, kUntrimmedVertices);
     return trims() && lane.pushed - lane.trims > kMostWindows + vertices * kMostPerVertex;
@@ -91,26 +93,28 @@ bool trimmed() {
     vec2 lit = lit_from_lower(turned, entry_interval());
     precise float width = lit.y - lit.x;
     uint first = kept_row(ends);
-    bool is_widest = true;
+    float least = kFar;
+    uint gives_way = 0u; // the narrowest, or one of another edge
     for (uint i = 0u; i < kKeptPerEdge; ++i) {
         uint at = first + kKeptRows * i;
         uvec4 row0 = own_row_at(pool, own_row(at));
         uvec4 row1 = own_row_at(pool, own_row(at + 1u));
-        if (row0.xy == ends && row1.w == lane.generation) {
-            vec2 kept_lit = uintBitsToFloat(row1.xy);
-            if (dominates(uintBitsToFloat(row0.zw), uintBitsToFloat(row1.z), kept_lit, sx, lit)) {
-                return true;
-            }
-            precise float kept_width = kept_lit.y - kept_lit.x;
-            is_widest = i == 0u ? width >= kept_width : is_widest;
+        bool of_edge = row0.xy == ends && row1.w == lane.generation;
+        vec2 kept_lit = uintBitsToFloat(row1.xy);
+        if (of_edge &&
+            dominates(uintBitsToFloat(row0.zw), uintBitsToFloat(row1.z), kept_lit, sx, lit)) {
+            return true;
         }
+        precise float difference = kept_lit.y - kept_lit.x;
+        float kept_width = of_edge ? difference : -1.0;
+        bool gives = i + 1u < kKeptPerEdge && kept_width < least;
+        least = gives ? kept_width : least;
+        gives_way = gives ? i : gives_way;
     }
-    for (uint i = is_widest ? 0u : 1u; i < kKeptPerEdge; ++i) {
-        uint at = first + kKeptRows * i;
-        pool[own_row(at)] = uvec4(ends, floatBitsToUint(sx), floatBitsToUint(lane.y));
-        pool[own_row(at + 1u)] = uvec4(floatBitsToUint(lit.x), floatBitsToUint(lit.y),
-                                       floatBitsToUint(lane.sigma), lane.generation);
-    }
+    uint at = first + kKeptRows * (width < least ? kKeptPerEdge - 1u : gives_way);
+    pool[own_row(at)] = uvec4(ends, floatBitsToUint(sx), floatBitsToUint(lane.y));
+    pool[own_row(at + 1u)] = uvec4(floatBitsToUint(lit.x), floatBitsToUint(lit.y),
+                                   floatBitsToUint(lane.sigma), lane.generation);
     return false;
 }
 

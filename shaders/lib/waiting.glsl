@@ -3,11 +3,15 @@
 // vertex then mostly has its final distance before its fan is lit. Events wait in a heap, the nearest
 // first and of two as near that of the lower vertex, or in a ring, in the order they came: more
 // windows on large disks, but no loops, which lavapipe goes through in every trip. Where the disk trims
-// its windows both wait in bands instead.
+// its windows they wait in the heap too, so that they meet those that trim them: as rows
+// (kWindowWaits, distance, place, number), since two as near go in the order they came.
 #ifndef GEODISK_WAITING_GLSL
 #define GEODISK_WAITING_GLSL
 
 layout(constant_id = kSpecEventHeap) const bool kEventHeap = false;
+layout(constant_id = kSpecTrims) const bool kTrims = false;
+
+bool trims() { return kTrims && lane.trims != 0u; }
 
 uint window_at(uint window) { return kLaneRows + kWindowRows * window; }
 uint event_row(uint event) {
@@ -17,41 +21,37 @@ uint event_row(uint event) {
 // What a window remembers is in this row, as the component of its number modulo 4.
 uint remembered_row(uint window) { return own_row(first_remembered + (window >> 2)); }
 
-#include "bands.glsl"
+// A free place for a window; the capacity if there is none. Places that are free again are linked.
+uint free_window() {
+    bool again = trims() && lane.free_place != kNoWindow;
+    uint place = again ? lane.free_place : lane.windows;
+    if (again) {
+        lane.free_place = own_row_at(pool, own_row(window_at(place))).x;
+    } else if (place < P.window_capacity) {
+        ++lane.windows;
+    }
+    return place;
+}
 
-void push_window(float distance, uvec4 row0, uvec4 row1, uint remembered) {
-    uint place = place_to_wait();
-    if (place >= P.window_capacity) {
-        overflow |= kOverflowWindows;
-        return;
-    }
-    uint at = window_at(place);
-    pool[own_row(at)] = row0;
-    pool[own_row(at + 1u)] = row1;
-    pool[remembered_row(place)][place & 3u] = remembered;
-    ++lane.pushed;
-    if (trims()) {
-        band_window(distance, place);
-    } else {
-        lane.most_waiting = max(lane.most_waiting, lane.windows);
-    }
+void give_back_window(uint place) {
+    pool[own_row(window_at(place))].x = lane.free_place;
+    lane.free_place = place;
 }
 
 // Distances are positive, so their words compare as they do.
-bool is_nearer(uvec4 a, uvec4 b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
+bool is_nearer(uvec4 a, uvec4 b) {
+    bool comes_first = a.x < b.x || (a.x == b.x && a.w < b.w);
+    return a.y < b.y || (a.y == b.y && comes_first);
+}
 
-// In the heap the events below event i are 2 i + 1 and 2 i + 2.
-void push_event(uvec4 row) {
-    if (trims()) {
-        band_event(row);
-        return;
-    }
+// In the heap what waits below i is 2 i + 1 and 2 i + 2.
+void put_event(uvec4 row) {
     if (lane.event_tail - lane.event_head >= P.window_capacity) {
         overflow |= kOverflowWindows;
         return;
     }
     uint at = lane.event_tail;
-    if (kEventHeap) {
+    if (kEventHeap || trims()) {
         while (at > 0u) {
             uint above = (at - 1u) >> 1;
             uvec4 other = own_row_at(pool, event_row(above));
@@ -64,8 +64,30 @@ void push_event(uvec4 row) {
     }
     pool[event_row(at)] = row;
     ++lane.event_tail;
-    ++lane.pushed;
     lane.most_waiting = max(lane.most_waiting, lane.event_tail - lane.event_head);
+}
+
+void push_event(uvec4 row) {
+    put_event(row);
+    ++lane.pushed;
+}
+
+void push_window(float distance, uvec4 row0, uvec4 row1, uint remembered) {
+    uint place = free_window();
+    if (place >= P.window_capacity) {
+        overflow |= kOverflowWindows;
+        return;
+    }
+    uint at = window_at(place);
+    pool[own_row(at)] = row0;
+    pool[own_row(at + 1u)] = row1;
+    pool[remembered_row(place)][place & 3u] = remembered;
+    if (trims()) {
+        put_event(uvec4(kWindowWaits, floatBitsToUint(distance), place, lane.pushed));
+    } else {
+        lane.most_waiting = max(lane.most_waiting, lane.windows);
+    }
+    ++lane.pushed;
 }
 
 // The last event takes the place of the first, and gives way to nearer ones.
@@ -92,7 +114,7 @@ void sink_last() {
 
 uvec4 pop_event() {
     uvec4 first = own_row_at(pool, event_row(lane.event_head));
-    if (kEventHeap) {
+    if (kEventHeap || trims()) {
         sink_last();
     } else {
         ++lane.event_head;

@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 13u;
+GEODISK_CONST uint kAbi = 14u;
 
 // State of a candidate: the two low bits of its state word.
 GEODISK_CONST uint kIdle = 0u;
@@ -137,9 +137,10 @@ GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
 GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
 GEODISK_CONST uint kRowsPerTrip = 3u;      // of cells
 GEODISK_CONST uint kScanPerRow = 12u;      // candidates
+GEODISK_CONST uint kKeptPerEdge = 4u;      // windows to compare others with, see lib/trim.glsl
 // Together: an event taken and two vertices reached, two children left and pushed, kept windows.
-GEODISK_CONST uint kIterationsPerTrip =
-    1u + kCornersPerTrip + 3u * kMostProbes + 6u + 2u + kRowsPerTrip * (1u + kScanPerRow);
+GEODISK_CONST uint kIterationsPerTrip = 1u + kCornersPerTrip + 3u * kMostProbes + 6u +
+                                        (kKeptPerEdge + 1u) + kRowsPerTrip * (1u + kScanPerRow);
 // A step: once every few trips a lane that is done takes its next slot.
 GEODISK_CONST uint kTripsPerStep = 16u;
 GEODISK_CONST uint kClearPerStep = 64u;    // rows of the vertex table
@@ -147,9 +148,10 @@ GEODISK_CONST uint kBlocksPerStep = 16u;   // active conflicts of a complete dis
 GEODISK_CONST uint kIterationsPerStep =
     1u + kClearPerStep + kBlocksPerStep + kTripsPerStep * kIterationsPerTrip;
 // Besides, where events wait in a heap: one taken and two pushed in a trip, each through all levels
-// that a heap of the largest capacity has, 2^kMostLevels.
+// that a heap of the largest capacity has, 2^kMostLevels. Where windows wait there too, two more are.
 GEODISK_CONST uint kMostLevels = 26u;
 GEODISK_CONST uint kHeapIterationsPerStep = kTripsPerStep * 3u * (kMostLevels + 1u);
+GEODISK_CONST uint kTrimIterationsPerStep = kTripsPerStep * 5u * (kMostLevels + 1u);
 // Candidates that an invocation of resolve has at hand to decide, and list entries that it goes
 // through in one dispatch.
 GEODISK_CONST uint kMostAtHand = 8u;
@@ -179,15 +181,10 @@ GEODISK_CONST uint kUntrimmedWindows = 1024u;
 GEODISK_CONST uint kUntrimmedEach = 32u;
 GEODISK_CONST uint kUntrimmedShift = 2u;
 GEODISK_CONST uint kUntrimmedVertices = 65536u;
-// Edges whose windows it keeps to compare others with, a power of two.
+// Edges whose windows it keeps, a power of two; kKeptPerEdge of each.
 GEODISK_CONST uint kKeptEdges = 2048u;
-GEODISK_CONST uint kKeptPerEdge = 2u; // the widest and the last
-// Where it trims, windows and events wait in bands by distance, so many to the minimum distance.
-GEODISK_CONST uint kBandsPerDistance = 60u;
-GEODISK_CONST uint kBands = 64u;
-GEODISK_CONST uint kBandRows = 16u; // four bands to a row
-GEODISK_CONST uint kWindowWaits = 0xffffffffu; // instead of an event's vertex
-GEODISK_CONST uint kNothingWaits = 0xffffffffu;
+GEODISK_CONST uint kWindowWaits = 0xffffffffu; // in the heap, instead of an event's vertex
+GEODISK_CONST uint kNoWindow = 0xffffffffu;
 
 // Rows of a face but its lengths, and of its radii, of a lane record, of a window and of one kept.
 GEODISK_CONST uint kFaceRows = 3u;

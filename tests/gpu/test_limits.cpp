@@ -120,10 +120,19 @@ TEST_SUITE("limits") {
         CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
-    TEST_CASE("a disk that does not end is an error") {
+    TEST_CASE("sheets of needles upon each other are sampled") {
         const PreparedMesh mesh = prepared(needle_sheets());
         SampleParams params;
         params.min_distance = 3 * mesh.statistics().diagonal;
+        const SampleSet set = sample(mesh, params);
+        CHECK(set.report.plan.trims);
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+    }
+
+    TEST_CASE("a disk that does not end is an error") {
+        const PreparedMesh mesh = prepared(all_triangles(24));
+        SampleParams params;
+        params.min_distance = 2;
         Context& context = shared_context();
         Runner runner = expect(Runner::create(context.device(), context.queue()));
         const auto set = runner.sample_and_wait(mesh, params);

@@ -121,10 +121,21 @@ TEST_CASE("disks that begin to trim late, among many vertices, end") {
     CHECK(many > 0);
 }
 
-TEST_CASE("a disk that does not end in double precision is an error, and the next one is as ever") {
-    const TestMesh mesh = needle_sheets();
-    const PreparedMesh surface = prepared(mesh);
+TEST_CASE("sheets of needles upon each other take few windows") {
+    const PreparedMesh surface = prepared(needle_sheets());
     const double reach = 3 * surface.statistics().diagonal;
+    const std::vector<Point> points = random_points(surface, 1, 20);
+    GeodesicQuery<double> query(surface, reach, points, first_tolerances(surface, reach));
+    for (const Point& source : points) {
+        query.from(source);
+        CHECK(query.count().windows < 5000);
+    }
+}
+
+TEST_CASE(
+    "a disk that does not end in any bearable time is an error, and the next one is as ever") {
+    const PreparedMesh surface = prepared(all_triangles(24));
+    const double reach = 0.5;
     const std::vector<Point> points = random_points(surface, 1, 20);
     GeodesicQuery<double> query(surface, reach, points, first_tolerances(surface, reach));
     std::uint32_t endless = 0;

@@ -324,6 +324,22 @@ TestMesh needle_sheets() {
              3, 2, 3, 3, 2, 5, 0, 2, 5, 2, 0, 3, 0, 1, 2, 2, 0, 3}};
 }
 
+TestMesh all_triangles(std::uint32_t points) {
+    TestMesh mesh;
+    std::mt19937_64 random(1);
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const double x = uniform(random);
+        const double y = uniform(random);
+        mesh.add_vertex({x, y, uniform(random)});
+        for (std::uint32_t j = 0; j < i; ++j) {
+            for (std::uint32_t k = 0; k < j; ++k) {
+                mesh.triangles.insert(mesh.triangles.end(), {i, j, k});
+            }
+        }
+    }
+    return mesh;
+}
+
 TestMesh moebius_double_cover(int resolution) {
     const TestMesh strip = builtin("moebius", resolution);
     const auto across = static_cast<std::uint32_t>(resolution);

@@ -95,6 +95,10 @@ TestMesh tetrahedra_beyond_sheet(std::uint32_t parts, double shift, std::uint32_
 /// narrower than rounding and hardly ever cover one another.
 TestMesh needle_sheets();
 
+/// All triangles between some random points of the unit cube, so that each edge has two faces fewer
+/// than there are points. From 16 points on, windows in large disks are too many to wait for.
+TestMesh all_triangles(std::uint32_t points);
+
 /// The orientable double cover of builtin:moebius: face f of the strip lies under faces f and
 /// f + face_count of the cover, the latter with its second and third corner exchanged.
 TestMesh moebius_double_cover(int resolution);

@@ -108,6 +108,7 @@ double swept_value(Sweep sweep, const Measurement& row) {
 
 std::vector<NamedMesh> read_meshes(const std::vector<std::string>& paths) {
     std::vector<NamedMesh> meshes;
+    meshes.reserve(paths.size());
     for (const std::string& path : paths) {
         meshes.push_back({path.substr(path.find_last_of('/') + 1), tools::read_mesh(path)});
     }

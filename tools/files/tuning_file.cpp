@@ -27,7 +27,7 @@ std::filesystem::path cache_folder() {
     return variable("LOCALAPPDATA");
 #else
     // Relative paths are to be ignored (XDG Base Directory Specification).
-    if (const auto cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) {
+    if (auto cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) {
         return cache;
     }
     const auto home = variable("HOME");
@@ -83,7 +83,7 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
 }
 
 std::filesystem::path writable_tuning_path(const DeviceReport& device) {
-    const std::filesystem::path path = tuning_path(device);
+    std::filesystem::path path = tuning_path(device);
     if (path.empty()) {
         fail_output("the tuning has nowhere to go: neither XDG_CACHE_HOME nor HOME is set");
     }

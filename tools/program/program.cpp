@@ -31,7 +31,7 @@ std::string hint(const CLI::App& app) {
 
 /// CLI11 counts values; people want to know what they did.
 std::string usage_message(const CLI::ParseError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     const std::string option = message.substr(0, message.find(':'));
     if (message.find("At Most 1 required") != std::string::npos) {
         return option + " is given more than once";

@@ -48,11 +48,11 @@ constexpr double kGrain = 0x1p-24;
 /// numbers, (n^2 - m^2)^2 + (2 m n)^2 = (n^2 + m^2)^2, so that bent and flat edges are equally long
 /// to the last bit.
 Strip exact_strip(Vec3 step) {
-    constexpr double n = 64;
-    const double m = std::round(n * step.z / (length(step) + std::abs(step.x)));
-    const double whole = n * n + m * m;
+    constexpr double kN = 64;
+    const double m = std::round(kN * step.z / (length(step) + std::abs(step.x)));
+    const double whole = kN * kN + m * m;
     const double unit = std::max(1.0, std::round(length(step) / (whole * kGrain))) * kGrain;
-    return {whole * unit, std::copysign((n * n - m * m) * unit, step.x), 2 * m * n * unit};
+    return {whole * unit, std::copysign((kN * kN - m * m) * unit, step.x), 2 * m * kN * unit};
 }
 
 /// Strips that follow the curve `point(0)`, ..., `point(count)` in the x-z plane.

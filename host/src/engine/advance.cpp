@@ -42,11 +42,9 @@ Result<Done> check_overflow(const gpu::ControlRec& control, const gpu::Push& pus
         return Error{
             Status::mesh_rejected,
             "the geodesic disk of a candidate on face " + std::to_string(face) +
-                " does not end in any bearable time: it holds triangles narrower than rounding "
-                "upon "
-                "each other, edges of three and more all over it, or very many triangles far "
-                "smaller than the minimum distance; join vertices that are nearly in one place, "
-                "coarsen the mesh there or lower the distance",
+                " does not end in any bearable time: it holds edges of many faces all over it, or "
+                "very many triangles far smaller than the minimum distance; coarsen the mesh there "
+                "or lower the distance",
             face};
     }
     return Done{};

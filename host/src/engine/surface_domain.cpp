@@ -199,8 +199,10 @@ std::uint32_t SurfaceDomain::most_steps(const DeviceReport& report,
     if (report.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE) {
         return kDefaultSteps;
     }
-    return kLlvmpipeIterations /
-           (gpu::kIterationsPerStep + (variant.event_heap ? gpu::kHeapIterationsPerStep : 0));
+    const std::uint32_t in_heaps = variant.trims        ? gpu::kTrimIterationsPerStep
+                                   : variant.event_heap ? gpu::kHeapIterationsPerStep
+                                                        : 0;
+    return kLlvmpipeIterations / (gpu::kIterationsPerStep + in_heaps);
 }
 
 std::uint64_t SurfaceDomain::cells(std::uint32_t, double) const {

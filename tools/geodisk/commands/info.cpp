@@ -127,9 +127,8 @@ void print_json(std::ostream& out, const std::vector<DeviceReport>& reports,
 }
 
 void run_info(bool as_json) {
-    Result<std::vector<DeviceReport>> listed = list_devices();
-    const std::vector<DeviceReport> reports =
-        listed ? std::move(listed).value() : std::vector<DeviceReport>{};
+    const Result<std::vector<DeviceReport>> listed = list_devices();
+    const std::vector<DeviceReport> reports = listed ? *listed : std::vector<DeviceReport>{};
     std::optional<std::size_t> best;
     if (const Result<std::size_t> chosen = select_device(reports, ""))
         best = *chosen;
