@@ -9,7 +9,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/trim.hpp"
+#include "kernels/waiting.hpp"
 #include "lib/scalar.hpp"
 #include "lib/surface.hpp"
 
@@ -72,7 +72,7 @@ class Detector {
     void set_limit(Real limit) { limit_ = limit; }
 
     /// Takes vertex events in the order they came, as the shaders do with Events::oldest.
-    void take_oldest_first() { oldest_first_ = true; }
+    void take_oldest_first() { waiting_.take_oldest_first(); }
 
     /// Trims windows in all disks, from the start.
     void trim_all() { trims_all_ = true; }
@@ -82,62 +82,32 @@ class Detector {
     template <class Wanted, class Hit>
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
         count_ = {};
-        trims_ = trims_all_;
         untrimmed_ = 0;
+        waiting_.begin_disk(trims_all_);
         begin();
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
         spread_from_source(source, wanted, hit);
-        // Windows first, the last one first, then events: a vertex then mostly has its final
-        // distance before its fan is lit.
-        for (;;) {
-            if (!trims_ && makes_many()) {
-                trims_ = true;
-                untrimmed_ = count_.windows;
+        const auto on_window = [&](const Window& window) { cross_edge(window, wanted, hit); };
+        const auto on_event = [&](const Event& event) { spread_from_vertex(event, wanted, hit); };
+        do {
+            if (makes_many()) {
+                untrimmed_ = waiting_.pushed();
+                waiting_.begin(true);
                 begin();
                 spread_from_source(source, wanted, hit);
             } else if (is_endless()) {
                 throw EndlessDisk(source.face);
-            } else if (!trims_ && !windows_.empty()) {
-                const Window window = windows_.back();
-                windows_.pop_back();
-                cross_edge(window, wanted, hit);
-            } else if (events_taken_ < events_.size()) {
-                const Event event = take_event();
-                if (event.vertex == gpu::kWindowWaits) {
-                    free_windows_.push_back(event.place);
-                    cross_edge(Window{windows_[event.place]}, wanted, hit);
-                } else {
-                    spread_from_vertex(event, wanted, hit);
-                }
-            } else {
-                return count_;
             }
-        }
+        } while (waiting_.take(on_window, on_event));
+        count_.windows = waiting_.pushed();
+        count_.most_waiting = waiting_.most();
+        count_.chain = waiting_.longest_chain();
+        return count_;
     }
 
   private:
-    /// A window in the frame of the half-edge it leaves its face through, the source at (x, y) with
-    /// y >= 0.
-    struct Window {
-        std::uint32_t edge;
-        Real x, y, b0, b1, sigma;
-        std::uint32_t chain;
-        Real start, end; ///< What was known of the edge's ends, rounded up.
-        /// A half-edge of a face that the window came through, see turns_back().
-        std::uint32_t remembered;
-    };
-    /// A vertex reached by a path of length sigma that came in through `corner`. Where windows are
-    /// trimmed they wait with the events, by their distance: kWindowWaits, how many were pushed
-    /// before, and where in windows_ they are.
-    struct Event {
-        std::uint32_t vertex, corner;
-        Real sigma;
-        std::uint32_t chain;
-        std::uint32_t place = 0;
-    };
-    static bool is_farther(const Event& a, const Event& b) {
-        return std::tie(a.sigma, a.vertex, a.corner) > std::tie(b.sigma, b.vertex, b.corner);
-    }
+    using Window = ref::Window<Real>;
+    using Event = ref::Event<Real>;
     struct VertexNote {
         Real distance;
         Real crossing;         ///< Where the best ray crossed `through`.
@@ -152,10 +122,6 @@ class Detector {
     void begin() {
         ++generation_;
         kept_.begin_disk();
-        windows_.clear();
-        free_windows_.clear();
-        events_.clear();
-        events_taken_ = 0;
         count_.vertices = 0;
     }
 
@@ -180,55 +146,6 @@ class Detector {
                                                       : static_cast<Real>(kFar);
     }
 
-    void push(const Window& record, Real distance) {
-        if (trims_) {
-            push(Event{gpu::kWindowWaits, count_.windows, distance, record.chain, keep(record)});
-        } else {
-            windows_.push_back(record);
-            ++count_.windows;
-            count_waiting(windows_.size(), record.chain);
-        }
-    }
-
-    /// Where windows are trimmed; returns the place.
-    std::uint32_t keep(const Window& record) {
-        if (free_windows_.empty()) {
-            windows_.push_back(record);
-            return static_cast<std::uint32_t>(windows_.size() - 1);
-        }
-        const std::uint32_t place = free_windows_.back();
-        free_windows_.pop_back();
-        windows_[place] = record;
-        return place;
-    }
-
-    void push(const Event& event) {
-        ++count_.windows;
-        events_.push_back(event);
-        if (in_heap()) {
-            std::push_heap(events_.begin(), events_.end(), is_farther);
-        }
-        count_waiting(events_.size() - events_taken_, event.chain);
-    }
-
-    /// Whether events are taken by distance, and not in the order they came.
-    bool in_heap() const { return trims_ || !oldest_first_; }
-
-    Event take_event() {
-        if (!in_heap()) {
-            return events_[events_taken_++];
-        }
-        std::pop_heap(events_.begin(), events_.end(), is_farther);
-        const Event event = events_.back();
-        events_.pop_back();
-        return event;
-    }
-
-    void count_waiting(std::size_t waiting, std::uint32_t chain) {
-        count_.most_waiting = std::max(count_.most_waiting, static_cast<std::uint32_t>(waiting));
-        count_.chain = std::max(count_.chain, chain);
-    }
-
     /// A path of the given length ends at v, having come in through `corner`.
     void reach(std::uint32_t v, Real distance, std::uint32_t corner, std::uint32_t through,
                Real crossing, bool whole_fan, std::uint32_t chain) {
@@ -238,7 +155,7 @@ class Detector {
         count_.vertices += vertices_[v].generation != generation_;
         vertices_[v] = {distance, crossing, through, generation_};
         if (whole_fan || (surface_.fans[v].flags & gpu::kFanBends)) {
-            push(Event{v, whole_fan ? kWholeFan : corner, distance, chain});
+            waiting_.push(Event{v, whole_fan ? kWholeFan : corner, distance, chain});
         }
     }
 
@@ -250,7 +167,7 @@ class Detector {
 
     void push(const Child& child) {
         if (child.distance >= 0) {
-            push(child.window, child.distance);
+            waiting_.push(child.window, child.distance);
         }
     }
 
@@ -409,7 +326,7 @@ class Detector {
                 entering.start = window.end;
                 entering.end = window.start;
             }
-            if (std::exchange(is_first, false) && trims_ && is_trimmed(h, entering)) {
+            if (std::exchange(is_first, false) && waiting_.trims() && is_trimmed(h, entering)) {
                 return;
             }
             if (turns_back(h, window)) {
@@ -423,14 +340,14 @@ class Detector {
     bool makes_many() const {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
         const std::uint32_t each = gpu::kUntrimmedEach + (vertices >> gpu::kUntrimmedShift);
-        return count_.windows > gpu::kUntrimmedWindows + vertices * each;
+        return !waiting_.trims() && waiting_.pushed() > gpu::kUntrimmedWindows + vertices * each;
     }
 
     /// Whether the disk goes on without end though it trims.
     bool is_endless() const {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
-        const std::uint32_t trimmed = count_.windows - untrimmed_;
-        return trims_ && trimmed > gpu::kMostWindows + vertices * gpu::kMostPerVertex;
+        const std::uint32_t trimmed = waiting_.pushed() - untrimmed_;
+        return waiting_.trims() && trimmed > gpu::kMostWindows + vertices * gpu::kMostPerVertex;
     }
 
     /// Whether the window, given in the frame of h, is to go.
@@ -633,15 +550,10 @@ class Detector {
     std::vector<Grid> grids_;
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
-    std::vector<Window> windows_; ///< A stack; where they are trimmed, in places of their own.
-    std::vector<std::uint32_t> free_windows_; ///< Those places of windows taken.
+    Waiting<Real> waiting_;
     bool trims_all_ = false;
-    bool trims_ = false;          ///< In this disk.
-    std::uint32_t untrimmed_ = 0; ///< Windows and events pushed before it began to.
+    std::uint32_t untrimmed_ = 0; ///< Pushed in this disk before it began to trim.
     KeptWindows<Real> kept_;
-    bool oldest_first_ = false;
-    std::vector<Event> events_;    ///< A heap, the nearest on top; or all of the disk as they came.
-    std::size_t events_taken_ = 0; ///< Of those.
     DiskCount count_;
 };
 

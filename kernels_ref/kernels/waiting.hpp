@@ -1,0 +1,156 @@
+// Twin of shaders/lib/waiting.glsl: what is still to be spread of a disk, windows and vertex events.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "constants.h"
+
+namespace geodisk::ref {
+
+/// A window in the frame of the half-edge it leaves its face through, the source at (x, y) with
+/// y >= 0.
+template <class Real>
+struct Window {
+    std::uint32_t edge;
+    Real x, y, b0, b1, sigma;
+    std::uint32_t chain;
+    Real start, end; ///< What was known of the edge's ends, rounded up.
+    /// A half-edge of a face that the window came through, see Detector::turns_back().
+    std::uint32_t remembered;
+};
+
+/// A vertex reached by a path of length sigma that came in through `corner`.
+template <class Real>
+struct Event {
+    std::uint32_t vertex, corner;
+    Real sigma;
+    std::uint32_t chain;
+};
+
+/// Windows go first, the last one first; events follow when no window is left, the nearest first or
+/// the oldest: a vertex then mostly has its final distance before its fan is lit. Of a disk that
+/// trims its windows both go by distance.
+template <class Real>
+class Waiting {
+  public:
+    /// Takes events in the order they came, but for disks that trim.
+    void take_oldest_first() { oldest_first_ = true; }
+
+    /// A new disk.
+    void begin_disk(bool trims) {
+        pushed_ = most_ = longest_chain_ = 0;
+        begin(trims);
+    }
+
+    /// Drops what waits.
+    void begin(bool trims) {
+        trims_ = trims;
+        windows_.clear();
+        free_places_.clear();
+        events_.clear();
+        events_taken_ = 0;
+    }
+
+    bool trims() const { return trims_; }
+
+    /// Windows and events pushed in the disk, most that waited, and their longest chain.
+    std::uint32_t pushed() const { return pushed_; }
+    std::uint32_t most() const { return most_; }
+    std::uint32_t longest_chain() const { return longest_chain_; }
+
+    void push(const Window<Real>& window, Real distance) {
+        if (trims_) {
+            // Of windows as near the first comes first.
+            push_row({{gpu::kWindowWaits, pushed_, distance, window.chain}, place_for(window)});
+        } else {
+            windows_.push_back(window);
+            count(windows_.size(), window.chain);
+        }
+    }
+
+    void push(const Event<Real>& event) { push_row({event, 0}); }
+
+    /// Calls `on_window` or `on_event` with what comes next; false if nothing waits.
+    template <class OnWindow, class OnEvent>
+    bool take(OnWindow&& on_window, OnEvent&& on_event) {
+        if (!trims_ && !windows_.empty()) {
+            const Window<Real> window = windows_.back();
+            windows_.pop_back();
+            on_window(window);
+            return true;
+        }
+        if (events_taken_ == events_.size()) {
+            return false;
+        }
+        const Row row = take_row();
+        if (row.event.vertex == gpu::kWindowWaits) {
+            free_places_.push_back(row.place);
+            on_window(Window<Real>{windows_[row.place]});
+        } else {
+            on_event(row.event);
+        }
+        return true;
+    }
+
+  private:
+    /// An event, or with kWindowWaits for a vertex a window, by where it is in windows_.
+    struct Row {
+        Event<Real> event;
+        std::uint32_t place;
+    };
+    static bool is_farther(const Row& a, const Row& b) {
+        return std::tie(a.event.sigma, a.event.vertex, a.event.corner) >
+               std::tie(b.event.sigma, b.event.vertex, b.event.corner);
+    }
+
+    /// Whether events are a heap.
+    bool by_distance() const { return trims_ || !oldest_first_; }
+
+    void push_row(const Row& row) {
+        events_.push_back(row);
+        if (by_distance()) {
+            std::push_heap(events_.begin(), events_.end(), is_farther);
+        }
+        count(events_.size() - events_taken_, row.event.chain);
+    }
+
+    Row take_row() {
+        if (!by_distance()) {
+            return events_[events_taken_++];
+        }
+        std::pop_heap(events_.begin(), events_.end(), is_farther);
+        const Row row = events_.back();
+        events_.pop_back();
+        return row;
+    }
+
+    std::uint32_t place_for(const Window<Real>& window) {
+        if (free_places_.empty()) {
+            windows_.push_back(window);
+            return static_cast<std::uint32_t>(windows_.size() - 1);
+        }
+        const std::uint32_t place = free_places_.back();
+        free_places_.pop_back();
+        windows_[place] = window;
+        return place;
+    }
+
+    void count(std::size_t waiting, std::uint32_t chain) {
+        ++pushed_;
+        most_ = std::max(most_, static_cast<std::uint32_t>(waiting));
+        longest_chain_ = std::max(longest_chain_, chain);
+    }
+
+    bool trims_ = false;
+    bool oldest_first_ = false;
+    std::vector<Window<Real>> windows_;      ///< A stack; of a disk that trims, with gaps.
+    std::vector<std::uint32_t> free_places_; ///< Those.
+    std::vector<Row> events_;                ///< A heap, the nearest on top; or all as they came.
+    std::size_t events_taken_ = 0;           ///< Of those.
+    std::uint32_t pushed_ = 0, most_ = 0, longest_chain_ = 0;
+};
+
+} // namespace geodisk::ref
