@@ -1,4 +1,5 @@
-// Twin of shaders/lib/waiting.glsl: what is still to be spread of a disk, windows and vertex events.
+// Twin of shaders/lib/waiting.glsl: what is still to be spread of a disk, windows and vertex
+// events.
 #pragma once
 
 #include <algorithm>

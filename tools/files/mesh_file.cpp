@@ -350,21 +350,22 @@ MeshFile read_mesh(const MeshSources& sources) {
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {
         check_no_attributes(sources);
-        return to_triangles(sources, read_obj(path, sources.has_uvs));
+        return to_triangles(sources, read_obj(path, sources.has_uvs, sources.progress));
     }
     if (extension == ".ply") {
         const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
-        return to_triangles(
-            sources, read_ply(path, {!has_other_source, sources.attributes, sources.has_uvs}));
+        return to_triangles(sources,
+                            read_ply(path, {!has_other_source, sources.attributes, sources.has_uvs},
+                                     sources.progress));
     }
     check_no_attributes(sources);
     check_no_uvs(sources);
     if (extension == ".off") {
-        return to_triangles(sources, read_off(path));
+        return to_triangles(sources, read_off(path, sources.progress));
     }
     if (extension == ".stl") {
         const MeshSources with_weld = joined(sources);
-        return to_triangles(with_weld, read_stl(path));
+        return to_triangles(with_weld, read_stl(path, sources.progress));
     }
     if (extension == ".gltf" || extension == ".glb") {
 #ifdef GEODISK_GLTF

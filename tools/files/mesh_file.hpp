@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "files/reading_progress.hpp"
 #include "geometry/mesh.hpp"
 #include "program/arguments.hpp"
 #include "program/path.hpp"
@@ -23,6 +24,7 @@ struct MeshSources {
     /// as of STL in any case.
     std::optional<Length> weld = std::nullopt;
     bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
+    ReadingProgress progress = {}; ///< Of the mesh file, but for glTF.
 };
 
 /// Reads a mesh.

@@ -59,8 +59,9 @@ class UnusedIndices {
 
 class ObjReader {
   public:
-    ObjReader(const Path& path, std::string_view bytes, bool has_uvs)
-        : path_(path), lines_(bytes), has_uvs_(has_uvs) {
+    ObjReader(const Path& path, std::string_view bytes, bool has_uvs,
+              const ReadingProgress& progress)
+        : path_(path), lines_(bytes, progress), has_uvs_(has_uvs) {
         mesh_.names.first_vertex = 1;
     }
 
@@ -261,7 +262,7 @@ class ObjReader {
 
 } // namespace
 
-PolygonMesh read_obj(const Path& path, bool has_uvs) {
+PolygonMesh read_obj(const Path& path, bool has_uvs, const ReadingProgress& progress) {
     const std::string bytes = read_file(path);
     if (bytes.empty()) {
         fail_input(path, "is empty");
@@ -269,7 +270,7 @@ PolygonMesh read_obj(const Path& path, bool has_uvs) {
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
         fail_input(path, "is a PLY file, so its name should end in .ply");
     }
-    return ObjReader(path, bytes, has_uvs).read();
+    return ObjReader(path, bytes, has_uvs, progress).read();
 }
 
 } // namespace geodisk::tools

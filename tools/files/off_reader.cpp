@@ -17,8 +17,8 @@ namespace {
 
 class OffReader {
   public:
-    OffReader(const Path& path, std::string_view bytes)
-        : path_(path), size_(bytes.size()), lines_(bytes) {}
+    OffReader(const Path& path, std::string_view bytes, const ReadingProgress& progress)
+        : path_(path), size_(bytes.size()), lines_(bytes, progress) {}
 
     PolygonMesh read() && {
         read_header();
@@ -150,9 +150,9 @@ class OffReader {
 
 } // namespace
 
-PolygonMesh read_off(const Path& path) {
+PolygonMesh read_off(const Path& path, const ReadingProgress& progress) {
     const std::string bytes = read_file(path);
-    return OffReader(path, bytes).read();
+    return OffReader(path, bytes, progress).read();
 }
 
 } // namespace geodisk::tools

@@ -1,6 +1,7 @@
 #include "files/ply_file.hpp"
 
 #include <array>
+#include <utility>
 
 #include "files/input_file.hpp"
 #include "program/exact_text.hpp"
@@ -69,7 +70,8 @@ std::optional<std::size_t> PlyElement::find_list(std::string_view wanted) const 
     return find_property(*this, wanted, true);
 }
 
-PlyFile::PlyFile(const Path& path) : path_(path), bytes_(read_file(path)) {
+PlyFile::PlyFile(const Path& path, ReadingProgress progress)
+    : path_(path), progress_(std::move(progress)), bytes_(read_file(path)) {
     parse_header();
 }
 
@@ -221,6 +223,9 @@ void PlyFile::read_records(const PlyElement& element, const Visitor& visit) {
             read_binary_record(element, index, record);
         }
         visit(index, record);
+        if (progress_ && is_progress_due(index)) {
+            progress_(static_cast<double>(position_) / static_cast<double>(bytes_.size()));
+        }
     }
 }
 

@@ -13,6 +13,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "files/reading_progress.hpp"
 #include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
@@ -46,9 +47,10 @@ class PlyFile {
   public:
     using Visitor = std::function<void(std::uint64_t index, const PlyRecord& record)>;
 
-    /// Reads `path` and parses its header. Like all members it throws UserError(bad_input) naming
-    /// the file and the header line or the element and record (counting from 0).
-    explicit PlyFile(const Path& path);
+    /// Reads `path` and parses its header; `progress` is of the records. Like all members it throws
+    /// UserError(bad_input) naming the file and the header line or the element and record (counting
+    /// from 0).
+    explicit PlyFile(const Path& path, ReadingProgress progress = {});
 
     const Path& path() const noexcept { return path_; }
     const std::vector<PlyElement>& elements() const noexcept { return elements_; }
@@ -87,6 +89,7 @@ class PlyFile {
     enum class Format { ascii, little_endian, big_endian };
 
     Path path_;
+    ReadingProgress progress_;
     std::string bytes_;
     std::size_t position_ = 0; ///< The next byte to read.
     std::size_t line_ = 0;     ///< 1-based, of the header line being parsed.

@@ -166,8 +166,8 @@ void read_strips(PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
 
 } // namespace
 
-PolygonMesh read_ply(const Path& path, const PlyWanted& wanted) {
-    PlyFile file(path);
+PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingProgress& progress) {
+    PlyFile file(path, progress);
     PolygonMesh mesh;
     mesh.names = {"element face, record ", "element vertex, record ", {}, {}, 0};
     bool has_vertices = false;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "files/reading_progress.hpp"
 #include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
@@ -40,16 +41,16 @@ struct PolygonMesh {
 /// ignored. Understands every line end, line continuation, a byte order mark, relative
 /// indices and faces of any size. Throws UserError(bad_input) naming the line, like the readers of
 /// other texts below.
-PolygonMesh read_obj(const Path& path, bool has_uvs = false);
+PolygonMesh read_obj(const Path& path, bool has_uvs, const ReadingProgress& progress);
 
 /// Reads an STL file, binary if its size is as it tells or it does not begin with "solid", else
 /// ascii: three vertices for each facet, so that no two facets hang together until vertices are
 /// joined.
-PolygonMesh read_stl(const Path& path);
+PolygonMesh read_stl(const Path& path, const ReadingProgress& progress);
 
 /// Reads an ascii OFF file, with or without normals, colours and texture coordinates in the lines
 /// of vertices and faces, one line to a record.
-PolygonMesh read_off(const Path& path);
+PolygonMesh read_off(const Path& path, const ReadingProgress& progress);
 
 /// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh
 /// and primitive after the other, placed by their nodes; a mirrored one is turned over. Primitives
@@ -68,6 +69,6 @@ struct PlyWanted {
 /// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`
 /// and of strips of triangles in element `tristrips`, in any format, type and order; everything
 /// else is skipped. Throws UserError(bad_input) naming the element and record.
-PolygonMesh read_ply(const Path& path, const PlyWanted& wanted);
+PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingProgress& progress);
 
 } // namespace geodisk::tools

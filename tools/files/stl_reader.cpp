@@ -47,7 +47,7 @@ void check_count(const Path& path, std::uint64_t facets) {
     }
 }
 
-PolygonMesh read_binary(const Path& path, std::string_view bytes) {
+PolygonMesh read_binary(const Path& path, std::string_view bytes, const ReadingProgress& progress) {
     const std::uint64_t count = little_endian(bytes.data() + kHeaderSize);
     check_count(path, count);
     std::string_view rest = bytes.substr(kHeaderSize + kCountSize);
@@ -68,6 +68,9 @@ PolygonMesh read_binary(const Path& path, std::string_view bytes) {
         }
         add_face(mesh);
         rest.remove_prefix(kFacetSize);
+        if (progress && is_progress_due(facet)) {
+            progress(static_cast<double>(facet) / static_cast<double>(count));
+        }
     }
     add_warning(mesh.warnings, "trailing_data", rest.size(), "",
                 "byte after the last facet ignored", "bytes after the last facet ignored");
@@ -76,7 +79,8 @@ PolygonMesh read_binary(const Path& path, std::string_view bytes) {
 
 class AsciiReader {
   public:
-    AsciiReader(const Path& path, std::string_view bytes) : path_(path), lines_(bytes) {
+    AsciiReader(const Path& path, std::string_view bytes, const ReadingProgress& progress)
+        : path_(path), lines_(bytes, progress) {
         mesh_.names = {"facet ", "vertex ", {}, {}, 0};
     }
 
@@ -181,20 +185,20 @@ bool is_binary(std::string_view bytes) {
 
 } // namespace
 
-PolygonMesh read_stl(const Path& path) {
+PolygonMesh read_stl(const Path& path, const ReadingProgress& progress) {
     const std::string bytes = read_file(path);
     if (bytes.empty()) {
         fail_input(path, "is empty");
     }
     if (is_binary(bytes)) {
-        return read_binary(path, bytes);
+        return read_binary(path, bytes, progress);
     }
     const std::size_t text = bytes.find_first_not_of(" \t\r\n");
     if (text == std::string::npos || lower_case(std::string(bytes.substr(text, 5))) != "solid") {
         fail_input(path, "is not an STL file: it is too short for a binary one and does not begin "
                          "with 'solid'");
     }
-    return AsciiReader(path, bytes).read();
+    return AsciiReader(path, bytes, progress).read();
 }
 
 } // namespace geodisk::tools

@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
+
+#include "files/reading_progress.hpp"
 
 namespace geodisk::tools {
 
@@ -12,7 +15,8 @@ namespace geodisk::tools {
 /// skipped.
 class TextLines {
   public:
-    explicit TextLines(std::string_view text) : text_(text) {
+    explicit TextLines(std::string_view text, ReadingProgress progress = {})
+        : text_(text), progress_(std::move(progress)) {
         constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
         position_ = text_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
         find_feed();
@@ -33,6 +37,9 @@ class TextLines {
             find_feed();
         }
         ++number_;
+        if (progress_ && is_progress_due(number_)) {
+            progress_(static_cast<double>(position_) / static_cast<double>(text_.size()));
+        }
         return true;
     }
 
@@ -45,6 +52,7 @@ class TextLines {
     void find_feed() { feed_ = std::min(text_.find('\n', position_), text_.size()); }
 
     std::string_view text_;
+    ReadingProgress progress_;
     std::size_t position_ = 0;
     std::size_t feed_ = 0; ///< The first LF from there on, or the end.
     std::uint32_t number_ = 0;

@@ -114,7 +114,12 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
     const std::vector<Lift> lifts = parse_lifts(options);
     progress.begin_stage("reading the mesh");
     Stopwatch watch;
-    MeshFile file = read_mesh(sources_of(options, lifts, density));
+    MeshSources sources = sources_of(options, lifts, density);
+    sources.progress = [&](double part) {
+        check_interrupted();
+        progress.update(part, "");
+    };
+    MeshFile file = read_mesh(sources);
     const double load_seconds = watch.seconds();
     check_interrupted();
 
