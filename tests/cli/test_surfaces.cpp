@@ -75,16 +75,22 @@ TEST_CASE("welding joins faces along open seams, and verify wants the same") {
                                                         ? "\"merged_vertices\": 1,"
                                                         : "\"merged_vertices\": null,"));
     }
-    const Outcome same = run(folder, {"verify", "mesh.obj", "a.ply", "--weld=0.1%"});
+    const Outcome same =
+        run(folder, {"verify", "mesh.obj", "a.ply", "--weld=0.1%", "--json", "v.json"});
     CHECK(same.status == 0);
+    CHECK(contains(same.out, "weld 0.1%\n"));
+    CHECK(contains(same.out, "2 vertices joined to others, area"));
+    CHECK(contains(bytes_of(folder / "v.json"), "\"merged_vertices\": 2,"));
     CHECK(same.err.empty());
     CHECK(
         contains(run(folder, {"verify", "mesh.obj", "a.ply"}).err, "made with --weld=0.1%, which"));
     CHECK(contains(run(folder, {"verify", "mesh.obj", "b.ply", "--weld=0.1%"}).err,
                    "made with no --lift and no --weld, which"));
-    CHECK(run(folder, {"transfer", "a.ply", "mesh.obj", "mesh.obj", "-o", "c.ply", "--weld-a=0.1%",
-                       "--weld-b=0.1%"})
-              .status == 0);
+    const Outcome moved = run(folder, {"transfer", "a.ply", "mesh.obj", "mesh.obj", "-o", "c.ply",
+                                       "--weld-a=0.1%", "--weld-b=0.1%", "--json", "c.json"});
+    CHECK(moved.status == 0);
+    CHECK(contains(moved.out, "2 vertices joined to others, area"));
+    CHECK(contains(bytes_of(folder / "c.json"), "\"merged_vertices\": 2,"));
     CHECK(run(folder,
               {"sample", "mesh.obj", "-o", "e.ply", "-n", "9", "--weld", "--metric", "euclidean"})
               .status == 0);

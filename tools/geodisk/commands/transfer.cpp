@@ -18,6 +18,7 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/json.hpp"
+#include "geodisk/reports/mesh_report.hpp"
 #include "geometry/mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -103,8 +104,8 @@ std::string report_text(const TransferOptions& options, const MeshInput& from, c
                         const SampleFile& samples, const std::optional<ClosePair>& closest) {
     return text_of(Json{{"version", GEODISK_VERSION_STRING},
                         {"transferred_from", options.samples},
-                        {"mesh_a", options.from.mesh},
-                        {"mesh_b", options.to.mesh},
+                        {"mesh_a", mesh_json(options.from.mesh, options.from.additions(), from)},
+                        {"mesh_b", mesh_json(options.to.mesh, options.to.additions(), to)},
                         {"warnings_a", warnings_json(from.warnings)},
                         {"warnings_b", warnings_json(to.warnings)},
                         {"output", options.out.output},
@@ -112,13 +113,12 @@ std::string report_text(const TransferOptions& options, const MeshInput& from, c
                         {"smallest", pair_json(closest)}});
 }
 
-std::string summary_text(const TransferOptions& options, const SampleFile& samples,
-                         const std::optional<ClosePair>& closest) {
+std::string summary_text(const TransferOptions& options, const MeshInput& from, const MeshInput& to,
+                         const SampleFile& samples, const std::optional<ClosePair>& closest) {
     std::ostringstream out;
-    out << "from          " << one_line(options.from.mesh) << '\n'
-        << "to            " << one_line(options.to.mesh) << '\n'
-        << "samples       " << grouped(samples.rows.size()) << " of " << one_line(options.samples)
-        << '\n'
+    out << mesh_lines("from", options.from.mesh, options.from.additions(), from)
+        << mesh_lines("to", options.to.mesh, options.to.additions(), to) << "samples       "
+        << grouped(samples.rows.size()) << " of " << one_line(options.samples) << '\n'
         << "smallest      ";
     if (closest) {
         out << rounded(closest->distance, 9) << " in mesh units, "
@@ -152,7 +152,7 @@ void run_transfer(const TransferOptions& options) {
                   samples.rows, options.out.ascii, to.dimension());
     file.sync();
     publish(options.out, file, report_text(options, from, to, samples, closest),
-            summary_text(options, samples, closest));
+            summary_text(options, from, to, samples, closest));
 }
 
 } // namespace

@@ -21,6 +21,7 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/json.hpp"
+#include "geodisk/reports/mesh_report.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -128,7 +129,7 @@ std::string result_text(const Check& check) {
     const Spacing& spacing = check.spacing;
     const std::vector<StrayRow>& strays = check.strays;
     std::ostringstream out;
-    out << "mesh          " << one_line(check.options.mesh.mesh) << '\n'
+    out << mesh_lines("mesh", check.options.mesh.mesh, check.options.mesh.additions(), check.mesh)
         << "samples       " << grouped(check.samples.rows.size()) << " in "
         << one_line(check.options.samples) << '\n';
     if (spacing.min_distance > 0) {
@@ -160,7 +161,7 @@ std::string report_text(const Check& check) {
     const bool has_distance = spacing.min_distance > 0;
     return text_of(
         Json{{"version", GEODISK_VERSION_STRING},
-             {"mesh", options.mesh.mesh},
+             {"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},
              {"warnings", warnings_json(warnings)},
              {"samples_file", options.samples},
              {"samples", samples.rows.size()},

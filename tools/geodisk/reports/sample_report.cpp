@@ -7,64 +7,12 @@
 #include <geodisk/version.hpp>
 
 #include "geodisk/reports/mesh_parts.hpp"
+#include "geodisk/reports/mesh_report.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-std::string mesh_text(const MeshInput& input, std::uint64_t bare_components) {
-    const MeshStatistics& mesh = input.prepared.statistics();
-    std::string text = counted(mesh.triangles, "triangle", "triangles") + ", " +
-                       counted(mesh.components, "component", "components");
-    if (bare_components > 0) {
-        text += " (" + grouped(bare_components) + " without a sample)";
-    }
-    if (mesh.boundary_edges > 0) {
-        text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
-    }
-    if (mesh.coinciding_border_edges > 0) {
-        text += ", " + grouped(mesh.coinciding_border_edges) + " of them in one place with others";
-    }
-    if (const auto& weld = input.file.weld) {
-        text += ", " + counted(weld->merged_vertices, "vertex", "vertices") + " joined to others";
-        if (weld->degenerate_faces > 0) {
-            text += " and " + counted(weld->degenerate_faces, "triangle", "triangles") +
-                    " dropped by it";
-        }
-    }
-    return text + ", area " + rounded(mesh.area, 6);
-}
-
-/// Lifts may be several, so they make a list.
-Json mesh_json(const SampleJob& job, const MeshInput& input, std::uint64_t bare_components) {
-    const MeshStatistics& mesh = input.prepared.statistics();
-    const std::optional<WeldCounts>& weld = input.file.weld;
-    const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
-    Json json{{"path", job.mesh.mesh}};
-    for (const auto& [name, value] : job.additions()) {
-        if (name == "lift") {
-            json[name].push_back(value);
-        } else {
-            json[name] = value;
-        }
-    }
-    json.update(
-        {{"vertices", mesh.vertices},
-         {"triangles", mesh.triangles},
-         {"polygons", input.file.polygons.empty() ? Json(nullptr) : Json(input.file.polygon_count)},
-         {"merged_vertices", weld ? Json(weld->merged_vertices) : Json(nullptr)},
-         {"welded_triangles", weld ? Json(weld->degenerate_faces) : Json(nullptr)},
-         {"dropped_triangles", mesh.repeated_index_faces},
-         {"components", mesh.components},
-         {"components_without_samples", bare_components},
-         {"boundary_edges", mesh.boundary_edges},
-         {"coinciding_border_edges", mesh.coinciding_border_edges},
-         {"nonmanifold_edges", mesh.nonmanifold_edges},
-         {"area", mesh.area},
-         {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
-    return json;
-}
 
 /// Says what is not exact.
 std::string metric_text(const SampleJob& job) {
@@ -114,7 +62,7 @@ std::string SampleReport::json(double write_seconds) const {
     const RunReport& run = result_.done.run;
     const SampleParams& params = result_.params;
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(job_, mesh_, bare_components_)},
+                  {"mesh", mesh_json(job_.mesh.mesh, job_.additions(), mesh_)},
                   {"warnings", warnings_json(mesh_.warnings)},
                   {"output", job_.out.output},
                   {"min_distance", params.min_distance},
@@ -122,6 +70,7 @@ std::string SampleReport::json(double write_seconds) const {
                   {"metric", metric_text(job_)},
                   {"sample_radii", nullptr}, // Where they do not vary.
                   {"seed", params.seed}};
+    document["mesh"]["components_without_samples"] = bare_components_;
     if (most_radius_ > 0) {
         document["sample_radii"] = {{"least", least_radius_}, {"most", most_radius_}};
     }
@@ -143,11 +92,7 @@ std::string SampleReport::json(double write_seconds) const {
 std::string SampleReport::summary(double write_seconds) const {
     const double distance = result_.params.min_distance;
     std::ostringstream out;
-    out << "mesh          " << one_line(job_.mesh.mesh) << '\n';
-    for (const auto& [name, value] : job_.additions()) {
-        out << "              " << name << ' ' << one_line(value) << '\n';
-    }
-    out << "              " << mesh_text(mesh_, bare_components_) << '\n'
+    out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, bare_components_)
         << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
         << ") in mesh units" << (job_.is_geodesic() ? "" : ", " + metric_text(job_)) << '\n';
     if (most_radius_ > 0) {

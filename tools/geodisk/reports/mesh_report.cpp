@@ -1,0 +1,78 @@
+#include "geodisk/reports/mesh_report.hpp"
+
+#include <optional>
+
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+std::string size_text(const MeshInput& input, std::uint64_t components_without_samples) {
+    const MeshStatistics& mesh = input.prepared.statistics();
+    std::string text = counted(mesh.triangles, "triangle", "triangles") + ", " +
+                       counted(mesh.components, "component", "components");
+    if (components_without_samples > 0) {
+        text += " (" + grouped(components_without_samples) + " without a sample)";
+    }
+    if (mesh.boundary_edges > 0) {
+        text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
+    }
+    if (mesh.coinciding_border_edges > 0) {
+        text += ", " + grouped(mesh.coinciding_border_edges) + " of them in one place with others";
+    }
+    if (const auto& weld = input.file.weld) {
+        text += ", " + counted(weld->merged_vertices, "vertex", "vertices") + " joined to others";
+        if (weld->degenerate_faces > 0) {
+            text += " and " + counted(weld->degenerate_faces, "triangle", "triangles") +
+                    " dropped by it";
+        }
+    }
+    return text + ", area " + rounded(mesh.area, 6);
+}
+
+} // namespace
+
+std::string mesh_lines(const std::string& label, const std::string& path,
+                       const HeaderEntries& additions, const MeshInput& input,
+                       std::uint64_t components_without_samples) {
+    constexpr std::size_t kColumn = 14; // Where values begin in all summaries.
+    std::string lines = label + std::string(kColumn - label.size(), ' ') + one_line(path) + '\n';
+    const auto add = [&](const std::string& text) {
+        lines += std::string(kColumn, ' ') + text + '\n';
+    };
+    for (const auto& [name, value] : additions) {
+        add(name + ' ' + one_line(value));
+    }
+    add(size_text(input, components_without_samples));
+    return lines;
+}
+
+Json mesh_json(const std::string& path, const HeaderEntries& additions, const MeshInput& input) {
+    const MeshStatistics& mesh = input.prepared.statistics();
+    const std::optional<WeldCounts>& weld = input.file.weld;
+    const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
+    Json json{{"path", path}};
+    for (const auto& [name, value] : additions) {
+        if (name == "lift") { // There may be several.
+            json[name].push_back(value);
+        } else {
+            json[name] = value;
+        }
+    }
+    json.update(
+        {{"vertices", mesh.vertices},
+         {"triangles", mesh.triangles},
+         {"polygons", input.file.polygons.empty() ? Json(nullptr) : Json(input.file.polygon_count)},
+         {"merged_vertices", weld ? Json(weld->merged_vertices) : Json(nullptr)},
+         {"welded_triangles", weld ? Json(weld->degenerate_faces) : Json(nullptr)},
+         {"dropped_triangles", mesh.repeated_index_faces},
+         {"components", mesh.components},
+         {"boundary_edges", mesh.boundary_edges},
+         {"coinciding_border_edges", mesh.coinciding_border_edges},
+         {"nonmanifold_edges", mesh.nonmanifold_edges},
+         {"area", mesh.area},
+         {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
+    return json;
+}
+
+} // namespace geodisk::tools

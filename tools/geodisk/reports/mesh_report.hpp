@@ -1,0 +1,22 @@
+// What the commands tell of a mesh they were given: to people and to programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "files/sample_file.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/reports/json.hpp"
+
+namespace geodisk::tools {
+
+/// Lines of a summary, the first with `label`: `path`, then `additions`, the options about it, then
+/// its size and what is particular about it.
+std::string mesh_lines(const std::string& label, const std::string& path,
+                       const HeaderEntries& additions, const MeshInput& input,
+                       std::uint64_t components_without_samples = 0);
+
+/// The same for programs.
+Json mesh_json(const std::string& path, const HeaderEntries& additions, const MeshInput& input);
+
+} // namespace geodisk::tools
