@@ -15,6 +15,7 @@
 #include "engine/plan.hpp"
 #include "engine/record.hpp"
 #include "engine/run_memory.hpp"
+#include "engine/run_result.hpp"
 
 namespace geodisk {
 namespace {
@@ -30,10 +31,6 @@ constexpr std::uint32_t kMostPasses = 64;
 constexpr std::uint32_t kMostIdle = 8;
 // Counts of candidates before an order until that of a number of darts is found.
 constexpr std::uint32_t kMostGuesses = 64;
-
-constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
-    return std::uint64_t{high} << 32 | low;
-}
 
 /// One run: its memory, its job and what the device reported last.
 class Run {
@@ -79,7 +76,6 @@ class Run {
     void record_all(VkCommandBuffer commands, Budget& budget);
     void record_samples(VkCommandBuffer commands, Budget&);
     Task<Result<std::vector<gpu::SampleRec>>> read_samples();
-    SampleSet to_set(const std::vector<gpu::SampleRec>& records) const;
 
     Runner::Impl& runner_;
     const Domain& domain_;
@@ -518,44 +514,14 @@ Task<Result<std::optional<SampleSet>>> Run::go(const ProgressCallback& progress,
         darts = *counted;
     }
     report_.candidates = static_cast<std::uint32_t>(job().thrown + darts);
-    report_.iterations = control_.iterations;
     report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
-    report_.disks = control_.disks;
-    report_.windows = wide(control_.windows_low, control_.windows_high);
-    report_.tested = wide(control_.tested_low, control_.tested_high);
-    report_.most_waiting = control_.most_waiting;
-    report_.longest_chain = control_.longest_chain;
-    report_.most_vertices = control_.most_vertices;
-    report_.most_conflicts = control_.most_conflicts;
-    report_.trips = wide(control_.trips_low, control_.trips_high);
-    report_.lane_trips = wide(control_.lane_trips_low, control_.lane_trips_high);
-    std::copy(std::begin(control_.call_bins), std::end(control_.call_bins),
-              report_.calls.candidates.begin());
-    report_.calls.calls = wide(control_.calls_low, control_.calls_high);
+    take_counts(control_, report_);
     report_.device_bytes = memory_.bytes();
     report_.plan = wanted_;
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }
-    co_return std::optional(to_set(*samples));
-}
-
-SampleSet Run::to_set(const std::vector<gpu::SampleRec>& records) const {
-    SampleSet set{{}, {}, report_};
-    const std::size_t n = of_.dimension;
-    set.samples.reserve(n == 0 ? records.size() : 0);
-    set.points.resize(n * records.size());
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        const gpu::SampleRec& record = records[i];
-        if (n > 0) {
-            of_.coordinates(record, std::span(set.points).subspan(n * i, n));
-        } else {
-            set.samples.push_back(
-                {record.face,
-                 {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
-        }
-    }
-    return set;
+    co_return std::optional(to_set(of_, *samples, report_));
 }
 
 /// A run that fails, whether by an error or an exception, leaves nothing to those to come.
