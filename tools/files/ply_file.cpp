@@ -223,9 +223,7 @@ void PlyFile::read_records(const PlyElement& element, const Visitor& visit) {
             read_binary_record(element, index, record);
         }
         visit(index, record);
-        if (progress_ && is_progress_due(index)) {
-            progress_(static_cast<double>(position_) / static_cast<double>(bytes_.size()));
-        }
+        tell(progress_, index, position_, bytes_.size());
     }
 }
 

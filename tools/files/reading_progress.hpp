@@ -10,9 +10,12 @@ namespace geodisk::tools {
 /// ends the reading. May be empty.
 using ReadingProgress = std::function<void(double part)>;
 
-/// Whether progress is due after so many records.
-constexpr bool is_progress_due(std::uint64_t records) {
-    return records % 65536 == 0;
+/// Calls `progress` if it is due after so many records, when `read` of `all` has been read.
+inline void tell(const ReadingProgress& progress, std::uint64_t records, std::uint64_t read,
+                 std::uint64_t all) {
+    if (progress && records % 65536 == 0) {
+        progress(static_cast<double>(read) / static_cast<double>(all));
+    }
 }
 
 } // namespace geodisk::tools

@@ -68,9 +68,7 @@ PolygonMesh read_binary(const Path& path, std::string_view bytes, const ReadingP
         }
         add_face(mesh);
         rest.remove_prefix(kFacetSize);
-        if (progress && is_progress_due(facet)) {
-            progress(static_cast<double>(facet) / static_cast<double>(count));
-        }
+        tell(progress, facet, facet, count);
     }
     add_warning(mesh.warnings, "trailing_data", rest.size(), "",
                 "byte after the last facet ignored", "bytes after the last facet ignored");

@@ -37,9 +37,7 @@ class TextLines {
             find_feed();
         }
         ++number_;
-        if (progress_ && is_progress_due(number_)) {
-            progress_(static_cast<double>(position_) / static_cast<double>(text_.size()));
-        }
+        tell(progress_, number_, position_, text_.size());
         return true;
     }
 
