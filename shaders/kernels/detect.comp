@@ -101,7 +101,7 @@ void take_slot() {
 
 // And the windows kept, which lie behind it.
 void clear_table() {
-    uint rows = P.table_capacity + trim_rows();
+    uint rows = P.table_capacity + (kTrims ? kTrimRows : 0u);
     uint end = min(lane.cursor + kClearPerStep, rows);
     for (; lane.cursor < end; ++lane.cursor) {
         pool[vertex_row(lane.cursor)] = uvec4(0u);

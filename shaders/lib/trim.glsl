@@ -12,9 +12,6 @@
 
 bool window_taken; // in this trip
 
-// Rows of what lies behind the vertex table.
-uint trim_rows() { return kTrims ? kKeptRows * kKeptPerEdge * kKeptEdges : 0u; }
-
 // Edges that share rows do so in whatever place of a job their mesh has its vertices: the sum is linear.
 uint kept_row(uvec2 ends) {
     uint mixed = ends.x * 2654435769u + (ends.y - ends.x) * 625341585u;
@@ -73,8 +70,8 @@ vec2 lit_from_lower(bool turned, vec2 lit) {
     return vec2(from_lower(turned, ends.x), from_lower(turned, ends.y));
 }
 
-// Whether the disk goes on without end though it trims: at edges of
-// many faces windows branch, and those kept hardly cover what comes.
+// Whether the disk goes on without end though it trims: at edges of many faces windows branch, and those
+// kept hardly cover what comes.
 bool is_endless() {
     uint vertices = min(lane.vertices, kUntrimmedVertices);
     return trims() && lane.pushed - lane.trims > kMostWindows + vertices * kMostPerVertex;

@@ -196,6 +196,8 @@ GEODISK_CONST uint kPartWords = 8u;  // of a surface among several
 GEODISK_CONST uint kLaneRows = 10u;
 GEODISK_CONST uint kWindowRows = 2u;
 GEODISK_CONST uint kKeptRows = 2u;
+// Of a lane, where disks may trim: all windows that it keeps.
+GEODISK_CONST uint kTrimRows = kKeptRows * kKeptPerEdge * kKeptEdges;
 
 // Specialization constants.
 GEODISK_CONST uint kSpecLocalSize = 0u;

@@ -213,7 +213,7 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
 
 std::uint32_t RunPlan::lane_rows() const noexcept {
     return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + (window_capacity + 3) / 4 +
-           table_capacity + (trims ? gpu::kKeptRows * gpu::kKeptPerEdge * gpu::kKeptEdges : 0);
+           table_capacity + (trims ? gpu::kTrimRows : 0);
 }
 
 std::uint64_t RunPlan::first_list_row() const noexcept {
