@@ -90,6 +90,7 @@ TEST_CASE("a weak device is reported with every reason") {
     REQUIRE(report);
     CHECK_FALSE(report->usable());
     CHECK_FALSE(report->compute_queue_family.has_value());
+    CHECK_FALSE(report->graphics_queue_family.has_value());
     CHECK(report->reasons_against.size() == 7);
     for (const char* part :
          {"maxPerStageDescriptorStorageBuffers is 7, at least 8",
@@ -230,6 +231,10 @@ TEST_CASE("a compute family without graphics is preferred") {
     REQUIRE(report);
     CHECK(report->compute_queue_family == expected);
     CHECK(report->timestamp_valid_bits == expected_bits);
+    const auto drawing = std::find_if(families.begin(), families.end(), [](const auto& family) {
+        return (family.queueFlags & kBoth) == kBoth;
+    });
+    CHECK(report->graphics_queue_family == static_cast<std::uint32_t>(drawing - families.begin()));
 }
 
 TEST_CASE("each missing function is named") {

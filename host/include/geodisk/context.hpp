@@ -32,6 +32,9 @@ struct ContextOptions {
     /// Have the driver keep what Sampler::report_kernels asks it for. For development: kernels take
     /// longer to compile. Creation fails where the device cannot.
     bool pipeline_statistics = false;
+    /// The queue is to draw as well. Creation fails where the device has none for graphics and
+    /// compute.
+    bool graphics = false;
 };
 
 /// Index into `reports` of the device that `device` names.
@@ -52,7 +55,8 @@ Result<std::size_t> select_device(std::span<const DeviceReport> reports,
 /// hint what to install; `out_of_host_memory`.
 Result<std::vector<DeviceReport>> list_devices() noexcept;
 
-/// Owns an instance, a device with one compute queue, and the loaded loader library.
+/// Owns an instance, a device with one queue for compute, and for graphics where asked for, and the
+/// loaded loader library.
 ///
 /// Movable, not copyable. A moved-from Context may only be destroyed or assigned to. Contexts are
 /// independent of each other; several may exist at once. Everything created from `device()` must

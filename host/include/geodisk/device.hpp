@@ -122,8 +122,10 @@ struct DeviceReport {
     /// The family to take the compute queue from: one without graphics where there is one, so that
     /// long dispatches do not hold up a display.
     std::optional<std::uint32_t> compute_queue_family;
-    /// Of that family; 0 when it has no timestamps.
+    /// Of compute_queue_family; 0 when it has no timestamps.
     std::uint32_t timestamp_valid_bits = 0;
+    /// The first family with graphics and compute, for those who draw with the same queue.
+    std::optional<std::uint32_t> graphics_queue_family;
     /// Division and square root are known to be correctly rounded, as on the host. Vulkan promises
     /// less, so this is true only for drivers known to do better (llvmpipe).
     bool rounds_natively = false;

@@ -82,6 +82,7 @@ struct Context::Impl {
     std::unique_ptr<Instance> instance;
     DeviceReport report;
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+    std::uint32_t family = 0;
     Extensions extensions;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
@@ -96,9 +97,19 @@ struct Context::Impl {
             vkDestroyDevice(device, nullptr);
     }
 
+    Result<Done> choose_family(bool graphics);
     Result<Done> choose_extensions(const ContextOptions& options);
     Result<Done> open_device();
 };
+
+Result<Done> Context::Impl::choose_family(bool graphics) {
+    const auto& found = graphics ? report.graphics_queue_family : report.compute_queue_family;
+    if (!found)
+        return Error{Status::device_lacks,
+                     report.name + " has no queue family for graphics and compute"};
+    family = *found;
+    return Done{};
+}
 
 /// Takes those that the device has; those that are asked for it must have.
 Result<Done> Context::Impl::choose_extensions(const ContextOptions& options) {
@@ -124,7 +135,6 @@ Result<Done> Context::Impl::choose_extensions(const ContextOptions& options) {
 /// Creates the device of `physical_device` and `report`.
 Result<Done> Context::Impl::open_device() {
     const OwnerTable& vk = instance->owner_functions();
-    const std::uint32_t family = report.compute_queue_family.value_or(0);
     const Result<VkDevice> created = create_device(*instance, physical_device, family, extensions);
     if (!created)
         return created.error();
@@ -161,6 +171,9 @@ Result<Context> ContextAccess::create(Loader loader, const ContextOptions& optio
         impl->instance = std::move(instance).value();
         impl->physical_device = handles[*chosen];
         impl->report = std::move(reports[*chosen]);
+        Result<Done> family = impl->choose_family(options.graphics);
+        if (!family)
+            return std::move(family).error();
         Result<Done> extensions = impl->choose_extensions(options);
         if (!extensions)
             return std::move(extensions).error();
@@ -218,7 +231,7 @@ DeviceRefs Context::device() const noexcept {
 QueueRef Context::queue() const noexcept {
     QueueRef ref;
     ref.queue = impl_->queue;
-    ref.family = impl_->report.compute_queue_family.value_or(0);
+    ref.family = impl_->family;
     ref.lock_user = &impl_->queue_mutex;
     ref.lock = [](void* mutex) { static_cast<std::mutex*>(mutex)->lock(); };
     ref.unlock = [](void* mutex) { static_cast<std::mutex*>(mutex)->unlock(); };

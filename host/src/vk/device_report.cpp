@@ -99,6 +99,8 @@ void read_queue_families(const InstanceTable& vk, VkPhysicalDevice physical_devi
         if (family.queueCount == 0 || (family.queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
             continue;
         const bool has_graphics = (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
+        if (has_graphics && !report.graphics_queue_family)
+            report.graphics_queue_family = i;
         if (report.compute_queue_family && (has_graphics || !chosen_has_graphics))
             continue;
         report.compute_queue_family = i;

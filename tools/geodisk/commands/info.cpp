@@ -98,6 +98,7 @@ Json to_json(std::size_t index, const DeviceReport& report) {
           {"timestamp_period", limits.timestamp_period}}},
         {"largest_device_local_heap", report.largest_device_local_heap},
         {"compute_queue_family", json_of(report.compute_queue_family)},
+        {"graphics_queue_family", json_of(report.graphics_queue_family)},
         {"timestamp_valid_bits", report.timestamp_valid_bits},
         {"rounds_natively", report.rounds_natively},
         {"usable", report.usable()},
