@@ -38,6 +38,21 @@ Position<Real> position_in(const Surface<Real>& surface, std::uint32_t h, FacePo
     return {end * edge.length + apex * edge.apex_x, apex * edge.apex_y};
 }
 
+/// A point given in the frame of h, in the frame of `base`, a half-edge of the same face.
+template <class Real>
+Position<Real> in_other_frame(const Surface<Real>& surface, std::uint32_t h, std::uint32_t base,
+                              Position<Real> at) {
+    const Edge<Real>& b = surface.edges[base];
+    if (h == base) {
+        return at;
+    }
+    if (h == next_in_face(base)) {
+        const Edge<Real>& e = surface.edges[h];
+        return {b.length - at.x * e.cosine - at.y * e.sine, at.x * e.sine - at.y * e.cosine};
+    }
+    return {b.apex_x - at.x * b.cosine + at.y * b.sine, b.apex_y - at.x * b.sine - at.y * b.cosine};
+}
+
 /// Which cell of its face's grid a point lies in.
 template <class Real>
 std::uint32_t cell_of(const Surface<Real>& surface, const Grid& grid, FacePoint<Real> point) {

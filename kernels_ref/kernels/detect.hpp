@@ -81,20 +81,43 @@ class Detector {
     /// place of `bins` with `wanted(place)` that is near `source`, once for each path found.
     template <class Wanted, class Hit>
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
+        struct Scan {
+            Detector& detector;
+            Wanted& wanted;
+            Hit& hit;
+
+            void face(std::uint32_t h, Real x, Real y, Real sigma) const {
+                detector.scan_face(h, x, y, sigma, wanted, hit);
+            }
+            void wedge(std::uint32_t h, Real x, Real y, Real b0, Real b1, Real sigma) const {
+                detector.scan_wedge(h, x, y, b0, b1, sigma, wanted, hit);
+            }
+        };
+        const Scan scan{*this, wanted, hit};
+        return spread(source, scan);
+    }
+
+    /// The disk itself: tells `light` of each way in which faces are lit, in the frame of a
+    /// half-edge h of the face, from which a distance is the straight way from (x, y) plus sigma:
+    /// `light.face(h, x, y, sigma)` lights the whole face, and `light.wedge(h, x, y, b0, b1,
+    /// sigma)` what (x, -y) sees of it through [b0, b1] of h. The distance of a point is the least
+    /// of those that light it, where that is below the limit. Throws as run().
+    template <class Light>
+    DiskCount spread(FacePoint<Real> source, const Light& light) {
         count_ = {};
         untrimmed_ = 0;
         waiting_.begin_disk(trims_all_);
         begin();
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
-        spread_from_source(source, wanted, hit);
-        const auto on_window = [&](const Window& window) { cross_edge(window, wanted, hit); };
-        const auto on_event = [&](const Event& event) { spread_from_vertex(event, wanted, hit); };
+        spread_from_source(source, light);
+        const auto on_window = [&](const Window& window) { cross_edge(window, light); };
+        const auto on_event = [&](const Event& event) { spread_from_vertex(event, light); };
         do {
             if (makes_many()) {
                 untrimmed_ = waiting_.pushed();
                 waiting_.begin(true);
                 begin();
-                spread_from_source(source, wanted, hit);
+                spread_from_source(source, light);
             } else if (is_endless()) {
                 throw EndlessDisk(source.face);
             }
@@ -233,11 +256,11 @@ class Detector {
         return rest < 0 || rest * rest < own_square;
     }
 
-    template <class Wanted, class Hit>
-    void spread_from_source(FacePoint<Real> source, Wanted& wanted, Hit& hit) {
+    template <class Light>
+    void spread_from_source(FacePoint<Real> source, const Light& light) {
         const std::uint32_t first = 3 * source.face;
         const auto at = position_in(surface_, first, source);
-        scan_face(first, at.x, at.y, Real{0}, wanted, hit);
+        light.face(first, at.x, at.y, Real{0});
         for (std::uint32_t e = first; e < first + 3; ++e) {
             const auto p = position_in(surface_, e, source);
             const Real distance = root(p.x * p.x + p.y * p.y);
@@ -277,8 +300,8 @@ class Detector {
         return {start, start + (word >> 16)};
     }
 
-    template <class Wanted, class Hit>
-    void spread_from_vertex(const Event& event, Wanted& wanted, Hit& hit) {
+    template <class Light>
+    void spread_from_vertex(const Event& event, const Light& light) {
         const std::uint32_t v = event.vertex;
         if (distance_at(v) < event.sigma) {
             return;
@@ -298,13 +321,13 @@ class Detector {
                   kNoEdge, 0, false, event.chain + 1);
             push(leave(e, distance_at(edge.origin), distance_at(surface_.edges[back].origin),
                        edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1, e));
-            scan_face(e, edge.apex_x, edge.apex_y, event.sigma, wanted, hit);
+            light.face(e, edge.apex_x, edge.apex_y, event.sigma);
         }
     }
 
     /// A window enters every other face of its edge.
-    template <class Wanted, class Hit>
-    void cross_edge(const Window& window, Wanted& wanted, Hit& hit) {
+    template <class Light>
+    void cross_edge(const Window& window, const Light& light) {
         const Real length = surface_.edges[window.edge].length;
         bool same_way = true;
         std::uint32_t h = window.edge;
@@ -332,7 +355,7 @@ class Detector {
             if (turns_back(h, window)) {
                 continue;
             }
-            enter_face(h, entering, wanted, hit);
+            enter_face(h, entering, light);
         }
     }
 
@@ -358,8 +381,8 @@ class Detector {
     }
 
     /// The window, given in the frame of h with its source at (x, -y), enters the face of h.
-    template <class Wanted, class Hit>
-    void enter_face(std::uint32_t h, const Window& window, Wanted& wanted, Hit& hit) {
+    template <class Light>
+    void enter_face(std::uint32_t h, const Window& window, const Light& light) {
         const Real x = window.x;
         const Real y = window.y;
         const Real b0 = window.b0;
@@ -391,7 +414,7 @@ class Detector {
         const bool right_first = over_left.distance < over_right.distance;
         push(right_first ? over_right : over_left);
         push(right_first ? over_left : over_right);
-        scan_wedge(h, x, y, b0, b1, sigma, wanted, hit);
+        light.wedge(h, x, y, b0, b1, sigma);
     }
 
     static constexpr Real kFull = -1;
@@ -494,7 +517,7 @@ class Detector {
             scan_places(bins_.starts[first], bins_.starts[first + 1]);
             return;
         }
-        const auto center = in_grid_frame(h, grid.base, x, y);
+        const auto center = in_other_frame(surface_, h, grid.base, {x, y});
         const Real reach =
             rest + static_cast<Real>(kCellPadding) * (surface_.edges[grid.base].length + 1);
         const Real per_unit =
@@ -522,19 +545,6 @@ class Detector {
         }
         const Real last = static_cast<Real>(count - 1);
         return scaled >= last ? count - 1 : static_cast<std::uint32_t>(scaled);
-    }
-
-    /// A point given in the frame of h, in the frame of `base`, another half-edge of the face.
-    Position<Real> in_grid_frame(std::uint32_t h, std::uint32_t base, Real x, Real y) const {
-        const Edge<Real>& b = surface_.edges[base];
-        if (h == base) {
-            return {x, y};
-        }
-        if (h == next_in_face(base)) {
-            const Edge<Real>& e = surface_.edges[h];
-            return {b.length - x * e.cosine - y * e.sine, x * e.sine - y * e.cosine};
-        }
-        return {b.apex_x - x * b.cosine + y * b.sine, b.apex_y - x * b.sine - y * b.cosine};
     }
 
     /// Sources closer than this to a vertex light its whole fan: unfolding around so near a vertex

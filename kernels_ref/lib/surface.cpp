@@ -1,5 +1,7 @@
 #include "lib/surface.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "engine/stages.hpp"
@@ -68,5 +70,48 @@ void Surface<Real>::place_edges(const PreparedMesh& mesh) {
 
 template struct Surface<float>;
 template struct Surface<double>;
+
+namespace {
+
+/// Cells of the grids of all faces when lengths are in units of `unit`.
+double cell_count(const PreparedMesh& mesh, double unit) {
+    const double cells_per_length = gpu::kCellsPerDistance / unit;
+    double total = 0;
+    for (std::size_t h = 0; h < mesh.half_edges().size(); h += 3) {
+        double longest = 0;
+        double height = 0;
+        for (std::size_t side = h; side < h + 3; ++side) {
+            const HalfEdge& edge = mesh.half_edges()[side];
+            if (edge.length > longest) {
+                longest = edge.length;
+                height = edge.apex_y;
+            }
+        }
+        total +=
+            std::floor(longest * cells_per_length + 1) * std::floor(height * cells_per_length + 1);
+    }
+    return total;
+}
+
+} // namespace
+
+double suitable_unit(const PreparedMesh& mesh, double distance, double most_cells) {
+    const double extent = std::max(mesh.statistics().diagonal, mesh.statistics().longest_edge);
+    double unit = std::min(distance, extent);
+    // A cell for each face at least.
+    const double most = std::max(most_cells, 2.0 * static_cast<double>(mesh.half_edges().size()));
+    while (cell_count(mesh, unit) > most) {
+        unit *= 2;
+    }
+    return unit;
+}
+
+double longest_path(const PreparedMesh& mesh) {
+    double length = 0;
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        length += edge.length;
+    }
+    return length;
+}
 
 } // namespace geodisk::ref

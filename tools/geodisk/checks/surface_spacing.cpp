@@ -23,46 +23,6 @@ namespace {
 constexpr double kCutFactor = 1.25;
 constexpr double kMostCells = 0x1p26;
 
-/// Cells of the reference's grids when lengths are in units of `unit`.
-double cell_count(const PreparedMesh& mesh, double unit) {
-    const double cells_per_length = gpu::kCellsPerDistance / unit;
-    double total = 0;
-    for (std::size_t h = 0; h < mesh.half_edges().size(); h += 3) {
-        double longest = 0;
-        double height = 0;
-        for (std::size_t side = h; side < h + 3; ++side) {
-            const HalfEdge& edge = mesh.half_edges()[side];
-            if (edge.length > longest) {
-                longest = edge.length;
-                height = edge.apex_y;
-            }
-        }
-        total +=
-            std::floor(longest * cells_per_length + 1) * std::floor(height * cells_per_length + 1);
-    }
-    return total;
-}
-
-/// The reference wants lengths in units of about the distance looked for. A distance out of all
-/// proportion to the mesh gets a unit that keeps the numbers and the grids in bounds.
-double choose_unit(const PreparedMesh& mesh, double min_distance) {
-    const double extent = std::max(mesh.statistics().diagonal, mesh.statistics().longest_edge);
-    double unit = std::min(min_distance, extent);
-    while (cell_count(mesh, unit) > kMostCells) {
-        unit *= 2;
-    }
-    return unit;
-}
-
-/// No shortest path is longer: it meets each edge and each triangle at most once.
-double longest_path(const PreparedMesh& mesh) {
-    double length = 0;
-    for (const HalfEdge& edge : mesh.half_edges()) {
-        length += edge.length;
-    }
-    return length;
-}
-
 std::vector<ref::FacePoint<double>> points_of(std::span<const SampleRow> rows) {
     std::vector<ref::FacePoint<double>> points;
     points.reserve(rows.size());
@@ -82,7 +42,7 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
     const ref::Bins<double> bins(surface, points_of(rows));
     ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);
     // The reference takes lengths beyond all proportion to the mesh for unknown ones.
-    const double longest = 2 * longest_path(mesh.prepared);
+    const double longest = 2 * ref::longest_path(mesh.prepared);
 
     std::vector<double> distances(rows.size(), kUnknown); // By place, of the current source.
     std::vector<std::uint32_t> near;                      // Places with a distance.
@@ -123,8 +83,8 @@ SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> ro
     progress.begin_stage("verifying");
     // From the sample with the larger radius, every pair is found this way.
     const auto cut_of = [&](std::uint32_t row) { return result.cut * 2 * radii[row]; };
-    for_each_pair(mesh, rows, choose_unit(mesh.prepared, 2 * largest), cut_of, progress,
-                  [&](std::uint32_t row_a, std::uint32_t row_b, double distance) {
+    for_each_pair(mesh, rows, ref::suitable_unit(mesh.prepared, 2 * largest, kMostCells), cut_of,
+                  progress, [&](std::uint32_t row_a, std::uint32_t row_b, double distance) {
                       const double ratio = distance / (radii[row_a] + radii[row_b]);
                       return result.add({row_a, row_b, distance, ratio});
                   });
@@ -139,15 +99,15 @@ std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const Sam
         return closest;
     }
     progress.begin_stage("measuring");
-    const double longest = longest_path(mesh.prepared);
+    const double longest = ref::longest_path(mesh.prepared);
     // Samples spread well are no farther apart; of others only few disks are that large.
     double distance =
         distance_for_count(mesh.prepared.statistics().area, static_cast<double>(rows.size()));
     while (!closest) {
         const double cut = kCutFactor * distance;
         for_each_pair(
-            mesh, rows, choose_unit(mesh.prepared, distance), [cut](std::uint32_t) { return cut; },
-            progress,
+            mesh, rows, ref::suitable_unit(mesh.prepared, distance, kMostCells),
+            [cut](std::uint32_t) { return cut; }, progress,
             [&](std::uint32_t row_a, std::uint32_t row_b, double length) {
                 const ClosePair pair{row_a, row_b, length, length};
                 if (is_closer(pair, closest)) {
