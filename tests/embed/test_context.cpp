@@ -239,6 +239,34 @@ TEST_CASE("a library that is no Vulkan loader is refused") {
 }
 #endif
 
+TEST_CASE("a queue that draws is given or refused") {
+    test::FakeDriver driver;
+    ContextOptions options;
+    options.graphics = true;
+    SUBCASE("the device has one") {
+        driver.edit_queue_families = [](auto& families) {
+            families = {families.front()};
+            families.front().queueFlags = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT;
+        };
+        const Result<Context> context = ContextAccess::create(driver.loader(), options);
+        REQUIRE(context);
+        CHECK(context->queue().family == context->report().graphics_queue_family);
+        CHECK(submit_and_wait(*context) == VK_SUCCESS);
+    }
+    SUBCASE("it has none") {
+        driver.edit_queue_families = [](auto& families) {
+            for (VkQueueFamilyProperties& family : families)
+                family.queueFlags = VK_QUEUE_COMPUTE_BIT;
+        };
+        const Result<Context> context = ContextAccess::create(driver.loader(), options);
+        REQUIRE_FALSE(context);
+        CHECK(context.error().status == Status::device_lacks);
+        CHECK(contains(context.error().message, "no queue family for graphics and compute"));
+        CHECK(driver.live_instances() == 0);
+        CHECK(ContextAccess::create(driver.loader(), {})); // To sample it will do.
+    }
+}
+
 TEST_CASE("a machine without a working driver is reported with a hint") {
     test::FakeDriver driver;
     SUBCASE("no driver at all") {

@@ -6,7 +6,11 @@ find_program(GEODISK_GLSLANG NAMES glslangValidator glslang REQUIRED
 find_program(GEODISK_SPIRV_VAL NAMES spirv-val DOC "The SPIR-V validator (package spirv-tools)")
 
 function(geodisk_add_kernel target name variant)
-    set(source "${PROJECT_SOURCE_DIR}/shaders/kernels/${name}.comp")
+    geodisk_add_shader(${target} "${PROJECT_SOURCE_DIR}/shaders/kernels/${name}.comp" ${variant} ${ARGN})
+endfunction()
+
+# geodisk_add_shader(TARGET SOURCE VARIANT [OPTION...]): the same of any shader.
+function(geodisk_add_shader target source variant)
     set(folder "${CMAKE_CURRENT_BINARY_DIR}/kernels")
     set(binary "${folder}/${variant}.spv")
     set(header "${folder}/${variant}.spv.inc")
@@ -23,7 +27,7 @@ function(geodisk_add_kernel target name variant)
         COMMAND ${compile} --vn "k_${variant}_spirv" --depfile "${header}.d" -o "${header}"
         DEPENDS "${source}"
         DEPFILE "${header}.d"
-        COMMENT "Compiling kernel ${variant}"
+        COMMENT "Compiling shader ${variant}"
         VERBATIM)
     target_sources(${target} PRIVATE "${header}")
     target_include_directories(${target} PRIVATE "${folder}")

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "files/tuning_file.hpp"
+#include "geodisk/opened_device.hpp"
 #include "geometry/count_search.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -15,14 +16,6 @@ namespace {
 
 /// Beyond what most meshes make; disks of so many are told of, since they take long.
 constexpr std::uint64_t kManyWindows = 10000;
-
-/// As --device and --validate ask.
-Context open_device(const RunOptions& options, ProgressLine& progress) {
-    progress.begin_stage("opening the device");
-    Context context = take(Context::create({options.device, options.validate, {}}));
-    check_interrupted();
-    return context;
-}
 
 /// `options` with the tuning that is kept for the device.
 RunnerOptions tuned(RunnerOptions options, const DeviceReport& device) {
@@ -55,16 +48,6 @@ void check_run(const Error& error, bool bounded) {
     }
 }
 
-/// Throws UserError if the validation layer had something to say.
-void check_validation(const Context& context) {
-    if (context.validation_message_count() > 0) {
-        const auto messages = take(context.validation_messages());
-        throw UserError(ExitCode::internal,
-                        std::to_string(context.validation_message_count()) +
-                            " messages of the validation layer, the first: " + messages.front());
-    }
-}
-
 std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
     return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
 }
@@ -88,7 +71,7 @@ std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
     Task task = task_at(min_distance); // Fails before a device is needed.
     DeviceRun done;
     Stopwatch watch;
-    const Context context = open_device(options, progress);
+    const Context context = open_device(options.device, false, progress);
     done.open_seconds = watch.seconds();
     done.device = context.report();
 

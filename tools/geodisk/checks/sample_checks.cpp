@@ -114,6 +114,17 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
     return strays;
 }
 
+void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
+                   const std::string& mesh_path, const MeshInput& mesh) {
+    check_rows(samples_path, samples, mesh_path, mesh);
+    const std::vector<StrayRow> strays = find_strays(samples, mesh);
+    if (!strays.empty()) {
+        fail_input(samples_path, "sample " + std::to_string(strays.front().row) + " is " +
+                                     offset_text(strays.front()) + " on " + mesh_path +
+                                     "; are these samples of another mesh?");
+    }
+}
+
 std::string offset_text(const StrayRow& stray) {
     return rounded(stray.offset, 3) + " away from where its face and weights put it";
 }

@@ -28,6 +28,11 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
 /// file rounds. The rows must have passed check_rows(); without coordinates there are none.
 std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh);
 
+/// The same as check_rows(), and that no sample is a stray: samples of another mesh would land
+/// anywhere.
+void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
+                   const std::string& mesh_path, const MeshInput& mesh);
+
 /// How far `stray` is off, as the end of a sentence.
 std::string offset_text(const StrayRow& stray);
 

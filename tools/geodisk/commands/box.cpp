@@ -125,7 +125,7 @@ void run_box(const BoxOptions& options) {
     const std::vector<SampleRow> rows = to_rows(set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
     const BoxReport report(job, rows.size(), done);
-    write_outputs(job.out, progress, report, [&](AtomicFile& file) {
+    write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
         write_box_samples(file, job.out.output, report.header(), rows, job.out.ascii, dimension);
     });
 }

@@ -24,6 +24,9 @@ void add_verify_command(CLI::App& app);
 void verify_box(const std::string& samples, const std::string& min_distance,
                 const OutputOptions& out);
 
+/// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
+void add_render_command(CLI::App& app);
+
 /// Carries samples over to another mesh of the same connectivity.
 void add_transfer_command(CLI::App& app);
 

@@ -91,7 +91,7 @@ void run_sample(const SampleOptions& options) {
                               to_rows(mesh, params.min_distance, set.samples)};
 
     const SampleReport report(job, mesh, result);
-    write_outputs(job.out, progress, report, [&](AtomicFile& file) {
+    write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
         write_samples(file, job.out.output, report.header(), result.rows, job.out.ascii,
                       mesh.dimension());
     });

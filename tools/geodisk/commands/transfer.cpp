@@ -70,18 +70,6 @@ void check_connectivity(const TransferOptions& options, const MeshFile& from, co
     }
 }
 
-/// Samples of another mesh would land anywhere.
-void check_samples(const TransferOptions& options, const SampleFile& samples,
-                   const MeshInput& from) {
-    check_rows(options.samples, samples, options.from.mesh, from);
-    const std::vector<StrayRow> strays = find_strays(samples, from);
-    if (!strays.empty()) {
-        fail_input(options.samples, "sample " + std::to_string(strays.front().row) + " is " +
-                                        offset_text(strays.front()) + " on " + options.from.mesh +
-                                        "; are these samples of another mesh?");
-    }
-}
-
 /// What holds of the new samples, then what the header of the old ones said, as "source_KEY".
 SampleHeader transferred_header(const TransferOptions& options, const SampleHeader& source,
                                 const std::optional<ClosePair>& closest) {
@@ -140,7 +128,7 @@ void run_transfer(const TransferOptions& options) {
     progress.begin_stage("reading the samples");
     SampleFile samples = read_samples(options.samples);
     progress.clear();
-    check_samples(options, samples, from);
+    check_on_mesh(options.samples, samples, options.from.mesh, from);
 
     for (SampleRow& row : samples.rows) {
         to.place(row);

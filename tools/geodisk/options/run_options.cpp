@@ -33,21 +33,25 @@ double RunOptions::stall_seconds() const {
     return stall_timeout.empty() ? 0 : parse_ratio("--stall-timeout", stall_timeout, 0.1, kWeek);
 }
 
+void add_device_options(CLI::App& command, DeviceOptions& options) {
+    add_option(command, "--device", options.device, "NAME|INDEX",
+               "Device by name, index or UUID (geodisk info)");
+    command
+        .add_flag("--validate", options.validate,
+                  "Run with the Vulkan validation layer, fail on any message")
+        ->group("Development");
+}
+
 void add_run_options(CLI::App& command, RunOptions& options) {
     add_option(command, "--seed", options.seed, "S", "64-bit seed; equal seeds give equal samples")
         ->capture_default_str();
-    add_option(command, "--device", options.device, "NAME|INDEX",
-               "Device by name, index or UUID (geodisk info)");
+    add_device_options(command, options.device);
     add_option(command, "--memory", options.memory, "BYTES",
                "Most bytes to take on the device, with K, M or G;\n"
                "does not change the samples");
     add_option(command, "--stall-timeout", options.stall_timeout, "SECONDS",
                "Give the device up when it has not answered for so long\n"
                "(120 s, and 600 s on a CPU)");
-    command
-        .add_flag("--validate", options.validate,
-                  "Run with the Vulkan validation layer, fail on any message")
-        ->group("Development");
 }
 
 } // namespace geodisk::tools

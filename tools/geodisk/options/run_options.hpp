@@ -36,10 +36,19 @@ void add_json_option(CLI::App& command, OutputOptions& options);
 /// Adds --json, --ascii and --quiet.
 void add_output_options(CLI::App& command, OutputOptions& options);
 
+/// Which device to work on, as given on the command line.
+struct DeviceOptions {
+    std::string device;
+    bool validate = false;
+};
+
+/// Adds --device and --validate.
+void add_device_options(CLI::App& command, DeviceOptions& options);
+
 /// How to sample on a device, as given on the command line.
 struct RunOptions {
-    std::string seed = "0", device, memory, stall_timeout;
-    bool validate = false;
+    DeviceOptions device;
+    std::string seed = "0", memory, stall_timeout;
 
     /// Throw UserError(usage) naming the option whose value will not do.
     std::uint64_t parsed_seed() const;

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <optional>
 
-#include "files/sample_file.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -44,30 +43,30 @@ void bring_out(const OutputOptions& options, std::optional<AtomicFile>& file,
 } // namespace
 
 void check_outputs(const OutputOptions& options, const std::string& what,
-                   const std::vector<NamedFile>& read) {
-    const NamedFile samples{what, options.output};
+                   const std::vector<NamedFile>& read, void (*check_path)(const Path&)) {
+    const NamedFile output{what, options.output};
     const NamedFile report{"the report", options.json};
     for (const NamedFile& other : read) {
-        check_pair(samples, other);
+        check_pair(output, other);
     }
     for (const NamedFile& other : read) {
         check_pair(report, other);
     }
-    check_pair(report, samples);
+    check_pair(report, output);
     if (!options.output.empty()) {
-        check_output_path(options.output);
+        check_path(options.output);
     }
     if (is_file(options.json)) {
         check_writable(options.json);
     }
 }
 
-void publish(const OutputOptions& options, AtomicFile& samples, const std::string& report,
+void publish(const OutputOptions& options, AtomicFile& output, const std::string& report,
              const std::string& summary) {
     std::optional<AtomicFile> json;
     bring_out(options, json, report, summary, "the summary");
     const Uninterrupted both;
-    samples.commit();
+    output.commit();
     if (json) {
         json->commit();
     }

@@ -1,0 +1,67 @@
+#include "geodisk/inputs/box_input.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/reports/box_report.hpp"
+#include "program/arguments.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// "1 x 0.5": the sides; none if one is no positive number.
+std::vector<double> parse_sides(std::string_view text) {
+    std::vector<double> sides;
+    for (bool more = true; more;) {
+        const std::size_t end = text.find(" x ");
+        const std::optional<double> side = parse_real(trimmed(text.substr(0, end)));
+        if (!side || !(*side > 0) || !std::isfinite(*side)) {
+            return {};
+        }
+        sides.push_back(*side);
+        more = end != std::string_view::npos;
+        text.remove_prefix(more ? end + 3 : text.size());
+    }
+    return sides;
+}
+
+} // namespace
+
+BoxParams box_of(const std::string& path, const std::string& min_distance,
+                 const SampleFile& samples) {
+    const std::string* const sides = samples.header.find("box");
+    if (sides == nullptr) {
+        fail_input(path, "its header tells of no box; samples on a mesh are verified "
+                         "with it: geodisk verify MESH SAMPLES");
+    }
+    BoxParams box;
+    box.extents = parse_sides(*sides);
+    if (box.extents.empty() || box.extents.size() > kMostBoxDimensions) {
+        fail_input(path, "its header has the box " + in_quotes(*sides) +
+                             ", which is not 1 to 6 positive sides");
+    }
+    if (box.extents.size() > samples.dimension) {
+        fail_input(path, "has " + std::to_string(samples.dimension) +
+                             " coordinates, but its box has " + std::to_string(box.extents.size()) +
+                             " sides");
+    }
+    const std::string* const kind = samples.header.find("sides");
+    if (kind == nullptr || (*kind != "open" && *kind != "periodic")) {
+        fail_input(path,
+                   "its header does not tell whether the sides of the box are open or periodic");
+    }
+    box.is_periodic = *kind == "periodic";
+    box.min_distance =
+        min_distance.empty()
+            ? header_distance(path, samples.header)
+            : parse_length("--min-distance", min_distance).in_mesh_units(diagonal_of(box));
+    return box;
+}
+
+} // namespace geodisk::tools

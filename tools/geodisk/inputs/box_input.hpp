@@ -1,0 +1,17 @@
+// The box that the samples of a file lie in.
+#pragma once
+
+#include <string>
+
+#include <geodisk/box.hpp>
+
+#include "files/sample_file.hpp"
+
+namespace geodisk::tools {
+
+/// What the header of the file `path` tells of the box, with `min_distance` of the command line
+/// instead of the header's, unless it is "". Throws UserError.
+BoxParams box_of(const std::string& path, const std::string& min_distance,
+                 const SampleFile& samples);
+
+} // namespace geodisk::tools

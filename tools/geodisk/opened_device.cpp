@@ -1,0 +1,30 @@
+#include "geodisk/opened_device.hpp"
+
+#include <string>
+
+#include "program/failure.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+
+Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& progress) {
+    progress.begin_stage("opening the device");
+    ContextOptions wanted;
+    wanted.device = options.device;
+    wanted.validation = options.validate;
+    wanted.graphics = graphics;
+    Context context = take(Context::create(wanted));
+    check_interrupted();
+    return context;
+}
+
+void check_validation(const Context& context) {
+    if (context.validation_message_count() > 0) {
+        const auto messages = take(context.validation_messages());
+        throw UserError(ExitCode::internal,
+                        std::to_string(context.validation_message_count()) +
+                            " messages of the validation layer, the first: " + messages.front());
+    }
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,18 @@
+// The device of a command.
+#pragma once
+
+#include <geodisk/context.hpp>
+
+#include "geodisk/options/run_options.hpp"
+#include "geodisk/outputs/progress.hpp"
+
+namespace geodisk::tools {
+
+/// As --device and --validate ask; with a queue that draws as well, where `graphics` is set. Throws
+/// UserError.
+Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& progress);
+
+/// Throws UserError(internal) if the validation layer had something to say.
+void check_validation(const Context& context);
+
+} // namespace geodisk::tools

@@ -1,0 +1,100 @@
+#include "geodisk/options/render_options.hpp"
+
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+std::uint32_t parse_side(const std::string& text, std::string_view side) {
+    using picture::PictureParams;
+    const auto pixels = parse_integer<std::uint32_t>(side);
+    if (!pixels || *pixels < PictureParams::kFewestPixels ||
+        *pixels > PictureParams::kMostPixels) {
+        fail_usage("--size takes WIDTHxHEIGHT, each of " +
+                   std::to_string(PictureParams::kFewestPixels) + " to " +
+                   std::to_string(PictureParams::kMostPixels) + " pixels, not " + in_quotes(text));
+    }
+    return *pixels;
+}
+
+} // namespace
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+    add_mesh_argument(command, options.mesh,
+                      "Mesh that the samples were made on; or, alone, the samples\n"
+                      "of geodisk box --dim 2");
+    add_option(command, "SAMPLES", options.samples, "", "Samples to show: *.ply or *.csv");
+    add_output_argument(command, options.out, "Picture to write: *.png");
+    add_option(command, "--size", options.size, "WxH", "Pixels of the picture")
+        ->capture_default_str();
+    add_option(command, "--style", options.style, "STYLE",
+               "disks     the geodesic disk of each sample, of its radius;\n"
+               "          where two overlap, orange\n"
+               "points    the samples\n"
+               "voronoi   the places that are nearest to each sample\n"
+               "distance  how far the nearest sample is; where another one\n"
+               "          would have room, orange\n"
+               "density   how dense they are, dark for few, light for many")
+        ->capture_default_str();
+    command
+        .add_option("--view", options.views,
+                    "Where to look from: front, back, left, right, top, bottom,\n"
+                    "AZIMUTH,ELEVATION in degrees, or auto for where most is\n"
+                    "seen from; several make a sheet")
+        ->type_name("VIEW")
+        ->allow_extra_args(false);
+    add_option(command, "--up", options.up, "AXIS",
+               "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
+    add_option(command, "--background", options.background, "COLOR",
+               "white, black, transparent or RRGGBB")
+        ->capture_default_str();
+    add_option(command, "-d,--min-distance", options.min_distance, "D",
+               "Minimum distance, in mesh units or with % of the diagonal;\n"
+               "without it, that of the samples' header or their own radii");
+    add_option(command, "-r,--radius", options.radius, "R", "The same as a radius, half of it");
+    add_mesh_options(command, options.mesh);
+    add_json_option(command, options.out);
+    command.add_flag("-q,--quiet", options.out.quiet, "No progress and no summary");
+    add_device_options(command, options.device);
+}
+
+picture::PictureParams parse_picture(const RenderOptions& options) {
+    picture::PictureParams params;
+    const std::size_t by = options.size.find('x');
+    const std::string_view size = options.size;
+    params.width = parse_side(options.size, size.substr(0, by));
+    params.height =
+        parse_side(options.size, by == std::string::npos ? "" : size.substr(by + 1));
+    params.style = picture::parse_style("--style", options.style);
+    params.background = picture::parse_background("--background", options.background);
+    if (!options.up.empty()) {
+        params.up = picture::parse_up("--up", options.up);
+    }
+    if (!options.views.empty()) {
+        params.views.clear();
+        for (const std::string& view : options.views) {
+            params.views.push_back(picture::parse_view("--view", view));
+        }
+    }
+    return params;
+}
+
+std::optional<Length> parse_distance(const RenderOptions& options) {
+    if (!options.min_distance.empty() && !options.radius.empty()) {
+        fail_usage("--min-distance and --radius say the same; give one of them");
+    }
+    if (!options.min_distance.empty()) {
+        return parse_length("--min-distance", options.min_distance);
+    }
+    if (!options.radius.empty()) {
+        Length length = parse_length("--radius", options.radius);
+        length.value *= 2;
+        return length;
+    }
+    return std::nullopt;
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,35 @@
+// The options of `geodisk render`, and the picture that they ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/run_options.hpp"
+#include "picture/picture.hpp"
+#include "program/arguments.hpp"
+
+namespace geodisk::tools {
+
+/// As given on the command line.
+struct RenderOptions {
+    MeshOptions mesh; ///< Or the samples in a box, where there are no others.
+    std::string samples;
+    OutputOptions out;
+    DeviceOptions device;
+    std::string size = "1920x1080", style = "disks", up, background = "white";
+    std::string min_distance, radius;
+    std::vector<std::string> views;
+};
+
+/// Adds all options of the command; `options` must outlive the parsing.
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// The picture that is asked for. Throws UserError(usage).
+picture::PictureParams parse_picture(const RenderOptions& options);
+
+/// The minimum distance of --min-distance or --radius, if one is given. Throws UserError(usage).
+std::optional<Length> parse_distance(const RenderOptions& options);
+
+} // namespace geodisk::tools

@@ -1,0 +1,306 @@
+#include "picture/picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "picture/renderer.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools::picture {
+namespace {
+
+/// Along each side of a pixel, drawn one by one and averaged.
+constexpr std::uint32_t kOversampling = 3;
+constexpr std::uint32_t kTile = Renderer::kMostPixels / kOversampling;
+/// Pixels of each side of the drawings that views are judged by.
+constexpr std::uint32_t kTrial = 96;
+/// Points are no smaller than this, in pixels, if their disks are not.
+constexpr double kPointRadius = 1.4;
+constexpr double kPointPart = 0.3;
+/// What disks that are thrown until hardly one fits cover.
+constexpr double kCoverage = 0.53;
+/// The end of the scale of densities, in those of the smallest disks.
+constexpr double kDensest = 1.5;
+
+/// By what sRGB makes of it, the amount of light.
+const std::array<float, 256>& light_of_srgb() {
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> light{};
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            const double c = static_cast<double>(i) / 255;
+            light[i] = static_cast<float>(c <= 0.04045 ? c / 12.92
+                                                       : std::pow((c + 0.055) / 1.055, 2.4));
+        }
+        return light;
+    }();
+    return table;
+}
+
+std::uint8_t to_srgb(float light) {
+    const double c = light <= 0.0031308f
+                         ? 12.92 * static_cast<double>(light)
+                         : 1.055 * std::pow(static_cast<double>(light), 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::clamp(std::lround(c * 255), 0L, 255L));
+}
+
+/// Mean of a square of drawn pixels, in front of the background.
+void average(std::span<const std::uint8_t> drawn, std::size_t width, std::size_t x, std::size_t y,
+             const Background& background, std::uint8_t* to) {
+    const std::array<float, 256>& light = light_of_srgb();
+    float sum[3] = {0, 0, 0};
+    std::uint32_t covered = 0;
+    for (std::size_t row = 0; row < kOversampling; ++row) {
+        const std::uint8_t* from = &drawn[4 * ((y * kOversampling + row) * width +
+                                               x * kOversampling)];
+        for (std::size_t column = 0; column < kOversampling; ++column, from += 4) {
+            if (from[3] != 0) {
+                ++covered;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    sum[k] += light[from[k]];
+                }
+            }
+        }
+    }
+    constexpr float kAll = kOversampling * kOversampling;
+    const float part = static_cast<float>(covered) / kAll;
+    const float behind = (1 - part) * static_cast<float>(background.alpha) / 255;
+    const float alpha = part + behind;
+    const std::uint8_t back[3] = {background.red, background.green, background.blue};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float mixed = sum[k] / kAll + behind * light[back[k]];
+        to[k] = alpha > 0 ? to_srgb(mixed / alpha) : 0;
+    }
+    to[3] = static_cast<std::uint8_t>(std::lround(alpha * 255));
+}
+
+/// A part of the picture.
+struct Pane {
+    std::uint32_t x, y, width, height;
+};
+
+/// Side by side, as near to squares as it goes.
+std::vector<Pane> lay_out(std::uint32_t width, std::uint32_t height, std::uint32_t count) {
+    std::uint32_t best = 1;
+    double best_size = 0;
+    for (std::uint32_t columns = 1; columns <= count; ++columns) {
+        const std::uint32_t rows = (count + columns - 1) / columns;
+        const double size = std::min(static_cast<double>(width) / columns,
+                                     static_cast<double>(height) / rows);
+        if (size > best_size) {
+            best = columns;
+            best_size = size;
+        }
+    }
+    const std::uint32_t rows = (count + best - 1) / best;
+    std::vector<Pane> panes;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t column = i % best;
+        const std::uint32_t row = i / best;
+        const std::uint32_t x = column * width / best;
+        const std::uint32_t y = row * height / rows;
+        panes.push_back({x, y, (column + 1) * width / best - x, (row + 1) * height / rows - y});
+    }
+    return panes;
+}
+
+struct Trial {
+    double seen = 0;    ///< Surface there is to see, in areas of the frame.
+    double covered = 0; ///< Of the frame.
+};
+
+Trial try_view(Renderer& renderer, const Scene& scene, View view, Up up) {
+    const Camera camera = make_camera(scene, view, up, 1);
+    const auto drawn = renderer.draw({kDrawArea}, camera, camera.to_clip, kTrial, kTrial);
+    Trial trial;
+    for (std::size_t at = 0; at < drawn.size(); at += 4) {
+        if (drawn[at + 3] != 0) {
+            trial.seen += static_cast<double>(light_of_srgb()[drawn[at]]) * kMostTilt;
+            trial.covered += 1;
+        }
+    }
+    trial.seen /= kTrial * kTrial;
+    trial.covered /= kTrial * kTrial;
+    return trial;
+}
+
+/// The view in which most of the surface is seen, from where most things are looked at. What is
+/// drawn fills its frame, so that what is seen counts as it is in the picture.
+View choose_view(Renderer& renderer, const Scene& scene, Up up) {
+    View best;
+    double most = -1;
+    for (const View view : views_to_try()) {
+        const double seen = try_view(renderer, scene, view, up).seen;
+        if (seen > most) {
+            most = seen;
+            best = view;
+        }
+    }
+    return best;
+}
+
+std::uint32_t kind_of(Style style) {
+    switch (style) {
+    case Style::points:
+        return kDrawPoints;
+    case Style::voronoi:
+        return kDrawVoronoi;
+    case Style::distance:
+        return kDrawDistance;
+    case Style::density:
+        return kDrawDensity;
+    default:
+        return kDrawDisks;
+    }
+}
+
+/// `covered` are pixels that show the surface, of which half the samples are in sight.
+DrawKind kind_with_scale(Style style, std::span<const DrawnSample> samples, double covered) {
+    DrawKind what{kind_of(style)};
+    if (style == Style::points) {
+        const double disk = kCoverage * covered / (0.5 * static_cast<double>(samples.size()));
+        const double radius = std::sqrt(std::max(1.0, disk) / std::numbers::pi);
+        what.high = static_cast<float>(std::clamp(kPointRadius / radius, kPointPart, 1.0));
+    } else if (style == Style::density) {
+        const auto least =
+            std::min_element(samples.begin(), samples.end(),
+                             [](const auto& a, const auto& b) { return a.radius < b.radius; });
+        what.high = static_cast<float>(kDensest * kCoverage / std::numbers::pi) /
+                    (least->radius * least->radius);
+    }
+    return what;
+}
+
+/// Draws a view into its pane, part by part.
+void draw_pane(Renderer& renderer, const Camera& camera, const DrawKind& what, const Pane& pane,
+               const Background& background, Pixels& pixels, const std::function<void()>& tell) {
+    for (std::uint32_t y = 0; y < pane.height; y += kTile) {
+        for (std::uint32_t x = 0; x < pane.width; x += kTile) {
+            const std::uint32_t width = std::min(kTile, pane.width - x);
+            const std::uint32_t height = std::min(kTile, pane.height - y);
+            const auto part = [](std::uint32_t a, std::uint32_t b) {
+                return static_cast<double>(a) / b;
+            };
+            const glm::mat4 to_clip =
+                crop(camera.to_clip, part(x, pane.width), part(y, pane.height),
+                     part(width, pane.width), part(height, pane.height));
+            const auto drawn = renderer.draw(what, camera, to_clip, width * kOversampling,
+                                             height * kOversampling);
+            for (std::uint32_t row = 0; row < height; ++row) {
+                std::uint8_t* to = &pixels.rgba[4 * ((std::size_t{pane.y} + y + row) *
+                                                         pixels.width +
+                                                     pane.x + x)];
+                for (std::uint32_t column = 0; column < width; ++column, to += 4) {
+                    average(drawn, std::size_t{width} * kOversampling, column, row, background, to);
+                }
+            }
+            tell();
+        }
+    }
+}
+
+} // namespace
+
+Style parse_style(const std::string& option, const std::string& text) {
+    constexpr std::pair<const char*, Style> kNames[] = {{"disks", Style::disks},
+                                                        {"points", Style::points},
+                                                        {"voronoi", Style::voronoi},
+                                                        {"distance", Style::distance},
+                                                        {"density", Style::density}};
+    for (const auto& [name, style] : kNames) {
+        if (text == name) {
+            return style;
+        }
+    }
+    fail_usage(option + " takes disks, points, voronoi, distance or density, not " +
+               in_quotes(text));
+}
+
+double reach_of(Style style) {
+    switch (style) {
+    case Style::voronoi:
+    case Style::distance:
+        return 3;
+    case Style::density:
+        return 5;
+    default:
+        return 1;
+    }
+}
+
+Background parse_background(const std::string& option, const std::string& text) {
+    if (text == "white") {
+        return {};
+    }
+    if (text == "black") {
+        return {0, 0, 0, 255};
+    }
+    if (text == "transparent") {
+        return {0, 0, 0, 0};
+    }
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+    };
+    std::uint8_t bytes[3] = {};
+    bool is_color = text.size() == 6;
+    for (std::size_t i = 0; is_color && i < 6; ++i) {
+        const int value = digit(text[i] >= 'A' && text[i] <= 'F' ? static_cast<char>(text[i] + 32)
+                                                                 : text[i]);
+        is_color = value >= 0;
+        bytes[i / 2] = static_cast<std::uint8_t>(bytes[i / 2] * 16 + std::max(0, value));
+    }
+    if (!is_color) {
+        fail_usage(option + " takes white, black, transparent or a colour RRGGBB, not " +
+                   in_quotes(text));
+    }
+    return {bytes[0], bytes[1], bytes[2], 255};
+}
+
+Picture draw_picture(const Gpu& gpu, const Scene& scene, const WindowTable& table,
+                     std::span<const DrawnSample> samples, const PictureParams& params,
+                     const PartDone& tell) {
+    Picture picture;
+    picture.pixels = {params.width, params.height, {}};
+    picture.pixels.rgba.resize(std::size_t{4} * params.width * params.height);
+    picture.up = params.up.value_or(likely_up(scene));
+    Renderer renderer(gpu, scene, table, samples);
+
+    const auto panes =
+        lay_out(params.width, params.height, static_cast<std::uint32_t>(params.views.size()));
+    const auto tiles = [](std::uint32_t pixels) { return (pixels + kTile - 1) / kTile; };
+    std::uint32_t all = 0;
+    for (const Pane& pane : panes) {
+        all += tiles(pane.width) * tiles(pane.height);
+    }
+    std::uint32_t done = 0;
+    const auto tell_tile = [&] {
+        ++done;
+        if (tell) {
+            tell(static_cast<double>(done) / all);
+        }
+    };
+    std::optional<View> chosen;
+    for (std::size_t i = 0; i < panes.size(); ++i) {
+        if (!params.views[i] && !chosen) {
+            chosen = choose_view(renderer, scene, picture.up);
+        }
+        const View view = params.views[i].value_or(chosen.value_or(View{}));
+        picture.views.push_back(view);
+        const Pane& pane = panes[i];
+        const double aspect = static_cast<double>(pane.width) / pane.height;
+        const Camera camera = make_camera(scene, view, picture.up, aspect);
+        const double side = std::min(pane.width, pane.height);
+        const double covered = try_view(renderer, scene, view, picture.up).covered * side * side;
+        picture.visible = i == 0 ? covered / (static_cast<double>(pane.width) * pane.height)
+                                 : picture.visible;
+        draw_pane(renderer, camera, kind_with_scale(params.style, samples, covered), pane,
+                  params.background, picture.pixels, tell_tile);
+    }
+    return picture;
+}
+
+} // namespace geodisk::tools::picture

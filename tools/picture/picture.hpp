@@ -1,0 +1,74 @@
+// Pictures of a surface and the samples on it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "picture/gpu.hpp"
+#include "picture/scene.hpp"
+#include "picture/view.hpp"
+#include "picture/window_table.hpp"
+#include "picture_records.h"
+
+namespace geodisk::tools::picture {
+
+/// What is shown of the samples, all by exact geodesic distance.
+enum class Style {
+    disks,    ///< The disk of each sample's radius; where two overlap, in another colour.
+    points,   ///< The samples.
+    voronoi,  ///< To which sample each place is nearest, in radii of the sample.
+    distance, ///< How far, with lines at each half radius.
+    density,  ///< Samples per length, the root of those per area, by the kernel
+              ///< 1 - (distance / 5 radii)^2.
+};
+
+/// "disks" and so on. Throws UserError(usage) naming `option`.
+Style parse_style(const std::string& option, const std::string& text);
+
+/// How far around a sample a style looks, in radii of the sample.
+double reach_of(Style style);
+
+struct Pixels {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba; ///< Row by row from the top, sRGB, alpha not multiplied in.
+};
+
+/// A colour behind the surface, sRGB.
+struct Background {
+    std::uint8_t red = 255, green = 255, blue = 255, alpha = 255;
+};
+
+/// "white", "black", "transparent" or "RRGGBB". Throws UserError(usage) naming `option`.
+Background parse_background(const std::string& option, const std::string& text);
+
+struct PictureParams {
+    static constexpr std::uint32_t kMostPixels = 16384; ///< Along each side.
+    static constexpr std::uint32_t kFewestPixels = 16;
+
+    std::uint32_t width = 1920, height = 1080;
+    Style style = Style::disks;
+    std::vector<std::optional<View>> views{std::nullopt}; ///< None is a good one, see choose_view.
+    std::optional<Up> up;                                 ///< Else likely_up().
+    Background background;
+};
+
+/// A picture and what it shows.
+struct Picture {
+    Pixels pixels;
+    std::vector<View> views; ///< As shown.
+    Up up = Up::y;
+    double visible = 0; ///< The part of the first view that the surface covers.
+};
+
+/// A sample that is drawn: its radius in units of the window table.
+using DrawnSample = SampleRec;
+
+/// Draws all views side by side. `tell` may throw. Throws UserError.
+Picture draw_picture(const Gpu& gpu, const Scene& scene, const WindowTable& table,
+                     std::span<const DrawnSample> samples, const PictureParams& params,
+                     const PartDone& tell);
+
+} // namespace geodisk::tools::picture

@@ -1,0 +1,75 @@
+// Draws a surface and the disks on it, offscreen.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "picture/gpu.hpp"
+#include "picture/scene.hpp"
+#include "picture/view.hpp"
+#include "picture/window_table.hpp"
+#include "picture_records.h"
+
+namespace geodisk::tools::picture {
+
+/// What to draw, a kDraw constant of picture_records.h, and the end of its scale, as PushRec has it.
+struct DrawKind {
+    std::uint32_t kind = kDrawDisks;
+    float high = 1;
+};
+
+/// Holds a scene on the device. All members throw UserError.
+class Renderer {
+  public:
+    static constexpr std::uint32_t kMostPixels = 1536; ///< Along each side.
+    /// Windows that one place may be lit by: lavapipe ends loops of 65,535 without a word.
+    static constexpr std::uint32_t kMostInCell = 60000;
+
+    /// The scene's corners are those of the table's faces. `gpu` must outlive the object.
+    Renderer(const Gpu& gpu, const Scene& scene, const WindowTable& table,
+             std::span<const SampleRec> samples);
+
+    /// Draws what `to_clip` shows of the scene, and gives the pixels, row by row from the top: red,
+    /// green and blue as sRGB encodes them and 255, or four times 0 where nothing is. They are
+    /// there until the next call.
+    std::span<const std::uint8_t> draw(const DrawKind& what, const Camera& camera,
+                                       const glm::mat4& to_clip, std::uint32_t width,
+                                       std::uint32_t height);
+
+  private:
+    /// Faces whose buffers fit the device's bindings.
+    struct Chunk {
+        std::uint32_t corners;
+        Buffer buffers[4]; ///< Bindings 0 to 3.
+        VkDescriptorSet set;
+    };
+    enum class Pass { depth, color_after_depth, color_and_depth };
+    using Pipeline = Handle<VkPipeline, &Functions::vkDestroyPipeline>;
+
+    void make_chunks(const Scene& scene, const WindowTable& table);
+    void make_targets();
+    void make_layout(std::size_t chunks);
+    void describe(Chunk& chunk) const;
+    Pipeline make_pipeline(Pass of, std::uint32_t kind) const;
+    VkPipeline pipeline_of(std::uint32_t kind);
+
+    const Gpu& gpu_;
+    Buffer samples_;
+    std::vector<Chunk> chunks_;
+    Image color_, depth_;
+    Buffer read_back_;
+    Handle<VkRenderPass, &Functions::vkDestroyRenderPass> pass_;
+    Handle<VkFramebuffer, &Functions::vkDestroyFramebuffer> framebuffer_;
+    Handle<VkDescriptorSetLayout, &Functions::vkDestroyDescriptorSetLayout> set_layout_;
+    Handle<VkPipelineLayout, &Functions::vkDestroyPipelineLayout> layout_;
+    Handle<VkDescriptorPool, &Functions::vkDestroyDescriptorPool> pool_;
+    Pipeline depth_alone_;
+    std::map<std::uint32_t, Pipeline> pipelines_; ///< By kind.
+};
+
+} // namespace geodisk::tools::picture

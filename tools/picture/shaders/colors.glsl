@@ -1,0 +1,63 @@
+// Colours, all in linear light, that people of any colour vision can tell apart: those of Okabe and
+// Ito (2008) for kinds, and one that grows in lightness for amounts.
+
+vec3 from_srgb(vec3 c) {
+    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
+}
+
+const vec3 kBare = vec3(0.81, 0.80, 0.77);
+const vec3 kMark = vec3(0.012, 0.016, 0.03);
+const vec3 kBlue = vec3(0.0, 0.168, 0.445);     // #0072b2
+const vec3 kSky = vec3(0.093, 0.456, 0.815);    // #56b4e9
+const vec3 kOverlap = vec3(0.665, 0.112, 0.0);  // #d55e00
+
+// At so many radii from the centre of its disk: a point in the middle, light around it, a rim.
+vec3 disk_color(float q) {
+    if (q < 0.13) {
+        return kMark;
+    }
+    return q > 0.93 ? kBlue : mix(vec3(0.42, 0.70, 0.92), kSky, q * q);
+}
+
+// One of many for the cells of neighbours.
+vec3 cell_color(uint number) {
+    const vec3 kinds[7] = vec3[](vec3(0.79, 0.34, 0.0), vec3(0.093, 0.456, 0.815),
+                                 vec3(0.0, 0.342, 0.171), vec3(0.871, 0.776, 0.054),
+                                 vec3(0.0, 0.168, 0.445), vec3(0.665, 0.112, 0.0),
+                                 vec3(0.604, 0.19, 0.386));
+    const float light = 0.35 + 0.11 * float((number >> 8) % 4u);
+    return mix(kinds[number % 7u], vec3(0.9), light);
+}
+
+// From 0, dark, to 1, light: cividis (Nunez, Anderton and Renslow 2018), a polynomial through it.
+vec3 scale_color(float t) {
+    const vec3 knots[7] = vec3[](vec3(0.000, 0.135, 0.305), vec3(0.139, 0.228, 0.421),
+                                 vec3(0.338, 0.360, 0.427), vec3(0.486, 0.482, 0.471),
+                                 vec3(0.654, 0.615, 0.436), vec3(0.835, 0.760, 0.346),
+                                 vec3(0.995, 0.910, 0.218));
+    const float at = clamp(t, 0.0, 1.0) * 6.0;
+    const uint i = min(uint(at), 5u);
+    return from_srgb(mix(knots[i], knots[i + 1u], at - float(i)));
+}
+
+// Light at the sample, with a line at each half radius; where another sample would have room it is
+// told by colour.
+vec3 distance_color(float q) {
+    if (q < 0.08) {
+        return kMark;
+    }
+    if (q >= 2.0) {
+        return kOverlap;
+    }
+    const float line = abs(fract(2.0 * q + 0.5) - 0.5);
+    return scale_color(1.0 - 0.5 * q) * (line < 0.05 ? 0.55 : 1.0);
+}
+
+// Light from one side, from above, and a little from the eye.
+vec3 shade(vec3 matte, vec3 normal, vec3 to_eye, vec3 to_light) {
+    const float key = max(dot(normal, to_light), 0.0);
+    const float head = max(dot(normal, to_eye), 0.0);
+    const vec3 halfway = normalize(to_light + to_eye);
+    const float gloss = 0.06 * pow(max(dot(normal, halfway), 0.0), 40.0);
+    return min(matte * (0.22 + 0.68 * key + 0.22 * head) + gloss, vec3(1));
+}

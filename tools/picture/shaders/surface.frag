@@ -1,0 +1,129 @@
+// The colour of a surface by the exact geodesic distances of the samples that reach the place.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "picture_records.h"
+#include "colors.glsl"
+
+layout(constant_id = 0) const uint kDraw = kDrawDisks;
+
+layout(std430, set = 0, binding = 1) readonly buffer Faces { FaceRec faces[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Starts { uint starts[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Windows { WindowRec windows[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Samples { SampleRec samples[]; };
+layout(push_constant, std430) uniform Push {
+    layout(offset = 64) float eye_x; float eye_y; float eye_z;
+    float light_x; float light_y; float light_z;
+    float high;
+};
+
+layout(location = 0) in vec3 place;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 in_face;
+layout(location = 3) flat in uint face_index;
+
+layout(location = 0) out vec4 color;
+
+// Windows light this much more than they do, in units of length, so that rounding leaves no seams.
+const float kSeam = 2e-4;
+// Of a density estimate, in radii of the sample.
+const float kKernel = 5.0;
+const float kPi = 3.14159265;
+
+// Distances from the two nearest samples, in their radii.
+struct Nearest {
+    float first; float second;
+    uint sample_index;
+};
+
+// Takes a sample whose distance is known.
+void take_sample(uint index, float distance, inout Nearest nearest, inout float density) {
+    const float radius = samples[index].radius;
+    const float relative = distance / radius;
+    if (relative < nearest.first) {
+        nearest.second = nearest.first;
+        nearest.first = relative;
+        nearest.sample_index = index;
+    } else {
+        nearest.second = min(nearest.second, relative);
+    }
+    const float part = relative / kKernel;
+    if (part < 1.0) {
+        density += 2.0 * (1.0 - part * part) / (kPi * kKernel * kKernel * radius * radius);
+    }
+}
+
+// Windows of a cell are in the order of their samples.
+Nearest look_up(out float density) {
+    const float kFar = 1e30;
+    const FaceRec face = faces[face_index];
+    const vec2 cells = clamp(in_face * face.cells_per_unit, vec2(0),
+                             vec2(face.columns, face.rows) - 0.5);
+    const uint cell = face.first_cell + uint(cells.y) * face.columns + uint(cells.x);
+    Nearest nearest = Nearest(kFar, kFar, ~0u);
+    density = 0.0;
+    uint index = ~0u;
+    float distance = kFar;
+    for (uint i = starts[cell]; i < starts[cell + 1u]; ++i) {
+        const WindowRec window = windows[i];
+        if (window.sample_index != index) {
+            if (distance < kFar) {
+                take_sample(index, distance, nearest, density);
+            }
+            index = window.sample_index;
+            distance = kFar;
+        }
+        const vec2 way = in_face - vec2(window.x, window.y);
+        if (dot(vec2(window.left_x, window.left_y), way) >= -kSeam &&
+            dot(vec2(window.right_x, window.right_y), way) >= -kSeam) {
+            distance = min(distance, window.sigma + length(way));
+        }
+    }
+    if (distance < kFar) {
+        take_sample(index, distance, nearest, density);
+    }
+    return nearest;
+}
+
+// What the surface itself is coloured, light apart.
+vec3 surface_color(Nearest nearest, float density) {
+    const bool has_sample = nearest.sample_index != ~0u;
+    const float q = nearest.first;
+    if (kDraw == kDrawDisks) {
+        if (!has_sample || q >= 1.0) {
+            return kBare;
+        }
+        return nearest.second < 1.0 ? kOverlap : disk_color(q);
+    }
+    if (kDraw == kDrawPoints) {
+        return has_sample && q < high ? kMark : kBare;
+    }
+    if (kDraw == kDrawVoronoi) {
+        if (!has_sample) {
+            return kBare;
+        }
+        const float border = nearest.second - q;
+        return q < 0.12 || border < 0.05 ? kMark : cell_color(samples[nearest.sample_index].color);
+    }
+    if (kDraw == kDrawDistance) {
+        return has_sample ? distance_color(q) : kOverlap;
+    }
+    return scale_color(sqrt(density / high));
+}
+
+void main() {
+    const vec3 to_eye = normalize(vec3(eye_x, eye_y, eye_z) - place);
+    // A surface may be seen from either side.
+    const float size = length(normal);
+    vec3 up = size > 0.0 ? normal / size : to_eye;
+    const float facing = dot(up, to_eye);
+    up = facing < 0.0 ? -up : up;
+    if (kDraw == kDrawArea) {
+        const float tilt = 1.0 / max(abs(facing), 1.0 / float(kMostTilt));
+        color = vec4(vec3(tilt / float(kMostTilt)), 1);
+        return;
+    }
+    float density;
+    const Nearest nearest = look_up(density);
+    const vec3 matte = surface_color(nearest, density);
+    color = vec4(shade(matte, up, to_eye, vec3(light_x, light_y, light_z)), 1);
+}

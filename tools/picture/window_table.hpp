@@ -1,0 +1,46 @@
+// The geodesic disks of samples, in the form that a shader finds the exact distance of any point by:
+// all windows of all samples, by the place on the surface that they light.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <geodisk/mesh.hpp>
+
+#include "picture_records.h"
+
+namespace geodisk::tools::picture {
+
+/// A point on the surface and how far distances from it are wanted, in mesh units.
+struct DiskSource {
+    std::uint32_t face;
+    double weight1, weight2; ///< Of the face's second and third corner.
+    double reach;
+};
+
+/// The distance of point p from sample s is the least, over the windows of s in p's cell that p is
+/// seen through, of sigma and the straight way to the window's source; p lies beyond the reach of s
+/// where there is none, or that is larger.
+struct WindowTable {
+    double unit = 1;                    ///< Of all lengths here, in mesh units.
+    std::vector<FaceRec> faces;         ///< Cells count from 0 over all faces.
+    std::vector<std::uint32_t> starts;  ///< Of each cell's windows, and the end.
+    std::vector<WindowRec> windows;     ///< In each cell by sample, ascending.
+    std::uint64_t disk_windows = 0;     ///< Made by the disks, on edges.
+};
+
+/// Called now and then with the part that is done.
+using PartDone = std::function<void(double part)>;
+
+/// `spacing` is the length, in mesh units, that the cells are to suit: about the reach of most.
+/// Works on as many threads as there are cores; `tell` is called on the caller's and may throw.
+/// Throws UserError: `out_of_memory` for more windows than kMostWindows, `bad_input` for a disk
+/// that does not end.
+WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSource> sources,
+                              double spacing, const PartDone& tell);
+
+inline constexpr std::size_t kMostWindows = std::size_t{1} << 25; ///< A gigabyte.
+
+} // namespace geodisk::tools::picture
