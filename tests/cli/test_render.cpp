@@ -56,8 +56,8 @@ TEST_CASE("disks cover the area that they have") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"box", "--dim", "2", "--periodic", "-d", "0.1", "-o", "a.csv"}).status ==
             0);
-    const double count = static_cast<double>(
-        tools::read_box_samples(tools::Path(folder / "a.csv")).rows.size());
+    const double count =
+        static_cast<double>(tools::read_box_samples(tools::Path(folder / "a.csv")).rows.size());
     const Arguments drawn = {"a.csv", "--size", "1000x1000", "--background", "transparent"};
     const PngImage image = picture(folder, drawn);
     CHECK(image.width == 1000);
@@ -82,11 +82,10 @@ TEST_CASE("a disk is along the surface: not on the other side of a thin plate") 
     const auto off_middle = [](const tools::SampleRow& row) {
         return std::hypot(row.position[0], row.position[1]);
     };
-    std::swap(samples.rows.front(),
-              *std::min_element(samples.rows.begin(), samples.rows.end(),
-                                [&](const auto& a, const auto& b) {
-                                    return off_middle(a) < off_middle(b);
-                                }));
+    std::swap(samples.rows.front(), *std::min_element(samples.rows.begin(), samples.rows.end(),
+                                                      [&](const auto& a, const auto& b) {
+                                                          return off_middle(a) < off_middle(b);
+                                                      }));
     samples.rows.resize(1);
     tools::write_samples(folder / "a.csv", samples.header, samples.rows, false);
     const auto blue_from = [&](const char* view) {
@@ -153,11 +152,31 @@ TEST_CASE("surfaces of every kind can be seen") {
                                    "builtin:terrain:12", "builtin:spike"}) {
         CAPTURE(mesh);
         make_samples(folder, mesh);
-        const PngImage image = picture(folder, {mesh, "a.ply", "--size", "120x120",
-                                                "--background", "transparent", "--validate"});
+        const PngImage image = picture(folder, {mesh, "a.ply", "--size", "120x120", "--background",
+                                                "transparent", "--validate"});
         CHECK(count_if(image, is_transparent) < 0.97 * 120 * 120);
         CHECK(count_if(image, is_transparent) > 0);
     }
+}
+
+TEST_CASE("samples in space are balls in a frame") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"box", "--dim", "3", "-d", "0.1", "-o", "a.csv"}).status == 0);
+    const Arguments drawn = {"a.csv",        "--size",      "200x200",
+                             "--background", "transparent", "--validate"};
+    const double disks = count_if(picture(folder, drawn), is_transparent);
+    const double points =
+        count_if(picture(folder, joined(drawn, {"--style", "points"})), is_transparent);
+    CHECK(disks < 0.5 * 200 * 200);
+    CHECK(points > 1.2 * disks);
+    const PngImage whole = picture(folder, drawn);
+    const PngImage cut = picture(folder, joined(drawn, {"--cut"}));
+    CHECK(whole.pixels != cut.pixels);
+    // Behind what was taken away there are others.
+    CHECK(count_if(cut, is_transparent) < 1.1 * disks);
+    check_fails(folder, 2, "of surfaces", {"render", "a.csv", "-o", "q.png", "--style", "voronoi"});
+    make_samples(folder);
+    check_fails(folder, 2, "--cut", {"render", kMesh, "a.ply", "-o", "q.png", "--cut"});
 }
 
 TEST_CASE("radii that vary are those of the file") {
@@ -165,11 +184,10 @@ TEST_CASE("radii that vary are those of the file") {
     REQUIRE(run(folder, {"sample", "builtin:showpiece:60", "--density-curvature", "-n", "300", "-o",
                          "a.ply"})
                 .status == 0);
-    const PngImage image =
-        picture(folder, {"builtin:showpiece:60", "a.ply", "--size", "240x240"});
+    const PngImage image = picture(folder, {"builtin:showpiece:60", "a.ply", "--size", "240x240"});
     CHECK(count_if(image, is_orange) == 0);
-    const PngImage wrong = picture(
-        folder, {"builtin:showpiece:60", "a.ply", "--size", "240x240", "--radius", "5%"});
+    const PngImage wrong =
+        picture(folder, {"builtin:showpiece:60", "a.ply", "--size", "240x240", "--radius", "5%"});
     CHECK(count_if(wrong, is_orange) > 100);
 }
 
@@ -180,8 +198,7 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     check_fails(folder, 2, "*.png", {"render", kMesh, "a.ply", "-o", "p.jpg"});
     check_fails(folder, 2, "SAMPLES is required", {"render", kMesh, "-o", "p.png"});
     for (const std::string size : {"100", "100x", "x100", "8x100", "100x20000", "1e3x100"}) {
-        check_fails(folder, 2, "--size",
-                    {"render", kMesh, "a.ply", "-o", "p.png", "--size", size});
+        check_fails(folder, 2, "--size", {"render", kMesh, "a.ply", "-o", "p.png", "--size", size});
     }
     check_fails(folder, 2, "--style", joined(good, {"--style", "dots"}));
     check_fails(folder, 2, "--view", joined(good, {"--view", "sideways"}));
@@ -189,8 +206,8 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     check_fails(folder, 2, "--background", joined(good, {"--background", "#fff"}));
     check_fails(folder, 2, "--radius", joined(good, {"--radius", "0"}));
     check_fails(folder, 2, "say the same", joined(good, {"-d", "0.1", "-r", "0.1"}));
-    check_fails(folder, 2, "would replace", {"render", kMesh, "a.ply", "-o", "p.png", "--json",
-                                             "p.png"});
+    check_fails(folder, 2, "would replace",
+                {"render", kMesh, "a.ply", "-o", "p.png", "--json", "p.png"});
     check_fails(folder, 5, "nowhere", joined(good, {"--device", "nowhere"}));
     // Samples of another mesh, and none.
     check_fails(folder, 3, "sample", {"render", "builtin:cube", "a.ply", "-o", "p.png"});
@@ -209,8 +226,8 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     folder.write("bare.obj", "f 1 2 3\n");
     folder.write("lengths.txt", "1 2 3\n2 3 4\n1 3 5\n");
     folder.write("one.csv", "# min_distance: 1\nface_index,bary_u,bary_v,bary_w\n0,1,0,0\n");
-    check_fails(folder, 3, "without coordinates", {"render", "bare.obj", "one.csv", "-o", "p.png",
-                                                   "--edge-lengths", "lengths.txt"});
+    check_fails(folder, 3, "without coordinates",
+                {"render", "bare.obj", "one.csv", "-o", "p.png", "--edge-lengths", "lengths.txt"});
 }
 
 } // namespace geodisk::test

@@ -49,16 +49,16 @@ std::vector<double> look_up(const WindowTable& table, const Point& point, std::s
         if (window.left_x * dx + window.left_y * dy >= -kSeam &&
             window.right_x * dx + window.right_y * dy >= -kSeam) {
             double& distance = distances[window.sample_index];
-            distance = std::min(distance, table.unit * static_cast<double>(window.sigma +
-                                                                           std::hypot(dx, dy)));
+            distance = std::min(
+                distance, table.unit * static_cast<double>(window.sigma + std::hypot(dx, dy)));
         }
     }
     return distances;
 }
 
 /// All distances up to `reach` are those of CGAL, and none is missing.
-void check_table(const std::string& name, const TestMesh& mesh, double reach,
-                 std::uint32_t samples, std::uint32_t probes) {
+void check_table(const std::string& name, const TestMesh& mesh, double reach, std::uint32_t samples,
+                 std::uint32_t probes) {
     INFO(name);
     const PreparedMesh surface = prepared(mesh);
     const std::vector<Point> sources = random_points(surface, 5, samples);
@@ -137,9 +137,9 @@ TEST_CASE("what a picture cannot hold is an error, and so is what its progress t
     REQUIRE(error);
     CHECK(error->code() == tools::ExitCode::out_of_memory);
     struct Stop {};
-    CHECK_THROWS_AS(make_window_table(mesh, std::span(disks).first(200), 0.1,
-                                      [](double) { throw Stop(); }),
-                    Stop);
+    CHECK_THROWS_AS(
+        make_window_table(mesh, std::span(disks).first(200), 0.1, [](double) { throw Stop(); }),
+        Stop);
 }
 
 TEST_CASE("a flat box is its plane, and a torus where its sides are periodic") {
@@ -150,9 +150,8 @@ TEST_CASE("a flat box is its plane, and a torus where its sides are periodic") {
         CAPTURE(is_periodic);
         box.is_periodic = is_periodic;
         const tools::picture::FlatBox flat(box);
-        const double places[][2] = {{0, 0},    {0.03, 0.02}, {1.97, 0.69}, {1, 0.35},
-                                    {2, 0.7},  {0.7, 0.1},   {1.9, 0.01},  {0.1, 0.65},
-                                    {1.2, 0.5}};
+        const double places[][2] = {{0, 0},     {0.03, 0.02}, {1.97, 0.69}, {1, 0.35}, {2, 0.7},
+                                    {0.7, 0.1}, {1.9, 0.01},  {0.1, 0.65},  {1.2, 0.5}};
         std::vector<DiskSource> disks;
         for (const auto& at : places) {
             disks.push_back(flat.disk(at[0], at[1], 0.3));
@@ -166,8 +165,8 @@ TEST_CASE("a flat box is its plane, and a torus where its sides are periodic") {
                 double away[2];
                 for (std::size_t axis = 0; axis < 2; ++axis) {
                     const double straight = std::abs(at[axis] - places[s][axis]);
-                    away[axis] = is_periodic ? std::min(straight, box.extents[axis] - straight)
-                                             : straight;
+                    away[axis] =
+                        is_periodic ? std::min(straight, box.extents[axis] - straight) : straight;
                 }
                 const double distance = std::hypot(away[0], away[1]);
                 if (distance < 0.299) {

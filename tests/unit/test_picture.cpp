@@ -38,9 +38,9 @@ glm::dvec4 in_clip(const glm::mat4& to_clip, glm::dvec3 point) {
 } // namespace
 
 TEST_CASE("everything is in the picture, which it fills") {
-    for (const auto& [name, resolution] : {std::pair("showpiece", 60), std::pair("terrain", 8),
-                                           std::pair("cube", 1), std::pair("klein-bottle", 12),
-                                           std::pair("spike", 12)}) {
+    for (const auto& [name, resolution] :
+         {std::pair("showpiece", 60), std::pair("terrain", 8), std::pair("cube", 1),
+          std::pair("klein-bottle", 12), std::pair("spike", 12)}) {
         const std::string shape = name; // Before Clang 16 lambdas capture no bindings.
         CAPTURE(shape);
         const Scene scene = scene_of(shape, resolution);
@@ -128,8 +128,8 @@ TEST_CASE("a crop shows its part of the picture") {
 TEST_CASE("scenes are of one size, with smooth normals but at creases") {
     const Scene cube = scene_of("cube", 4);
     for (const auto& corner : cube.corners) {
-        const float largest = std::max({std::abs(corner.normal_x), std::abs(corner.normal_y),
-                                        std::abs(corner.normal_z)});
+        const float largest = std::max(
+            {std::abs(corner.normal_x), std::abs(corner.normal_y), std::abs(corner.normal_z)});
         CHECK(largest == doctest::Approx(1)); // Along an axis: not smoothed over edges.
     }
     const Scene sphere = scene_of("icosphere", 3);

@@ -55,10 +55,9 @@ FlatBox::FlatBox(const BoxParams& box)
           }
           return positions;
       }()),
-      triangles_(grid_triangles(kCells,
-                                [](std::uint32_t column, std::uint32_t row) {
-                                    return row * (kCells + 1) + column;
-                                })),
+      triangles_(
+          grid_triangles(kCells, [](std::uint32_t column,
+                                    std::uint32_t row) { return row * (kCells + 1) + column; })),
       mesh_(prepare(box, kCells, positions_, triangles_)) {}
 
 DiskSource FlatBox::disk(double x, double y, double reach) const {

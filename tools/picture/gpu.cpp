@@ -31,10 +31,10 @@ void check(VkResult result, const char* call) {
         result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     throw UserError(memory ? ExitCode::out_of_memory : ExitCode::internal,
                     std::string(call) +
-                        (memory                                ? " found too little memory"
-                         : result == VK_ERROR_DEVICE_LOST ? " found the device lost"
-                                                               : " failed with VkResult " +
-                                                                     std::to_string(result)) +
+                        (memory ? " found too little memory"
+                         : result == VK_ERROR_DEVICE_LOST
+                             ? " found the device lost"
+                             : " failed with VkResult " + std::to_string(result)) +
                         " while drawing");
 }
 
@@ -58,15 +58,16 @@ Gpu::Gpu(const DeviceRefs& device, const QueueRef& queue) : device_(device.devic
                                                                      &memory_);
     VkFormatProperties depth; // Each device has this or the other one.
     load<PFN_vkGetPhysicalDeviceFormatProperties>(
-        get, device.instance, "vkGetPhysicalDeviceFormatProperties")(
-        device.physical_device, VK_FORMAT_D32_SFLOAT, &depth);
+        get, device.instance, "vkGetPhysicalDeviceFormatProperties")(device.physical_device,
+                                                                     VK_FORMAT_D32_SFLOAT, &depth);
     if ((depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0) {
         depth_format_ = VK_FORMAT_D32_SFLOAT;
     }
     auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     pool.queueFamilyIndex = queue.family;
     check(vk_.vkCreateCommandPool(device_, &pool, nullptr, &pool_), "vkCreateCommandPool");
-    auto allocate = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    auto allocate =
+        structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     allocate.commandPool = pool_;
     allocate.commandBufferCount = 1;
     check(vk_.vkAllocateCommandBuffers(device_, &allocate, &commands_), "vkAllocateCommandBuffers");
@@ -165,10 +166,10 @@ Buffer make_storage(const Gpu& gpu, std::span<const std::byte> bytes) {
             auto barrier = structure<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
             barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
             barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-            gpu.vk().vkCmdPipelineBarrier(
-                commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1,
-                &barrier, 0, nullptr, 0, nullptr);
+            gpu.vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                          VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                                              VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                                          0, 1, &barrier, 0, nullptr, 0, nullptr);
         });
     }
     return buffer;

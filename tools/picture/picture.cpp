@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "picture/renderer.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -33,8 +32,8 @@ const std::array<float, 256>& light_of_srgb() {
         std::array<float, 256> light{};
         for (std::size_t i = 0; i < light.size(); ++i) {
             const double c = static_cast<double>(i) / 255;
-            light[i] = static_cast<float>(c <= 0.04045 ? c / 12.92
-                                                       : std::pow((c + 0.055) / 1.055, 2.4));
+            light[i] =
+                static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
         }
         return light;
     }();
@@ -55,8 +54,8 @@ void average(std::span<const std::uint8_t> drawn, std::size_t width, std::size_t
     float sum[3] = {0, 0, 0};
     std::uint32_t covered = 0;
     for (std::size_t row = 0; row < kOversampling; ++row) {
-        const std::uint8_t* from = &drawn[4 * ((y * kOversampling + row) * width +
-                                               x * kOversampling)];
+        const std::uint8_t* from =
+            &drawn[4 * ((y * kOversampling + row) * width + x * kOversampling)];
         for (std::size_t column = 0; column < kOversampling; ++column, from += 4) {
             if (from[3] != 0) {
                 ++covered;
@@ -89,8 +88,8 @@ std::vector<Pane> lay_out(std::uint32_t width, std::uint32_t height, std::uint32
     double best_size = 0;
     for (std::uint32_t columns = 1; columns <= count; ++columns) {
         const std::uint32_t rows = (count + columns - 1) / columns;
-        const double size = std::min(static_cast<double>(width) / columns,
-                                     static_cast<double>(height) / rows);
+        const double size =
+            std::min(static_cast<double>(width) / columns, static_cast<double>(height) / rows);
         if (size > best_size) {
             best = columns;
             best_size = size;
@@ -159,7 +158,7 @@ std::uint32_t kind_of(Style style) {
 }
 
 /// `covered` are pixels that show the surface, of which half the samples are in sight.
-DrawKind kind_with_scale(Style style, std::span<const DrawnSample> samples, double covered) {
+DrawKind kind_with_scale(Style style, std::span<const SampleRec> samples, double covered) {
     DrawKind what{kind_of(style)};
     if (style == Style::points) {
         const double disk = kCoverage * covered / (0.5 * static_cast<double>(samples.size()));
@@ -188,12 +187,11 @@ void draw_pane(Renderer& renderer, const Camera& camera, const DrawKind& what, c
             const glm::mat4 to_clip =
                 crop(camera.to_clip, part(x, pane.width), part(y, pane.height),
                      part(width, pane.width), part(height, pane.height));
-            const auto drawn = renderer.draw(what, camera, to_clip, width * kOversampling,
-                                             height * kOversampling);
+            const auto drawn =
+                renderer.draw(what, camera, to_clip, width * kOversampling, height * kOversampling);
             for (std::uint32_t row = 0; row < height; ++row) {
-                std::uint8_t* to = &pixels.rgba[4 * ((std::size_t{pane.y} + y + row) *
-                                                         pixels.width +
-                                                     pane.x + x)];
+                std::uint8_t* to =
+                    &pixels.rgba[4 * ((std::size_t{pane.y} + y + row) * pixels.width + pane.x + x)];
                 for (std::uint32_t column = 0; column < width; ++column, to += 4) {
                     average(drawn, std::size_t{width} * kOversampling, column, row, background, to);
                 }
@@ -248,8 +246,8 @@ Background parse_background(const std::string& option, const std::string& text) 
     std::uint8_t bytes[3] = {};
     bool is_color = text.size() == 6;
     for (std::size_t i = 0; is_color && i < 6; ++i) {
-        const int value = digit(text[i] >= 'A' && text[i] <= 'F' ? static_cast<char>(text[i] + 32)
-                                                                 : text[i]);
+        const int value =
+            digit(text[i] >= 'A' && text[i] <= 'F' ? static_cast<char>(text[i] + 32) : text[i]);
         is_color = value >= 0;
         bytes[i / 2] = static_cast<std::uint8_t>(bytes[i / 2] * 16 + std::max(0, value));
     }
@@ -260,14 +258,14 @@ Background parse_background(const std::string& option, const std::string& text) 
     return {bytes[0], bytes[1], bytes[2], 255};
 }
 
-Picture draw_picture(const Gpu& gpu, const Scene& scene, const WindowTable& table,
-                     std::span<const DrawnSample> samples, const PictureParams& params,
+Picture draw_picture(const Gpu& gpu, const Content& content, const PictureParams& params,
                      const PartDone& tell) {
+    const Scene& scene = content.scene;
     Picture picture;
     picture.pixels = {params.width, params.height, {}};
     picture.pixels.rgba.resize(std::size_t{4} * params.width * params.height);
     picture.up = params.up.value_or(likely_up(scene));
-    Renderer renderer(gpu, scene, table, samples);
+    Renderer renderer(gpu, content);
 
     const auto panes =
         lay_out(params.width, params.height, static_cast<std::uint32_t>(params.views.size()));
@@ -295,10 +293,10 @@ Picture draw_picture(const Gpu& gpu, const Scene& scene, const WindowTable& tabl
         const Camera camera = make_camera(scene, view, picture.up, aspect);
         const double side = std::min(pane.width, pane.height);
         const double covered = try_view(renderer, scene, view, picture.up).covered * side * side;
-        picture.visible = i == 0 ? covered / (static_cast<double>(pane.width) * pane.height)
-                                 : picture.visible;
-        draw_pane(renderer, camera, kind_with_scale(params.style, samples, covered), pane,
-                  params.background, picture.pixels, tell_tile);
+        const DrawKind what = content.balls.empty()
+                                  ? kind_with_scale(params.style, content.samples, covered)
+                                  : DrawKind{kDrawFrame, 1, params.cuts};
+        draw_pane(renderer, camera, what, pane, params.background, picture.pixels, tell_tile);
     }
     return picture;
 }

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "picture/gpu.hpp"
-#include "picture/scene.hpp"
+#include "picture/renderer.hpp"
 #include "picture/view.hpp"
 #include "picture/window_table.hpp"
-#include "picture_records.h"
 
 namespace geodisk::tools::picture {
 
@@ -53,6 +52,7 @@ struct PictureParams {
     std::vector<std::optional<View>> views{std::nullopt}; ///< None is a good one, see choose_view.
     std::optional<Up> up;                                 ///< Else likely_up().
     Background background;
+    bool cuts = false; ///< Takes balls away in the eighth of a box nearest to the eye.
 };
 
 /// A picture and what it shows.
@@ -60,15 +60,11 @@ struct Picture {
     Pixels pixels;
     std::vector<View> views; ///< As shown.
     Up up = Up::y;
-    double visible = 0; ///< The part of the first view that the surface covers.
 };
 
-/// A sample that is drawn: its radius in units of the window table.
-using DrawnSample = SampleRec;
-
-/// Draws all views side by side. `tell` may throw. Throws UserError.
-Picture draw_picture(const Gpu& gpu, const Scene& scene, const WindowTable& table,
-                     std::span<const DrawnSample> samples, const PictureParams& params,
+/// Draws all views side by side; of a content with balls, these and the frame around them.
+/// `tell` may throw. Throws UserError.
+Picture draw_picture(const Gpu& gpu, const Content& content, const PictureParams& params,
                      const PartDone& tell);
 
 } // namespace geodisk::tools::picture

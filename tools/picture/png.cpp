@@ -56,9 +56,9 @@ void write_png(AtomicFile& file, const Pixels& pixels) {
     }
     Sink sink{file, nullptr};
     const int channels = is_opaque ? 3 : 4;
-    const int written = stbi_write_png_to_func(
-        take_bytes, &sink, static_cast<int>(pixels.width), static_cast<int>(pixels.height),
-        channels, is_opaque ? rgb.data() : pixels.rgba.data(), 0);
+    const int written = stbi_write_png_to_func(take_bytes, &sink, static_cast<int>(pixels.width),
+                                               static_cast<int>(pixels.height), channels,
+                                               is_opaque ? rgb.data() : pixels.rgba.data(), 0);
     if (sink.error) {
         std::rethrow_exception(sink.error);
     }

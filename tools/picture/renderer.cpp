@@ -8,6 +8,9 @@
 
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+
+#include "ball_frag.spv.inc"
+#include "ball_vert.spv.inc"
 #include "surface_frag.spv.inc"
 #include "surface_vert.spv.inc"
 
@@ -16,11 +19,12 @@ namespace {
 
 constexpr VkFormat kColor = VK_FORMAT_R8G8B8A8_SRGB;
 constexpr VkDeviceSize kPixelBytes = 4;
-constexpr std::uint32_t kBindings = 5;
+constexpr std::uint32_t kBindings = 6;
+constexpr std::uint32_t kBallCorners = 6;
 
 /// Whether to colour what may be hidden costs less than to find out first what is seen.
 bool is_cheap(std::uint32_t kind) {
-    return kind == kDrawArea;
+    return kind == kDrawArea || kind == kDrawFrame;
 }
 
 template <class T>
@@ -84,15 +88,31 @@ void check_cells(const WindowTable& table) {
     }
 }
 
+void check_bindings(const Gpu& gpu, const Content& content) {
+    const std::size_t largest = std::max(content.samples.size_bytes(), content.balls.size_bytes());
+    if (largest > gpu.limits().maxStorageBufferRange) {
+        throw UserError(ExitCode::out_of_memory, "the samples take " + size_text(largest) +
+                                                     ", and the device binds at most " +
+                                                     size_text(gpu.limits().maxStorageBufferRange));
+    }
+}
+
 } // namespace
 
-Renderer::Renderer(const Gpu& gpu, const Scene& scene, const WindowTable& table,
-                   std::span<const SampleRec> samples)
-    : gpu_(gpu), samples_(make_storage(gpu, bytes_of(samples))) {
-    check_cells(table);
+Renderer::Renderer(const Gpu& gpu, const Content& content)
+    : gpu_(gpu), samples_(make_storage(gpu, bytes_of(content.samples))),
+      balls_(make_storage(gpu, bytes_of(content.balls))),
+      ball_count_(static_cast<std::uint32_t>(content.balls.size())) {
+    check_cells(content.table);
+    check_bindings(gpu, content);
     make_targets();
-    make_chunks(scene, table);
-    depth_alone_ = make_pipeline(Pass::depth, 0);
+    make_chunks(content.scene, content.table);
+    depth_alone_ = make_surface_pipeline(Pass::depth, 0);
+    if (ball_count_ > 0) {
+        const Module vertex = make_module(gpu_, k_ball_vert_spirv);
+        const Module fragment = make_module(gpu_, k_ball_frag_spirv);
+        ball_pipeline_ = make_pipeline(vertex.get(), fragment.get(), Pass::color_and_depth, 0);
+    }
 }
 
 void Renderer::make_chunks(const Scene& scene, const WindowTable& table) {
@@ -116,8 +136,8 @@ void Renderer::make_chunks(const Scene& scene, const WindowTable& table) {
         for (std::uint32_t& start : starts) {
             start -= first_window;
         }
-        const auto corners = std::span(scene.corners).subspan(std::size_t{3} * first,
-                                                              std::size_t{3} * count);
+        const auto corners =
+            std::span(scene.corners).subspan(std::size_t{3} * first, std::size_t{3} * count);
         const auto windows = std::span(table.windows).subspan(first_window, starts.back());
         Chunk& chunk = chunks_.emplace_back();
         chunk.corners = 3 * count;
@@ -202,7 +222,8 @@ void Renderer::make_layout(std::size_t chunks) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
                        VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }
-    auto set_info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    auto set_info = structure<VkDescriptorSetLayoutCreateInfo>(
+        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set_info.bindingCount = kBindings;
     set_info.pBindings = bindings;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
@@ -212,7 +233,8 @@ void Renderer::make_layout(std::size_t chunks) {
 
     const VkPushConstantRange range{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                                     sizeof(PushRec)};
-    auto info = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    auto info =
+        structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     info.setLayoutCount = 1;
     info.pSetLayouts = &set_layout;
     info.pushConstantRangeCount = 1;
@@ -224,7 +246,8 @@ void Renderer::make_layout(std::size_t chunks) {
 
     const auto sets = static_cast<std::uint32_t>(chunks);
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings * sets};
-    auto pool_info = structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    auto pool_info =
+        structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool_info.maxSets = sets;
     pool_info.poolSizeCount = 1;
     pool_info.pPoolSizes = &size;
@@ -236,7 +259,8 @@ void Renderer::make_layout(std::size_t chunks) {
 
 void Renderer::describe(Chunk& chunk) const {
     const VkDescriptorSetLayout set_layout = set_layout_.get();
-    auto allocate = structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    auto allocate =
+        structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     allocate.descriptorPool = pool_.get();
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &set_layout;
@@ -245,7 +269,8 @@ void Renderer::describe(Chunk& chunk) const {
     VkDescriptorBufferInfo buffers[kBindings];
     VkWriteDescriptorSet writes[kBindings];
     for (std::uint32_t i = 0; i < kBindings; ++i) {
-        buffers[i] = {i < 4 ? chunk.buffers[i].get() : samples_.get(), 0, VK_WHOLE_SIZE};
+        const Buffer& buffer = i < 4 ? chunk.buffers[i] : i == 4 ? samples_ : balls_;
+        buffers[i] = {buffer.get(), 0, VK_WHOLE_SIZE};
         writes[i] = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         writes[i].dstSet = chunk.set;
         writes[i].dstBinding = i;
@@ -256,9 +281,14 @@ void Renderer::describe(Chunk& chunk) const {
     gpu_.vk().vkUpdateDescriptorSets(gpu_.device(), kBindings, writes, 0, nullptr);
 }
 
-Renderer::Pipeline Renderer::make_pipeline(Pass of, std::uint32_t kind) const {
+Renderer::Pipeline Renderer::make_surface_pipeline(Pass of, std::uint32_t kind) const {
     const Module vertex = make_module(gpu_, k_surface_vert_spirv);
     const Module fragment = make_module(gpu_, k_surface_frag_spirv);
+    return make_pipeline(vertex.get(), fragment.get(), of, kind);
+}
+
+Renderer::Pipeline Renderer::make_pipeline(VkShaderModule vertex, VkShaderModule fragment, Pass of,
+                                           std::uint32_t kind) const {
     const VkSpecializationMapEntry entry{0, 0, sizeof kind};
     const VkSpecializationInfo constants{1, &entry, sizeof kind, &kind};
     VkPipelineShaderStageCreateInfo stages[2]{};
@@ -267,36 +297,45 @@ Renderer::Pipeline Renderer::make_pipeline(Pass of, std::uint32_t kind) const {
         stage.pName = "main";
     }
     stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = vertex.get();
+    stages[0].module = vertex;
     stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    stages[1].module = fragment.get();
+    stages[1].module = fragment;
     stages[1].pSpecializationInfo = &constants;
 
-    const auto input = structure<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
-    auto assembly = structure<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    const auto input = structure<VkPipelineVertexInputStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    auto assembly = structure<VkPipelineInputAssemblyStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    auto view = structure<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
+    auto view = structure<VkPipelineViewportStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
     view.viewportCount = 1;
     view.scissorCount = 1;
-    auto raster = structure<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    auto raster = structure<VkPipelineRasterizationStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
     raster.polygonMode = VK_POLYGON_MODE_FILL;
     raster.lineWidth = 1;
-    auto multisample = structure<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    auto multisample = structure<VkPipelineMultisampleStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
     multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    auto depth = structure<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+    auto depth = structure<VkPipelineDepthStencilStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
     depth.depthTestEnable = VK_TRUE;
     depth.depthWriteEnable = of == Pass::color_after_depth ? VK_FALSE : VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
     VkPipelineColorBlendAttachmentState blend{};
     blend.colorWriteMask = of == Pass::depth ? 0u : 0xfu;
-    auto blending = structure<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    auto blending = structure<VkPipelineColorBlendStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
     blending.attachmentCount = 1;
     blending.pAttachments = &blend;
     const VkDynamicState dynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    auto dynamics = structure<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+    auto dynamics = structure<VkPipelineDynamicStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
     dynamics.dynamicStateCount = 2;
     dynamics.pDynamicStates = dynamic;
-    auto info = structure<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
+    auto info =
+        structure<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
     info.stageCount = of == Pass::depth ? 1 : 2;
     info.pStages = stages;
     info.pVertexInputState = &input;
@@ -320,7 +359,7 @@ VkPipeline Renderer::pipeline_of(std::uint32_t kind) {
     auto found = pipelines_.find(kind);
     if (found == pipelines_.end()) {
         const Pass of = is_cheap(kind) ? Pass::color_and_depth : Pass::color_after_depth;
-        found = pipelines_.emplace(kind, make_pipeline(of, kind)).first;
+        found = pipelines_.emplace(kind, make_surface_pipeline(of, kind)).first;
     }
     return found->second.get();
 }
@@ -337,6 +376,7 @@ std::span<const std::uint8_t> Renderer::draw(const DrawKind& what, const Camera&
     push.light_y = camera.light.y;
     push.light_z = camera.light.z;
     push.high = what.high;
+    push.cuts = what.cuts ? 1 : 0;
 
     const VkPipeline colored = pipeline_of(what.kind);
     const Functions& vk = gpu_.vk();
@@ -367,6 +407,10 @@ std::span<const std::uint8_t> Renderer::draw(const DrawKind& what, const Camera&
                                            0, 1, &chunk.set, 0, nullptr);
                 vk.vkCmdDraw(commands, chunk.corners, 1, 0, 0);
             }
+        }
+        if (ball_count_ > 0) {
+            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, ball_pipeline_.get());
+            vk.vkCmdDraw(commands, kBallCorners * ball_count_, 1, 0, 0);
         }
         vk.vkCmdEndRenderPass(commands);
         VkBufferImageCopy region{};

@@ -17,10 +17,20 @@
 
 namespace geodisk::tools::picture {
 
-/// What to draw, a kDraw constant of picture_records.h, and the end of its scale, as PushRec has it.
+/// What to draw, a kDraw constant of picture_records.h, and the end of its scale, as PushRec has
+/// it.
 struct DrawKind {
     std::uint32_t kind = kDrawDisks;
     float high = 1;
+    bool cuts = false; ///< As PushRec::cuts.
+};
+
+/// What there is to draw. Corners of the scene are those of the table's faces.
+struct Content {
+    const Scene& scene;
+    const WindowTable& table;
+    std::span<const SampleRec> samples;
+    std::span<const BallRec> balls = {};
 };
 
 /// Holds a scene on the device. All members throw UserError.
@@ -30,9 +40,8 @@ class Renderer {
     /// Windows that one place may be lit by: lavapipe ends loops of 65,535 without a word.
     static constexpr std::uint32_t kMostInCell = 60000;
 
-    /// The scene's corners are those of the table's faces. `gpu` must outlive the object.
-    Renderer(const Gpu& gpu, const Scene& scene, const WindowTable& table,
-             std::span<const SampleRec> samples);
+    /// `gpu` must outlive the object, `content` need not.
+    Renderer(const Gpu& gpu, const Content& content);
 
     /// Draws what `to_clip` shows of the scene, and gives the pixels, row by row from the top: red,
     /// green and blue as sRGB encodes them and 255, or four times 0 where nothing is. They are
@@ -55,11 +64,14 @@ class Renderer {
     void make_targets();
     void make_layout(std::size_t chunks);
     void describe(Chunk& chunk) const;
-    Pipeline make_pipeline(Pass of, std::uint32_t kind) const;
+    Pipeline make_surface_pipeline(Pass of, std::uint32_t kind) const;
+    Pipeline make_pipeline(VkShaderModule vertex, VkShaderModule fragment, Pass of,
+                           std::uint32_t kind) const;
     VkPipeline pipeline_of(std::uint32_t kind);
 
     const Gpu& gpu_;
-    Buffer samples_;
+    Buffer samples_, balls_;
+    std::uint32_t ball_count_;
     std::vector<Chunk> chunks_;
     Image color_, depth_;
     Buffer read_back_;
@@ -68,7 +80,7 @@ class Renderer {
     Handle<VkDescriptorSetLayout, &Functions::vkDestroyDescriptorSetLayout> set_layout_;
     Handle<VkPipelineLayout, &Functions::vkDestroyPipelineLayout> layout_;
     Handle<VkDescriptorPool, &Functions::vkDestroyDescriptorPool> pool_;
-    Pipeline depth_alone_;
+    Pipeline depth_alone_, ball_pipeline_;
     std::map<std::uint32_t, Pipeline> pipelines_; ///< By kind.
 };
 

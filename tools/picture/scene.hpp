@@ -15,6 +15,8 @@ struct Scene {
     /// Three to a face. Normals are those of the smooth surface where faces meet at less than
     /// kCrease, else those of the faces; of unit length, or zero for faces without area.
     std::vector<CornerRec> corners;
+    /// What is drawn sticks out from the corners by no more than this.
+    double around = 0;
 
     glm::dvec3 corner(std::size_t index) const {
         return {corners[index].x, corners[index].y, corners[index].z};

@@ -76,21 +76,20 @@ struct Fit {
 };
 
 Fit fit(const Scene& scene, glm::dvec3 axis, glm::dvec3 front, double t) {
-    const auto above = range_of(scene, [&](glm::dvec3 p) {
-        return glm::dot(p, axis) + t * glm::dot(p, front);
-    });
-    const auto below = range_of(scene, [&](glm::dvec3 p) {
-        return glm::dot(p, axis) - t * glm::dot(p, front);
-    });
-    return {(above.second + below.first) / 2, (above.second - below.first) / (2 * t)};
+    const auto above =
+        range_of(scene, [&](glm::dvec3 p) { return glm::dot(p, axis) + t * glm::dot(p, front); });
+    const auto below =
+        range_of(scene, [&](glm::dvec3 p) { return glm::dot(p, axis) - t * glm::dot(p, front); });
+    return {(above.second + below.first) / 2,
+            (above.second - below.first) / (2 * t) + scene.around * std::sqrt(1 + 1 / (t * t))};
 }
 
 } // namespace
 
 std::optional<View> parse_view(const std::string& option, const std::string& text) {
-    constexpr std::pair<const char*, View> kNamed[] = {
-        {"front", {0, 0}},   {"back", {180, 0}}, {"left", {-90, 0}},
-        {"right", {90, 0}},  {"top", {0, 90}},   {"bottom", {0, -90}}};
+    constexpr std::pair<const char*, View> kNamed[] = {{"front", {0, 0}},  {"back", {180, 0}},
+                                                       {"left", {-90, 0}}, {"right", {90, 0}},
+                                                       {"top", {0, 90}},   {"bottom", {0, -90}}};
     if (text == "auto") {
         return std::nullopt;
     }
@@ -107,8 +106,9 @@ std::optional<View> parse_view(const std::string& option, const std::string& tex
             return View{*azimuth, *elevation};
         }
     }
-    fail_usage(option + " takes auto, front, back, left, right, top, bottom or "
-                        "AZIMUTH,ELEVATION in degrees, such as 30,20; not " +
+    fail_usage(option +
+               " takes auto, front, back, left, right, top, bottom or "
+               "AZIMUTH,ELEVATION in degrees, such as 30,20; not " +
                in_quotes(text));
 }
 
@@ -152,12 +152,12 @@ Camera make_camera(const Scene& scene, View view, Up up, double aspect) {
     const glm::dvec3 middle = across.shift * axes.right + along.shift * axes.up;
     const auto [back, front] =
         range_of(scene, [&](glm::dvec3 p) { return glm::dot(p, axes.front); });
-    const double pad = 1e-3 * (1 + front - back);
+    const double pad = 1e-3 * (1 + front - back) + scene.around;
     const double near = std::max(distance - front - pad, 1e-3 * distance);
     const double far = distance - back + pad;
 
-    glm::dmat4 clip = glm::frustumRH_ZO(-t_right * near, t_right * near, -t_up * near, t_up * near,
-                                        near, far);
+    glm::dmat4 clip =
+        glm::frustumRH_ZO(-t_right * near, t_right * near, -t_up * near, t_up * near, near, far);
     clip[1] = -clip[1]; // Vulkan's y goes down.
     const glm::dvec3 eye = middle + distance * axes.front;
     const glm::dmat4 to_eye = glm::lookAtRH(eye, middle, axes.up);

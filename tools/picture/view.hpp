@@ -35,9 +35,9 @@ Up likely_up(const Scene& scene);
 std::vector<View> views_to_try();
 
 struct Camera {
-    glm::mat4 to_clip;  ///< y goes down, depth from 0 to 1.
+    glm::mat4 to_clip; ///< y goes down, depth from 0 to 1.
     glm::vec3 eye;
-    glm::vec3 light;    ///< Where light comes from; of length 1.
+    glm::vec3 light; ///< Where light comes from; of length 1.
 };
 
 /// Shows all of the scene in a frame that is `aspect` times as wide as it is high.

@@ -38,8 +38,8 @@ float to_float(double x) {
 class WindowMaker {
   public:
     WindowMaker(const ref::Surface<double>& surface, std::span<const FaceRec> faces)
-        : surface_(surface), faces_(faces),
-          detector_(surface, bins_, ref::double_tolerances(), 1) {}
+        : surface_(surface), faces_(faces), detector_(surface, bins_, ref::double_tolerances(), 1) {
+    }
 
     /// Appends those of the disk of radius `reach`, in units, to `out`, and tells how many windows
     /// it took.
@@ -89,9 +89,9 @@ class WindowMaker {
     void place(std::uint32_t f, Point source, double sigma, Point left, Point right) const {
         const FaceRec& face = faces_[f];
         const double rest = reach_ - sigma;
-        const WindowRec window{to_float(source.x), to_float(source.y), to_float(sigma),
-                               index_,             to_float(left.x),   to_float(left.y),
-                               to_float(right.x),  to_float(right.y)};
+        const WindowRec window{
+            to_float(source.x), to_float(source.y), to_float(sigma),   index_,
+            to_float(left.x),   to_float(left.y),   to_float(right.x), to_float(right.y)};
         if (face.columns == 1 && face.rows == 1) {
             out_->push_back({face.first_cell, window});
             return;

@@ -1,5 +1,5 @@
-// The geodesic disks of samples, in the form that a shader finds the exact distance of any point by:
-// all windows of all samples, by the place on the surface that they light.
+// The geodesic disks of samples, in the form that a shader finds the exact distance of any point
+// by: all windows of all samples, by the place on the surface that they light.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,11 @@ struct DiskSource {
 /// seen through, of sigma and the straight way to the window's source; p lies beyond the reach of s
 /// where there is none, or that is larger.
 struct WindowTable {
-    double unit = 1;                    ///< Of all lengths here, in mesh units.
-    std::vector<FaceRec> faces;         ///< Cells count from 0 over all faces.
-    std::vector<std::uint32_t> starts;  ///< Of each cell's windows, and the end.
-    std::vector<WindowRec> windows;     ///< In each cell by sample, ascending.
-    std::uint64_t disk_windows = 0;     ///< Made by the disks, on edges.
+    double unit = 1;                   ///< Of all lengths here, in mesh units.
+    std::vector<FaceRec> faces;        ///< Cells count from 0 over all faces.
+    std::vector<std::uint32_t> starts; ///< Of each cell's windows, and the end.
+    std::vector<WindowRec> windows;    ///< In each cell by sample, ascending.
+    std::uint64_t disk_windows = 0;    ///< Made by the disks, on edges.
 };
 
 /// Called now and then with the part that is done.

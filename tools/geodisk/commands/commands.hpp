@@ -11,6 +11,7 @@ class App;
 namespace geodisk::tools {
 
 struct OutputOptions;
+struct RenderOptions;
 
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
 void add_sample_command(CLI::App& app);
@@ -26,6 +27,9 @@ void verify_box(const std::string& samples, const std::string& min_distance,
 
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
 void add_render_command(CLI::App& app);
+
+/// What `render` does with samples in a box of two or three dimensions.
+void render_box(const RenderOptions& options);
 
 /// Carries samples over to another mesh of the same connectivity.
 void add_transfer_command(CLI::App& app);

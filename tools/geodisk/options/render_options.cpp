@@ -11,8 +11,7 @@ namespace {
 std::uint32_t parse_side(const std::string& text, std::string_view side) {
     using picture::PictureParams;
     const auto pixels = parse_integer<std::uint32_t>(side);
-    if (!pixels || *pixels < PictureParams::kFewestPixels ||
-        *pixels > PictureParams::kMostPixels) {
+    if (!pixels || *pixels < PictureParams::kFewestPixels || *pixels > PictureParams::kMostPixels) {
         fail_usage("--size takes WIDTHxHEIGHT, each of " +
                    std::to_string(PictureParams::kFewestPixels) + " to " +
                    std::to_string(PictureParams::kMostPixels) + " pixels, not " + in_quotes(text));
@@ -25,7 +24,7 @@ std::uint32_t parse_side(const std::string& text, std::string_view side) {
 void add_render_options(CLI::App& command, RenderOptions& options) {
     add_mesh_argument(command, options.mesh,
                       "Mesh that the samples were made on; or, alone, the samples\n"
-                      "of geodisk box --dim 2");
+                      "of geodisk box, of 2 or 3 dimensions");
     add_option(command, "SAMPLES", options.samples, "", "Samples to show: *.ply or *.csv");
     add_output_argument(command, options.out, "Picture to write: *.png");
     add_option(command, "--size", options.size, "WxH", "Pixels of the picture")
@@ -51,6 +50,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     add_option(command, "--background", options.background, "COLOR",
                "white, black, transparent or RRGGBB")
         ->capture_default_str();
+    command.add_flag("--cut", options.cuts,
+                     "Of a box of 3 dimensions, do not show the balls in the\n"
+                     "eighth nearest to the eye");
     add_option(command, "-d,--min-distance", options.min_distance, "D",
                "Minimum distance, in mesh units or with % of the diagonal;\n"
                "without it, that of the samples' header or their own radii");
@@ -66,10 +68,10 @@ picture::PictureParams parse_picture(const RenderOptions& options) {
     const std::size_t by = options.size.find('x');
     const std::string_view size = options.size;
     params.width = parse_side(options.size, size.substr(0, by));
-    params.height =
-        parse_side(options.size, by == std::string::npos ? "" : size.substr(by + 1));
+    params.height = parse_side(options.size, by == std::string::npos ? "" : size.substr(by + 1));
     params.style = picture::parse_style("--style", options.style);
     params.background = picture::parse_background("--background", options.background);
+    params.cuts = options.cuts;
     if (!options.up.empty()) {
         params.up = picture::parse_up("--up", options.up);
     }

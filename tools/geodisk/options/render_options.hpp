@@ -21,6 +21,7 @@ struct RenderOptions {
     std::string size = "1920x1080", style = "disks", up, background = "white";
     std::string min_distance, radius;
     std::vector<std::string> views;
+    bool cuts = false;
 };
 
 /// Adds all options of the command; `options` must outlive the parsing.

@@ -22,6 +22,8 @@ GEODISK_PICTURE_CONSTANT kDrawDensity = 4u;
 // surface that faces it.
 GEODISK_PICTURE_CONSTANT kDrawArea = 5u;
 GEODISK_PICTURE_CONSTANT kMostTilt = 5u;
+// The edges of a box, beside balls.
+GEODISK_PICTURE_CONSTANT kDrawFrame = 6u;
 
 // A corner of a drawn face: where it lies in the scene, and its normal there.
 struct CornerRec {
@@ -50,17 +52,23 @@ struct SampleRec {
     float radius; uint color;
 };
 
+// A sample in a box of three dimensions, in the scene.
+struct BallRec {
+    float x; float y; float z; float radius; uint color;
+};
+
 // What changes from draw to draw.
 struct PushRec {
     float to_clip[16];   // column by column
     float eye_x; float eye_y; float eye_z; // in the scene
     float light_x; float light_y; float light_z; // the direction it comes from
     float high; // the end of the scale: a point's radius in radii, or a density
+    uint cuts;  // not 0: without balls in the eighth of the box nearest to the eye
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(CornerRec) == 24 && sizeof(FaceRec) == 32 && sizeof(WindowRec) == 32 &&
-              sizeof(SampleRec) == 8 && sizeof(PushRec) == 92);
+              sizeof(SampleRec) == 8 && sizeof(BallRec) == 20 && sizeof(PushRec) == 96);
 }
 #endif
 #endif

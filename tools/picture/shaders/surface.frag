@@ -122,6 +122,10 @@ void main() {
         color = vec4(vec3(tilt / float(kMostTilt)), 1);
         return;
     }
+    if (kDraw == kDrawFrame) {
+        color = vec4(kMark, 1);
+        return;
+    }
     float density;
     const Nearest nearest = look_up(density);
     const vec3 matte = surface_color(nearest, density);

@@ -1,0 +1,117 @@
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "files/input_file.hpp"
+#include "files/sample_file.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/inputs/box_input.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/picture_run.hpp"
+#include "geodisk/reports/box_report.hpp"
+#include "picture/box_frame.hpp"
+#include "picture/flat_box.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+using picture::PictureParams;
+using picture::Style;
+
+/// Of points drawn in space, in radii.
+constexpr double kPointPart = 0.3;
+
+/// A single file must be one of samples in a box, which has nothing of a surface.
+void check_options(const RenderOptions& options) {
+    const std::string extension = lower_extension(options.mesh.mesh);
+    if (extension != ".ply" && extension != ".csv") {
+        fail_usage("SAMPLES is required, except for samples in a box, *.ply or *.csv, which are "
+                   "shown without a mesh");
+    }
+    if (!options.mesh.additions().empty()) {
+        fail_usage("options of surfaces need MESH and SAMPLES; a single file is one of samples in "
+                   "a box");
+    }
+    check_outputs(options.out, "the picture", {{"the samples", options.mesh.mesh}},
+                  check_picture_path);
+}
+
+BoxParams read_box(const RenderOptions& options, const SampleFile& samples) {
+    const std::string& path = options.mesh.mesh;
+    const std::optional<Length> distance = parse_distance(options);
+    BoxParams box = box_of(path, distance ? "1" : "", samples);
+    if (distance) {
+        box.min_distance = distance->in_mesh_units(diagonal_of(box));
+    }
+    if (box.extents.size() != 2 && box.extents.size() != 3) {
+        fail_input(path, "its box has " + counted(box.extents.size(), "dimension", "dimensions") +
+                             "; pictures are of those with 2 or 3");
+    }
+    return box;
+}
+
+void render_flat(const RenderOptions& options, const PictureParams& params, const Subject& subject,
+                 const BoxParams& box, const SampleFile& samples, ProgressLine& progress) {
+    const picture::FlatBox flat(box);
+    std::vector<picture::DiskSource> disks;
+    for (const SampleRow& row : samples.rows) {
+        disks.push_back(flat.disk(row.position[0], row.position[1], box.min_distance / 2));
+    }
+    const picture::Scene scene = picture::make_scene(flat.positions(), 2, flat.triangles());
+    draw_surface(options, params, subject, flat.mesh(), scene, std::move(disks), progress);
+}
+
+void render_balls(const RenderOptions& options, const PictureParams& params,
+                  const Subject& subject, const BoxParams& box, const SampleFile& samples,
+                  ProgressLine& progress) {
+    if (params.style != Style::disks && params.style != Style::points) {
+        fail_usage("--style " + options.style +
+                   " is of surfaces; samples in a box of 3 dimensions are shown as disks, which "
+                   "are balls there, or as points");
+    }
+    if (samples.rows.empty()) {
+        fail_input(subject.samples_file, "has no samples to show");
+    }
+    const double radius =
+        box.min_distance / 2 * (params.style == Style::points ? kPointPart : 1);
+    const picture::BoxFrame frame(box, radius);
+    std::vector<picture::BallRec> balls;
+    for (const SampleRow& row : samples.rows) {
+        const std::array<double, 3> at{row.position[0], row.position[1], row.position[2]};
+        balls.push_back(frame.ball(at, radius, color_of(balls.size())));
+    }
+    draw_content(options, params, subject, {frame.scene(), frame.table(), {}, balls}, progress);
+}
+
+} // namespace
+
+void render_box(const RenderOptions& options) {
+    PictureParams params = parse_picture(options);
+    check_options(options);
+    ProgressLine progress(options.out.quiet);
+    progress.begin_stage("reading the samples");
+    const std::string& path = options.mesh.mesh;
+    const SampleFile samples = read_box_samples(path);
+    const BoxParams box = read_box(options, samples);
+    const bool is_flat = box.extents.size() == 2;
+    if (is_flat && params.cuts) {
+        fail_usage("--cut is for samples in a box of 3 dimensions");
+    }
+    const Subject subject{
+        path, "box           " + box_text(box) + '\n',
+        {{"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}}}};
+    params.up = params.up.value_or(picture::Up::y);
+    for (std::optional<picture::View>& view : params.views) {
+        view = view.value_or(is_flat ? picture::View{0, 0} : picture::View{30, 20});
+    }
+    if (is_flat) {
+        render_flat(options, params, subject, box, samples, progress);
+    } else {
+        render_balls(options, params, subject, box, samples, progress);
+    }
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,164 @@
+#include "geodisk/picture_run.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <geodisk/version.hpp>
+
+#include "files/input_file.hpp"
+#include "geodisk/opened_device.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "picture/png.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+using picture::Picture;
+
+/// What was drawn, and how long that took.
+struct Drawn {
+    Picture picture;
+    std::size_t samples = 0;
+    std::size_t windows = 0;
+    std::string device;
+    double window_seconds = 0, draw_seconds = 0;
+};
+
+/// Tells what was drawn.
+class RenderReport {
+  public:
+    RenderReport(const RenderOptions& options, const Subject& subject, const Drawn& drawn)
+        : options_(options), subject_(subject), drawn_(drawn) {}
+
+    std::string json(double write_seconds) const {
+        Json views = Json::array();
+        for (const picture::View& view : drawn_.picture.views) {
+            views.push_back({{"azimuth", view.azimuth}, {"elevation", view.elevation}});
+        }
+        Json document{{"version", GEODISK_VERSION_STRING}};
+        document.update(subject_.json);
+        document.update({{"samples_file", subject_.samples_file},
+                         {"samples", drawn_.samples},
+                         {"output", options_.out.output},
+                         {"width", drawn_.picture.pixels.width},
+                         {"height", drawn_.picture.pixels.height},
+                         {"style", options_.style},
+                         {"up", up_name()},
+                         {"views", views},
+                         {"windows", drawn_.windows},
+                         {"device", drawn_.device},
+                         {"seconds",
+                          {{"windows", drawn_.window_seconds},
+                           {"draw", drawn_.draw_seconds},
+                           {"write", write_seconds}}}});
+        return text_of(document);
+    }
+
+    std::string summary(double write_seconds) const {
+        std::ostringstream out;
+        out << subject_.lines << "samples       " << grouped(drawn_.samples) << " in "
+            << one_line(subject_.samples_file) << '\n'
+            << "picture       " << options_.style << ", " << drawn_.picture.pixels.width << " x "
+            << drawn_.picture.pixels.height << '\n';
+        for (const picture::View& view : drawn_.picture.views) {
+            out << "view          " << rounded(view.azimuth, 4) << ','
+                << rounded(view.elevation, 4) << ", " << up_name() << " up\n";
+        }
+        out << "time          " << seconds_text(drawn_.window_seconds) << " disks, "
+            << seconds_text(drawn_.draw_seconds) << " drawing, " << seconds_text(write_seconds)
+            << " writing\n"
+            << "device        " << drawn_.device << '\n'
+            << "file          " << one_line(options_.out.output) << '\n';
+        return out.str();
+    }
+
+  private:
+    const char* up_name() const {
+        return drawn_.picture.up == picture::Up::x   ? "x"
+               : drawn_.picture.up == picture::Up::y ? "y"
+                                                     : "z";
+    }
+
+    const RenderOptions& options_;
+    const Subject& subject_;
+    const Drawn& drawn_;
+};
+
+/// Twice the median radius.
+double spacing_of(const std::vector<picture::DiskSource>& disks) {
+    std::vector<double> radii;
+    for (const picture::DiskSource& disk : disks) {
+        radii.push_back(disk.reach);
+    }
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return 2 * *middle;
+}
+
+/// Shows how far the work is, and ends it on a signal.
+picture::PartDone show_progress(ProgressLine& progress) {
+    return [&progress](double part) {
+        check_interrupted();
+        progress.update(part, "");
+    };
+}
+
+} // namespace
+
+void check_picture_path(const Path& path) {
+    if (lower_extension(path) != ".png") {
+        fail_usage(path.string() + ": pictures are written as *.png");
+    }
+    check_writable(path);
+}
+
+void draw_surface(const RenderOptions& options, const picture::PictureParams& params,
+                  const Subject& subject, const PreparedMesh& mesh, const picture::Scene& scene,
+                  std::vector<picture::DiskSource> disks, ProgressLine& progress) {
+    if (disks.empty()) {
+        fail_input(subject.samples_file, "has no samples to show");
+    }
+    progress.begin_stage("computing the disks");
+    const Stopwatch watch;
+    const double spacing = spacing_of(disks);
+    const double reach = picture::reach_of(params.style);
+    std::vector<double> radii;
+    for (picture::DiskSource& disk : disks) {
+        radii.push_back(disk.reach);
+        disk.reach *= reach;
+    }
+    const picture::WindowTable table =
+        picture::make_window_table(mesh, disks, spacing, show_progress(progress));
+    std::vector<picture::SampleRec> samples;
+    for (const double radius : radii) {
+        samples.push_back({static_cast<float>(radius / table.unit), color_of(samples.size())});
+    }
+    draw_content(options, params, subject, {scene, table, samples}, progress, watch.seconds());
+}
+
+void draw_content(const RenderOptions& options, const picture::PictureParams& params,
+                  const Subject& subject, const picture::Content& content,
+                  ProgressLine& progress, double window_seconds) {
+    Drawn drawn;
+    drawn.samples = content.samples.size() + content.balls.size();
+    drawn.windows = content.table.windows.size();
+    drawn.window_seconds = window_seconds;
+    const Context context = open_device(options.device, true, progress);
+    drawn.device = context.report().name;
+    progress.begin_stage("drawing");
+    const Stopwatch watch;
+    {
+        const picture::Gpu gpu(context.device(), context.queue());
+        drawn.picture = picture::draw_picture(gpu, content, params, show_progress(progress));
+    }
+    drawn.draw_seconds = watch.seconds();
+    check_validation(context);
+    const RenderReport report(options, subject, drawn);
+    write_outputs(options.out, "the picture", progress, report,
+                  [&](AtomicFile& file) { picture::write_png(file, drawn.picture.pixels); });
+}
+
+} // namespace geodisk::tools
