@@ -133,11 +133,11 @@ TEST_CASE("several views make a sheet, and the report tells of it") {
     CHECK(report["windows"].get<int>() > 300);
     CHECK(report["mesh"]["path"] == kMesh);
     const PngImage image = read_png(folder / "p.png");
-    for (int pane = 0; pane < 3; ++pane) { // Each shows something.
+    for (std::size_t pane = 0; pane < 3; ++pane) { // Each shows something.
         std::size_t drawn = 0;
-        for (int y = 0; y < 100; ++y) {
-            for (int x = 100 * pane; x < 100 * (pane + 1); ++x) {
-                const Pixel p = image.pixels[static_cast<std::size_t>(300 * y + x)];
+        for (std::size_t y = 0; y < 100; ++y) {
+            for (std::size_t x = 100 * pane; x < 100 * (pane + 1); ++x) {
+                const Pixel p = image.pixels[300 * y + x];
                 drawn += p != Pixel{255, 255, 255, 255};
             }
         }

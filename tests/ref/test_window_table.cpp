@@ -64,12 +64,14 @@ void check_table(const std::string& name, const TestMesh& mesh, double reach, st
     const std::vector<Point> sources = random_points(surface, 5, samples);
     const std::vector<Point> points = random_points(surface, 6, probes);
     std::vector<DiskSource> disks;
+    disks.reserve(sources.size());
     for (const Point& source : sources) {
         disks.push_back({source.face, source.weight1, source.weight2, reach});
     }
     const WindowTable table = make_window_table(surface, disks, reach, {});
     GeodesicOracle oracle(mesh);
     std::vector<std::vector<double>> shown; // By probe.
+    shown.reserve(points.size());
     for (const Point& point : points) {
         shown.push_back(look_up(table, point, samples));
     }

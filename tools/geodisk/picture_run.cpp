@@ -64,8 +64,8 @@ class RenderReport {
             << "picture       " << options_.style << ", " << drawn_.picture.pixels.width << " x "
             << drawn_.picture.pixels.height << '\n';
         for (const picture::View& view : drawn_.picture.views) {
-            out << "view          " << rounded(view.azimuth, 4) << ','
-                << rounded(view.elevation, 4) << ", " << up_name() << " up\n";
+            out << "view          " << rounded(view.azimuth, 4) << ',' << rounded(view.elevation, 4)
+                << ", " << up_name() << " up\n";
         }
         out << "time          " << seconds_text(drawn_.window_seconds) << " disks, "
             << seconds_text(drawn_.draw_seconds) << " drawing, " << seconds_text(write_seconds)
@@ -90,6 +90,7 @@ class RenderReport {
 /// Twice the median radius.
 double spacing_of(const std::vector<picture::DiskSource>& disks) {
     std::vector<double> radii;
+    radii.reserve(disks.size());
     for (const picture::DiskSource& disk : disks) {
         radii.push_back(disk.reach);
     }
@@ -133,6 +134,7 @@ void draw_surface(const RenderOptions& options, const picture::PictureParams& pa
     const picture::WindowTable table =
         picture::make_window_table(mesh, disks, spacing, show_progress(progress));
     std::vector<picture::SampleRec> samples;
+    samples.reserve(radii.size());
     for (const double radius : radii) {
         samples.push_back({static_cast<float>(radius / table.unit), color_of(samples.size())});
     }
@@ -140,8 +142,8 @@ void draw_surface(const RenderOptions& options, const picture::PictureParams& pa
 }
 
 void draw_content(const RenderOptions& options, const picture::PictureParams& params,
-                  const Subject& subject, const picture::Content& content,
-                  ProgressLine& progress, double window_seconds) {
+                  const Subject& subject, const picture::Content& content, ProgressLine& progress,
+                  double window_seconds) {
     Drawn drawn;
     drawn.samples = content.samples.size() + content.balls.size();
     drawn.windows = content.table.windows.size();

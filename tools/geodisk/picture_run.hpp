@@ -32,8 +32,8 @@ void draw_surface(const RenderOptions& options, const picture::PictureParams& pa
 
 /// The same of what needs no windows.
 void draw_content(const RenderOptions& options, const picture::PictureParams& params,
-                  const Subject& subject, const picture::Content& content,
-                  ProgressLine& progress, double window_seconds = 0);
+                  const Subject& subject, const picture::Content& content, ProgressLine& progress,
+                  double window_seconds = 0);
 
 /// Neighbours in a file get any colours.
 inline std::uint32_t color_of(std::size_t sample) {

@@ -55,8 +55,8 @@ BoxFrame::BoxFrame(const BoxParams& box, double radius) {
     const glm::dvec3 corner = scene_.corner(0);
     double from_middle = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        from_middle = std::hypot(from_middle, positions[std::size_t{3} * triangles[0] + axis] -
-                                                  middle_[axis]);
+        from_middle = std::hypot(from_middle,
+                                 positions[std::size_t{3} * triangles[0] + axis] - middle_[axis]);
     }
     scale_ = std::hypot(std::hypot(corner.x, corner.y), corner.z) / from_middle;
     scene_.around = radius * scale_;

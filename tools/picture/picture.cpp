@@ -28,7 +28,7 @@ constexpr double kDensest = 1.5;
 
 /// By what sRGB makes of it, the amount of light.
 const std::array<float, 256>& light_of_srgb() {
-    static const std::array<float, 256> table = [] {
+    static const std::array<float, 256> kTable = [] {
         std::array<float, 256> light{};
         for (std::size_t i = 0; i < light.size(); ++i) {
             const double c = static_cast<double>(i) / 255;
@@ -37,14 +37,24 @@ const std::array<float, 256>& light_of_srgb() {
         }
         return light;
     }();
-    return table;
+    return kTable;
 }
 
+/// What sRGB makes of an amount of light, in steps finer than its own.
 std::uint8_t to_srgb(float light) {
-    const double c = light <= 0.0031308f
-                         ? 12.92 * static_cast<double>(light)
-                         : 1.055 * std::pow(static_cast<double>(light), 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::clamp(std::lround(c * 255), 0L, 255L));
+    constexpr std::size_t kSteps = std::size_t{1} << 16;
+    static const std::vector<std::uint8_t> kTable = [] {
+        std::vector<std::uint8_t> codes;
+        codes.reserve(kSteps);
+        for (std::size_t i = 0; i < kSteps; ++i) {
+            const double amount = static_cast<double>(i) / (kSteps - 1);
+            const double c =
+                amount <= 0.0031308 ? 12.92 * amount : 1.055 * std::pow(amount, 1 / 2.4) - 0.055;
+            codes.push_back(static_cast<std::uint8_t>(std::lround(c * 255)));
+        }
+        return codes;
+    }();
+    return kTable[static_cast<std::size_t>(std::clamp(light, 0.0f, 1.0f) * (kSteps - 1) + 0.5f)];
 }
 
 /// Mean of a square of drawn pixels, in front of the background.

@@ -64,9 +64,8 @@ void render_flat(const RenderOptions& options, const PictureParams& params, cons
     draw_surface(options, params, subject, flat.mesh(), scene, std::move(disks), progress);
 }
 
-void render_balls(const RenderOptions& options, const PictureParams& params,
-                  const Subject& subject, const BoxParams& box, const SampleFile& samples,
-                  ProgressLine& progress) {
+void render_balls(const RenderOptions& options, const PictureParams& params, const Subject& subject,
+                  const BoxParams& box, const SampleFile& samples, ProgressLine& progress) {
     if (params.style != Style::disks && params.style != Style::points) {
         fail_usage("--style " + options.style +
                    " is of surfaces; samples in a box of 3 dimensions are shown as disks, which "
@@ -75,8 +74,7 @@ void render_balls(const RenderOptions& options, const PictureParams& params,
     if (samples.rows.empty()) {
         fail_input(subject.samples_file, "has no samples to show");
     }
-    const double radius =
-        box.min_distance / 2 * (params.style == Style::points ? kPointPart : 1);
+    const double radius = box.min_distance / 2 * (params.style == Style::points ? kPointPart : 1);
     const picture::BoxFrame frame(box, radius);
     std::vector<picture::BallRec> balls;
     for (const SampleRow& row : samples.rows) {
@@ -100,9 +98,9 @@ void render_box(const RenderOptions& options) {
     if (is_flat && params.cuts) {
         fail_usage("--cut is for samples in a box of 3 dimensions");
     }
-    const Subject subject{
-        path, "box           " + box_text(box) + '\n',
-        {{"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}}}};
+    const Subject subject{path,
+                          "box           " + box_text(box) + '\n',
+                          {{"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}}}};
     params.up = params.up.value_or(picture::Up::y);
     for (std::optional<picture::View>& view : params.views) {
         view = view.value_or(is_flat ? picture::View{0, 0} : picture::View{30, 20});
