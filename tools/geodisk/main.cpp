@@ -13,6 +13,7 @@ constexpr const char* kFooter = R"(Examples:
   geodisk sample bunny.obj -o points.csv --min-distance 1%
   geodisk sample bunny.obj -o points.ply --min-distance 1% --method pdts --count 500
   geodisk verify bunny.obj points.csv
+  geodisk analyze bunny.obj points.csv
   geodisk render bunny.obj points.ply -o picture.png
   geodisk sample bunny.obj -o points.ply --count 10000 --lift normals:0.05
   geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv
@@ -38,6 +39,7 @@ void set_up(CLI::App& app) {
     app.footer(kFooter);
     geodisk::tools::add_sample_command(app);
     geodisk::tools::add_verify_command(app);
+    geodisk::tools::add_analyze_command(app);
     geodisk::tools::add_render_command(app);
     geodisk::tools::add_transfer_command(app);
     geodisk::tools::add_box_command(app);

@@ -100,7 +100,7 @@ double spacing_of(const std::vector<picture::DiskSource>& disks) {
 }
 
 /// Shows how far the work is, and ends it on a signal.
-picture::PartDone show_progress(ProgressLine& progress) {
+PartDone show_progress(ProgressLine& progress) {
     return [&progress](double part) {
         check_interrupted();
         progress.update(part, "");

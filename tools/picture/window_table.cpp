@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <numeric>
 #include <string>
-#include <thread>
 
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"
@@ -41,15 +38,14 @@ class WindowMaker {
         : surface_(surface), faces_(faces), detector_(surface, bins_, ref::double_tolerances(), 1) {
     }
 
-    /// Appends those of the disk of radius `reach`, in units, to `out`, and tells how many windows
-    /// it took.
-    std::uint32_t make(std::uint32_t index, ref::FacePoint<double> source, double reach,
-                       std::vector<Placed>& out) {
+    /// Appends those of the disk of radius `reach`, in units, to `out`.
+    void make(std::uint32_t index, ref::FacePoint<double> source, double reach,
+              std::vector<Placed>& out) {
         index_ = index;
         reach_ = reach;
         out_ = &out;
         detector_.set_limit(reach);
-        return detector_.spread(source, *this).windows;
+        detector_.spread(source, *this);
     }
 
     // What Detector::spread() tells.
@@ -149,58 +145,11 @@ std::vector<FaceRec> lay_out(const ref::Surface<double>& surface) {
     return faces;
 }
 
-/// What threads share that make windows, batch by batch.
-struct Work {
-    std::size_t batches;
-    std::atomic<std::size_t> next{0}, done{0}, windows{0};
-    std::atomic<bool> stopped{false};
-    std::vector<std::vector<Placed>> placed; ///< By batch.
-    std::atomic<std::uint64_t> disk_windows{0};
-    std::mutex mutex;
-    std::exception_ptr error;
-
-    explicit Work(std::size_t count) : batches((count + kBatch - 1) / kBatch), placed(batches) {}
-
-    void fail() {
-        const std::scoped_lock lock(mutex);
-        if (!error) {
-            error = std::current_exception();
-        }
-        stopped = true;
-    }
-};
-
-void make_batches(const ref::Surface<double>& surface, std::span<const FaceRec> faces,
-                  std::span<const DiskSource> sources, Work& work, const PartDone& tell) try {
-    WindowMaker maker(surface, faces);
-    for (std::size_t batch; !work.stopped && (batch = work.next++) < work.batches;) {
-        std::vector<Placed>& placed = work.placed[batch];
-        const std::size_t end = std::min(sources.size(), (batch + 1) * kBatch);
-        for (std::size_t i = batch * kBatch; i < end && !work.stopped; ++i) {
-            const DiskSource& source = sources[i];
-            work.disk_windows += maker.make(static_cast<std::uint32_t>(i),
-                                            {source.face, source.weight1, source.weight2},
-                                            source.reach / surface.unit, placed);
-        }
-        if ((work.windows += placed.size()) > kMostWindows) {
-            throw UserError(ExitCode::out_of_memory,
-                            "the disks light more than " + grouped(kMostWindows) +
-                                " places of the surface, too many for a picture; disks, points or "
-                                "a shorter reach light fewer");
-        }
-        ++work.done;
-        if (tell) {
-            tell(static_cast<double>(work.done) / static_cast<double>(work.batches));
-        }
-    }
-} catch (...) {
-    work.fail();
-}
-
 /// Sorts the windows by cell; within a cell they stay in order.
-void sort_by_cell(Work& work, std::size_t cells, WindowTable& table) {
+void sort_by_cell(std::vector<std::vector<Placed>>& batches, std::size_t cells,
+                  WindowTable& table) {
     table.starts.assign(cells + 1, 0);
-    for (const auto& batch : work.placed) {
+    for (const auto& batch : batches) {
         for (const Placed& placed : batch) {
             ++table.starts[placed.cell + 1];
         }
@@ -208,7 +157,7 @@ void sort_by_cell(Work& work, std::size_t cells, WindowTable& table) {
     std::partial_sum(table.starts.begin(), table.starts.end(), table.starts.begin());
     table.windows.resize(table.starts.back());
     std::vector<std::uint32_t> cursor(table.starts.begin(), table.starts.end() - 1);
-    for (auto& batch : work.placed) {
+    for (auto& batch : batches) {
         for (const Placed& placed : batch) {
             table.windows[cursor[placed.cell]++] = placed.window;
         }
@@ -227,26 +176,31 @@ WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSour
     const FaceRec& last = table.faces.back();
     const std::size_t cells = last.first_cell + std::size_t{last.columns} * last.rows;
 
-    Work work(sources.size());
-    const std::size_t threads =
-        std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), work.batches);
-    {
-        std::vector<std::jthread> others;
-        for (std::size_t i = 1; i < threads; ++i) {
-            others.emplace_back(
-                [&] { make_batches(surface, table.faces, sources, work, PartDone()); });
-        }
-        make_batches(surface, table.faces, sources, work, tell);
+    std::vector<std::vector<Placed>> batches((sources.size() + kBatch - 1) / kBatch);
+    std::atomic<std::size_t> windows = 0;
+    const auto make_worker = [&] {
+        return [&, maker = WindowMaker(surface, table.faces)](std::size_t batch, std::size_t begin,
+                                                              std::size_t end) mutable {
+            for (std::size_t i = begin; i < end; ++i) {
+                const DiskSource& source = sources[i];
+                maker.make(static_cast<std::uint32_t>(i),
+                           {source.face, source.weight1, source.weight2},
+                           source.reach / surface.unit, batches[batch]);
+            }
+            if ((windows += batches[batch].size()) > kMostWindows) {
+                throw UserError(ExitCode::out_of_memory,
+                                "the disks light more than " + grouped(kMostWindows) +
+                                    " places of the surface, too many for a picture; disks, "
+                                    "points or a smaller radius light fewer");
+            }
+        };
+    };
+    try {
+        in_batches(sources.size(), kBatch, make_worker, tell);
+    } catch (const ref::EndlessDisk& error) {
+        throw UserError(ExitCode::bad_input, error.what());
     }
-    if (work.error) {
-        try {
-            std::rethrow_exception(work.error);
-        } catch (const ref::EndlessDisk& error) {
-            throw UserError(ExitCode::bad_input, error.what());
-        }
-    }
-    table.disk_windows = work.disk_windows;
-    sort_by_cell(work, cells, table);
+    sort_by_cell(batches, cells, table);
     return table;
 }
 

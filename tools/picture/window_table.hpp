@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include <geodisk/mesh.hpp>
 
 #include "picture_records.h"
+#include "program/batches.hpp"
 
 namespace geodisk::tools::picture {
 
@@ -28,11 +28,7 @@ struct WindowTable {
     std::vector<FaceRec> faces;        ///< Cells count from 0 over all faces.
     std::vector<std::uint32_t> starts; ///< Of each cell's windows, and the end.
     std::vector<WindowRec> windows;    ///< In each cell by sample, ascending.
-    std::uint64_t disk_windows = 0;    ///< Made by the disks, on edges.
 };
-
-/// Called now and then with the part that is done.
-using PartDone = std::function<void(double part)>;
 
 /// `spacing` is the length, in mesh units, that the cells are to suit: about the reach of most.
 /// Works on as many threads as there are cores; `tell` is called on the caller's and may throw.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "geodisk/checks/spacing.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -123,6 +124,46 @@ void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
                                      offset_text(strays.front()) + " on " + mesh_path +
                                      "; are these samples of another mesh?");
     }
+}
+
+void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
+                           const HeaderEntries& additions, std::vector<MeshWarning>& warnings) {
+    const auto options_of = [](const auto& entries) {
+        std::string text;
+        for (const auto& [key, value] : entries) {
+            if (key == "lift" || key == "weld") {
+                text.append(" --").append(key).append(key == "lift" ? " " : "=").append(value);
+            }
+        }
+        return text.empty() ? " no --lift and no --weld" : text;
+    };
+    const std::string used = options_of(samples.header.entries);
+    if (used == options_of(additions)) {
+        return;
+    }
+    warnings.push_back({"other_surface", 1, "",
+                        "made with" + used + ", which is not what is looked at here",
+                        samples_path});
+    print_warning(samples_path + ": " + warnings.back().message);
+}
+
+std::vector<double> sample_radii(const std::string& samples_path, const SampleFile& samples,
+                                 const MeshInput& mesh, const std::optional<Length>& min_distance) {
+    if (samples.rows.empty()) {
+        return {};
+    }
+    if (!min_distance && has_radii(samples.rows)) {
+        std::vector<double> radii;
+        radii.reserve(samples.rows.size());
+        for (const SampleRow& row : samples.rows) {
+            radii.push_back(row.radius);
+        }
+        return radii;
+    }
+    const double distance = min_distance
+                                ? distance_on_mesh(*min_distance, mesh.prepared.statistics())
+                                : header_distance(samples_path, samples.header);
+    return std::vector<double>(samples.rows.size(), distance / 2);
 }
 
 std::string offset_text(const StrayRow& stray) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,16 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
 /// anywhere.
 void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
                    const std::string& mesh_path, const MeshInput& mesh);
+
+/// Warns where the samples' header tells of another --lift or --weld than `additions`, those of the
+/// mesh here: samples of another surface would show as violations, or worse, would not.
+void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
+                           const HeaderEntries& additions, std::vector<MeshWarning>& warnings);
+
+/// The radius of each sample, in mesh units: half of `min_distance` if that is given, else its own,
+/// else half of the header's distance. Throws as header_distance() and distance_on_mesh().
+std::vector<double> sample_radii(const std::string& samples_path, const SampleFile& samples,
+                                 const MeshInput& mesh, const std::optional<Length>& min_distance);
 
 /// How far `stray` is off, as the end of a sentence.
 std::string offset_text(const StrayRow& stray);

@@ -25,6 +25,9 @@ void add_verify_command(CLI::App& app);
 void verify_box(const std::string& samples, const std::string& min_distance,
                 const OutputOptions& out);
 
+/// Tells how samples on a mesh are spread, without a device.
+void add_analyze_command(CLI::App& app);
+
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
 void add_render_command(CLI::App& app);
 

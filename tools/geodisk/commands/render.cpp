@@ -1,4 +1,6 @@
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "files/sample_file.hpp"
@@ -15,21 +17,14 @@
 namespace geodisk::tools {
 namespace {
 
-/// A disk for each sample, of the radius that the options, or else the samples' file tells.
-std::vector<picture::DiskSource> disks_of(const RenderOptions& options, const MeshInput& mesh,
-                                          const SampleFile& samples) {
-    const std::optional<Length> distance = parse_distance(options);
-    const bool has_own = has_radii(samples.rows) && !distance;
-    double radius = 0;
-    if (distance) {
-        radius = distance_on_mesh(*distance, mesh.prepared.statistics()) / 2;
-    } else if (!has_own && !samples.rows.empty()) {
-        radius = header_distance(options.samples, samples.header) / 2;
-    }
+std::vector<picture::DiskSource> disks_of(const SampleFile& samples,
+                                          const std::vector<double>& radii) {
     std::vector<picture::DiskSource> disks;
-    for (const SampleRow& row : samples.rows) {
+    disks.reserve(radii.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const SampleRow& row = samples.rows[i];
         disks.push_back({row.face, static_cast<double>(row.bary[1]),
-                         static_cast<double>(row.bary[2]), has_own ? row.radius : radius});
+                         static_cast<double>(row.bary[2]), radii[i]});
     }
     return disks;
 }
@@ -42,7 +37,7 @@ void render_surface(const RenderOptions& options) {
     std::vector<NamedFile> read{{"the samples", options.samples}};
     options.mesh.add_files(read, "the mesh");
     check_outputs(options.out, "the picture", read, check_picture_path);
-    parse_distance(options); // Before the files are read.
+    const std::optional<Length> distance = options.distance.parsed();
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
     if (mesh.dimension() == 0) {
@@ -52,11 +47,14 @@ void render_surface(const RenderOptions& options) {
     progress.begin_stage("reading the samples");
     const SampleFile samples = read_samples(options.samples);
     check_on_mesh(options.samples, samples, options.mesh.mesh, mesh);
-    std::vector<picture::DiskSource> disks = disks_of(options, mesh, samples);
+    std::vector<MeshWarning> warnings = mesh.warnings;
+    warn_of_other_surface(options.samples, samples, options.mesh.additions(), warnings);
+    std::vector<picture::DiskSource> disks =
+        disks_of(samples, sample_radii(options.samples, samples, mesh, distance));
     const Subject subject{options.samples,
                           mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),
                           {{"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},
-                           {"warnings", warnings_json(mesh.warnings)}}};
+                           {"warnings", warnings_json(warnings)}}};
     progress.begin_stage("preparing the scene");
     const picture::Scene scene =
         picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);

@@ -41,7 +41,7 @@ void check_options(const RenderOptions& options) {
 
 BoxParams read_box(const RenderOptions& options, const SampleFile& samples) {
     const std::string& path = options.mesh.mesh;
-    const std::optional<Length> distance = parse_distance(options);
+    const std::optional<Length> distance = options.distance.parsed();
     BoxParams box = box_of(path, distance ? "1" : "", samples);
     if (distance) {
         box.min_distance = distance->in_mesh_units(diagonal_of(box));

@@ -39,26 +39,6 @@ struct VerifyOptions {
     OutputOptions out; ///< No samples.
 };
 
-/// A sample of another surface would show as a violation, or worse, would not.
-std::optional<MeshWarning> other_surface(const VerifyOptions& options, const SampleFile& samples) {
-    const auto options_of = [](const auto& entries) {
-        std::string text;
-        for (const auto& [key, value] : entries) {
-            if (key == "lift" || key == "weld") {
-                text.append(" --").append(key).append(key == "lift" ? " " : "=").append(value);
-            }
-        }
-        return text.empty() ? " no --lift and no --weld" : text;
-    };
-    const std::string used = options_of(samples.header.entries);
-    if (used == options_of(options.mesh.additions())) {
-        return std::nullopt;
-    }
-    return MeshWarning{"other_surface", 1, "",
-                       "made with" + used + ", which is not what is verified here",
-                       options.samples};
-}
-
 double distance_of(const VerifyOptions& options, const SampleFile& samples,
                    const MeshStatistics& mesh) {
     if (!options.min_distance.empty()) {
@@ -232,10 +212,7 @@ void run_verify(const VerifyOptions& options) {
     progress.clear();
     check_rows(options.samples, samples, options.mesh.mesh, mesh);
     std::vector<MeshWarning> warnings = mesh.warnings;
-    if (auto warning = other_surface(options, samples)) {
-        print_warning(warning->file + ": " + warning->message);
-        warnings.push_back(std::move(*warning));
-    }
+    warn_of_other_surface(options.samples, samples, options.mesh.additions(), warnings);
     Spacing spacing = spacing_of(options, samples, mesh);
     std::vector<StrayRow> strays = find_strays(samples, mesh);
     SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);

@@ -53,10 +53,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     command.add_flag("--cut", options.cuts,
                      "Of a box of 3 dimensions, do not show the balls in the\n"
                      "eighth nearest to the eye");
-    add_option(command, "-d,--min-distance", options.min_distance, "D",
-               "Minimum distance, in mesh units or with % of the diagonal;\n"
-               "without it, that of the samples' header or their own radii");
-    add_option(command, "-r,--radius", options.radius, "R", "The same as a radius, half of it");
+    add_distance_options(command, options.distance);
     add_mesh_options(command, options.mesh);
     add_json_option(command, options.out);
     command.add_flag("-q,--quiet", options.out.quiet, "No progress and no summary");
@@ -82,21 +79,6 @@ picture::PictureParams parse_picture(const RenderOptions& options) {
         }
     }
     return params;
-}
-
-std::optional<Length> parse_distance(const RenderOptions& options) {
-    if (!options.min_distance.empty() && !options.radius.empty()) {
-        fail_usage("--min-distance and --radius say the same; give one of them");
-    }
-    if (!options.min_distance.empty()) {
-        return parse_length("--min-distance", options.min_distance);
-    }
-    if (!options.radius.empty()) {
-        Length length = parse_length("--radius", options.radius);
-        length.value *= 2;
-        return length;
-    }
-    return std::nullopt;
 }
 
 } // namespace geodisk::tools

@@ -1,14 +1,13 @@
 // The options of `geodisk render`, and the picture that they ask for.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "picture/picture.hpp"
-#include "program/arguments.hpp"
 
 namespace geodisk::tools {
 
@@ -19,7 +18,7 @@ struct RenderOptions {
     OutputOptions out;
     DeviceOptions device;
     std::string size = "1920x1080", style = "disks", up, background = "white";
-    std::string min_distance, radius;
+    DistanceOptions distance;
     std::vector<std::string> views;
     bool cuts = false;
 };
@@ -29,8 +28,5 @@ void add_render_options(CLI::App& command, RenderOptions& options);
 
 /// The picture that is asked for. Throws UserError(usage).
 picture::PictureParams parse_picture(const RenderOptions& options);
-
-/// The minimum distance of --min-distance or --radius, if one is given. Throws UserError(usage).
-std::optional<Length> parse_distance(const RenderOptions& options);
 
 } // namespace geodisk::tools

@@ -1,0 +1,254 @@
+#include "analysis/surface_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <utility>
+
+#include "kernels/bins.hpp"
+#include "kernels/detect.hpp"
+#include "lib/surface.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools::analysis {
+namespace {
+
+using Point = ref::FacePoint<double>;
+
+constexpr double kMostCells = 0x1p24;
+/// Sources that a thread takes at a time.
+constexpr std::size_t kBatch = 64;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+/// Of distances, in each minimum distance.
+constexpr std::size_t kBinsPerDistance = 20;
+
+/// Uniform in [0, 1), the same on every machine.
+double uniform(std::mt19937_64& random) {
+    return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+/// Random places, uniform by area: one in each of `count` parts of equal area, face by face.
+std::vector<Point> draw_places(const PreparedMesh& mesh, std::uint32_t count,
+                               std::mt19937_64& random) {
+    const auto& edges = mesh.half_edges();
+    std::vector<double> up_to; // Areas of all faces so far.
+    up_to.reserve(edges.size() / 3);
+    double area = 0;
+    for (std::size_t h = 0; h < edges.size(); h += 3) {
+        up_to.push_back(area += edges[h].length * edges[h].apex_y / 2);
+    }
+    std::vector<Point> places;
+    places.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double at = area * ((i + uniform(random)) / count);
+        const auto face = std::upper_bound(up_to.begin(), up_to.end(), at) - up_to.begin();
+        double u = uniform(random), v = uniform(random);
+        if (u + v > 1) {
+            u = 1 - u;
+            v = 1 - v;
+        }
+        const auto last = static_cast<std::ptrdiff_t>(up_to.size()) - 1;
+        places.push_back({static_cast<std::uint32_t>(std::min(face, last)), u, v});
+    }
+    return places;
+}
+
+/// What the disks of a batch of samples found.
+struct Found {
+    /// By sample or place, of those that were found: the least distance.
+    std::vector<std::pair<std::uint32_t, double>> sample_distances, place_distances;
+    std::vector<double> sample_pairs, place_pairs; ///< By bin.
+};
+
+/// Surface, samples and places, in units of about the distances looked for.
+struct Layout {
+    ref::Surface<double> surface;
+    std::size_t samples;
+    ref::Bins<double> bins;              ///< Samples, then places.
+    std::vector<std::uint32_t> place_of; ///< Of each sample, in the bins.
+
+    Layout(const PreparedMesh& mesh, std::span<const SurfacePoint> given,
+           const std::vector<Point>& places, double spacing)
+        : surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells)), samples(given.size()) {
+        std::vector<Point> points;
+        points.reserve(given.size() + places.size());
+        for (const SurfacePoint& sample : given) {
+            points.push_back({sample.face, sample.weight1, sample.weight2});
+        }
+        points.insert(points.end(), places.begin(), places.end());
+        bins = ref::Bins<double>(surface, points);
+        place_of.resize(given.size());
+        for (std::uint32_t place = 0; place < bins.order.size(); ++place) {
+            if (bins.order[place] < samples) {
+                place_of[bins.order[place]] = place;
+            }
+        }
+    }
+};
+
+/// Computes the disks of samples, one after the other.
+class Worker {
+  public:
+    Worker(const Layout& layout, std::span<const SurfacePoint> samples, double reach,
+           double longest, std::size_t bins, std::vector<Found>& found)
+        : layout_(layout), samples_(samples), reach_(reach), longest_(longest), bin_count_(bins),
+          found_(found), detector_(layout.surface, layout.bins, ref::double_tolerances(), 1),
+          distances_(layout.bins.order.size(), kNone) {}
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    void operator()(std::size_t batch, std::size_t begin, std::size_t end) {
+        Found& found = found_[batch];
+        found.sample_pairs.assign(bin_count_, 0);
+        found.place_pairs.assign(bin_count_, 0);
+        for (std::size_t i = begin; i < end; ++i) {
+            take(i, found);
+        }
+    }
+
+  private:
+    void take(std::size_t i, Found& found) {
+        const double unit = layout_.surface.unit;
+        const double own = samples_[i].radius;
+        const std::uint32_t source = layout_.place_of[i];
+        detector_.set_limit(std::min(reach_ * 2 * own, longest_) / unit);
+        detector_.run(
+            layout_.bins.points[source], [&](std::uint32_t place) { return place != source; },
+            [&](std::uint32_t place, double distance) {
+                if (distances_[place] == kNone) {
+                    near_.push_back(place);
+                }
+                distances_[place] = std::min(distances_[place], distance * unit);
+            });
+        for (const std::uint32_t place : near_) {
+            const double distance = std::exchange(distances_[place], kNone);
+            const std::uint32_t other = layout_.bins.order[place];
+            const bool is_sample = other < layout_.samples;
+            const double relative = distance / (own + (is_sample ? samples_[other].radius : own));
+            if (is_sample) {
+                found.sample_distances.emplace_back(static_cast<std::uint32_t>(i), relative);
+                found.sample_distances.emplace_back(other, relative);
+            } else {
+                found.place_distances.emplace_back(
+                    other - static_cast<std::uint32_t>(layout_.samples), relative);
+            }
+            const auto bin = static_cast<std::size_t>(relative * kBinsPerDistance);
+            if (bin < bin_count_) {
+                (is_sample ? found.sample_pairs : found.place_pairs)[bin] += 1;
+            }
+        }
+        near_.clear();
+    }
+
+    const Layout& layout_;
+    std::span<const SurfacePoint> samples_;
+    double reach_, longest_;
+    std::size_t bin_count_;
+    std::vector<Found>& found_;
+    ref::Detector<double, false> detector_;
+    std::vector<double> distances_;   ///< By place in the bins, of the current source.
+    std::vector<std::uint32_t> near_; ///< Places with one.
+};
+
+double median_spacing(std::span<const SurfacePoint> samples) {
+    std::vector<double> radii;
+    radii.reserve(samples.size());
+    for (const SurfacePoint& sample : samples) {
+        radii.push_back(sample.radius);
+    }
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return 2 * *middle;
+}
+
+void note_nearest(const std::vector<double>& nearest, SurfaceStatistics& result) {
+    result.nearest = {1.0 / kBinsPerDistance, {}};
+    result.nearest.counts.assign(static_cast<std::size_t>(result.reach) * kBinsPerDistance, 0);
+    result.smallest = result.reach;
+    double sum = 0;
+    for (const double distance : nearest) {
+        if (!(distance < result.reach)) {
+            ++result.lonely;
+            continue;
+        }
+        sum += distance;
+        result.smallest = std::min(result.smallest, distance);
+        result.nearest.counts[static_cast<std::size_t>(distance * kBinsPerDistance)] += 1;
+    }
+    const std::size_t others = nearest.size() - result.lonely;
+    result.mean_nearest = others > 0 ? sum / static_cast<double>(others) : 0;
+}
+
+void note_gaps(const std::vector<double>& gaps, SurfaceStatistics& result) {
+    std::uint64_t uncovered = 0;
+    for (const double gap : gaps) {
+        uncovered += gap >= 1;
+        result.largest_gap = std::max(result.largest_gap, std::min(gap, result.reach));
+    }
+    result.uncovered = static_cast<double>(uncovered) / static_cast<double>(gaps.size());
+}
+
+void note_pairs(const std::vector<Found>& all, std::size_t samples, SurfaceStatistics& result) {
+    const std::size_t bins = all.front().sample_pairs.size();
+    std::vector<double> place_pairs(bins, 0);
+    result.pair_correlation = {1.0 / kBinsPerDistance, std::vector<double>(bins, 0)};
+    for (const Found& found : all) {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            result.pair_correlation.counts[bin] += found.sample_pairs[bin];
+            place_pairs[bin] += found.place_pairs[bin];
+        }
+    }
+    // Another sample is any of the others, a place any of all.
+    const double scale =
+        static_cast<double>(result.probes) / std::max(1.0, static_cast<double>(samples) - 1);
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        double& g = result.pair_correlation.counts[bin];
+        g = place_pairs[bin] > 0 ? g / place_pairs[bin] * scale : 0;
+    }
+}
+
+} // namespace
+
+SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfacePoint> samples,
+                          std::uint32_t probes, std::uint64_t seed, const PartDone& tell) {
+    std::mt19937_64 random(seed);
+    const std::vector<Point> places = draw_places(mesh, probes, random);
+    const auto [least, most] = std::minmax_element(
+        samples.begin(), samples.end(),
+        [](const SurfacePoint& a, const SurfacePoint& b) { return a.radius < b.radius; });
+    const bool vary = least->radius < most->radius;
+    SurfaceStatistics result;
+    result.reach = vary ? SurfaceStatistics::kReachVarying : SurfaceStatistics::kReach;
+    result.probes = probes;
+
+    const Layout layout(mesh, samples, places, median_spacing(samples));
+    const std::size_t bins = vary ? 0 : static_cast<std::size_t>(result.reach) * kBinsPerDistance;
+    std::vector<Found> found((samples.size() + kBatch - 1) / kBatch);
+    const double longest = 2 * ref::longest_path(mesh);
+    try {
+        in_batches(
+            samples.size(), kBatch,
+            [&] { return Worker(layout, samples, result.reach, longest, bins, found); }, tell);
+    } catch (const ref::EndlessDisk& error) {
+        throw UserError(ExitCode::bad_input, error.what());
+    }
+    std::vector<double> nearest(samples.size(), kNone), gaps(probes, kNone);
+    for (const Found& batch : found) {
+        for (const auto& [sample, distance] : batch.sample_distances) {
+            nearest[sample] = std::min(nearest[sample], distance);
+        }
+        for (const auto& [place, distance] : batch.place_distances) {
+            gaps[place] = std::min(gaps[place], distance);
+        }
+    }
+    note_nearest(nearest, result);
+    note_gaps(gaps, result);
+    if (!vary) {
+        note_pairs(found, samples.size(), result);
+    }
+    return result;
+}
+
+} // namespace geodisk::tools::analysis

@@ -1,0 +1,54 @@
+// What can be said of samples on a surface by their geodesic distances.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/mesh.hpp>
+
+#include "program/batches.hpp"
+
+namespace geodisk::tools::analysis {
+
+/// A sample: where it is, and its radius in mesh units.
+struct SurfacePoint {
+    std::uint32_t face;
+    double weight1, weight2; ///< Of the face's second and third corner.
+    double radius;
+};
+
+/// A histogram from 0 on, with bins of equal width.
+struct Histogram {
+    double width = 0;
+    std::vector<double> counts;
+};
+
+/// Distances of two samples are in terms of the sum of their radii, and those of other places in
+/// twice the sample's radius: of minimum distances, where radii do not vary.
+struct SurfaceStatistics {
+    static constexpr double kReach = 4;        ///< Distances farther than this are not looked at,
+    static constexpr double kReachVarying = 2; ///< and not these, where radii vary.
+
+    double reach = kReach;
+    double smallest = 0;      ///< Distance of any two; the reach, if all are farther apart.
+    double mean_nearest = 0;  ///< Of each sample's nearest, of those that have one in reach.
+    std::uint64_t lonely = 0; ///< Samples without another one in reach.
+    Histogram nearest;        ///< Of each sample's nearest.
+    std::uint32_t probes = 0; ///< Random places, uniform by area.
+    double uncovered = 0;     ///< Part of them that is not within 1 of a sample, where another
+                              ///< one would have room.
+    double largest_gap = 0;   ///< Of a probe to the nearest sample; the reach, if beyond it.
+    /// Pairs at a distance, over those of samples and random places there: 1 where samples know
+    /// nothing of each other. As the surface is the same for both, its bends and borders cancel.
+    /// Empty where radii vary, as there samples are not equally dense.
+    Histogram pair_correlation;
+};
+
+/// Draws `probes` places by `seed`; `samples` are not empty, and their radii positive. Works on as
+/// many threads as there are cores; the result does not depend on them. Throws UserError(bad_input)
+/// for a disk that does not end, and what `tell` throws.
+SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfacePoint> samples,
+                          std::uint32_t probes, std::uint64_t seed, const PartDone& tell);
+
+} // namespace geodisk::tools::analysis

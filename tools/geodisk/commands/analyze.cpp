@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geodisk/params.hpp>
+
+#include "analysis/evenness.hpp"
+#include "analysis/surface_statistics.hpp"
+#include "files/sample_file.hpp"
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/distance_options.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/analysis_report.hpp"
+#include "geodisk/reports/mesh_parts.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+using analysis::Evenness;
+using analysis::SurfacePoint;
+using analysis::SurfaceStatistics;
+
+constexpr double kProbesPerSample = 10;
+constexpr double kFewestProbes = 20000;
+constexpr double kMostProbes = 1e7;
+/// Samples of a set that a region should hold.
+constexpr double kPerRegion = 20;
+constexpr std::uint32_t kMostRegions = 32;
+
+struct AnalyzeOptions {
+    MeshOptions mesh;
+    std::vector<std::string> samples;
+    DistanceOptions distance;
+    std::string probes, seed = "0";
+    OutputOptions out; ///< No samples.
+};
+
+std::uint32_t probes_for(const AnalyzeOptions& options, std::size_t samples) {
+    if (!options.probes.empty()) {
+        const double probes = parse_count("--probes", options.probes);
+        if (probes > kMostProbes) {
+            fail_usage("--probes takes at most 1e7");
+        }
+        return static_cast<std::uint32_t>(probes);
+    }
+    return static_cast<std::uint32_t>(
+        std::clamp(kProbesPerSample * static_cast<double>(samples), kFewestProbes, kMostProbes));
+}
+
+/// Regions of the mesh, and how many samples of each set they hold.
+class RegionCounts {
+  public:
+    /// None where there are no coordinates to cut by.
+    void add(const MeshInput& mesh, std::span<const SampleRow> rows) {
+        if (mesh.dimension() == 0) {
+            return;
+        }
+        if (counts_.empty()) {
+            cut(mesh, static_cast<double>(rows.size()));
+        }
+        std::vector<double>& counts = counts_.emplace_back(regions_.areas.size(), 0);
+        for (const SampleRow& row : rows) {
+            counts[regions_.of_face[row.face]] += 1;
+        }
+    }
+
+    std::optional<Evenness> test() const {
+        return analysis::test_evenness(counts_, regions_.areas);
+    }
+
+  private:
+    void cut(const MeshInput& mesh, double samples) {
+        const auto& edges = mesh.prepared.half_edges();
+        std::vector<double> areas, centers;
+        areas.reserve(edges.size() / 3);
+        for (std::uint32_t face = 0; 3 * std::size_t{face} < edges.size(); ++face) {
+            const HalfEdge& edge = edges[std::size_t{3} * face];
+            areas.push_back(edge.length * edge.apex_y / 2);
+            for (std::uint32_t axis = 0; axis < mesh.dimension(); ++axis) {
+                centers.push_back((mesh.vertex(face, 0)[axis] + mesh.vertex(face, 1)[axis] +
+                                   mesh.vertex(face, 2)[axis]) /
+                                  3);
+            }
+        }
+        const auto count = std::bit_floor(
+            static_cast<std::uint32_t>(std::clamp(samples / kPerRegion, 1.0, 1.0 * kMostRegions)));
+        regions_ = analysis::make_regions(centers, mesh.dimension(), areas, count);
+    }
+
+    analysis::Regions regions_;
+    std::vector<std::vector<double>> counts_;
+};
+
+SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
+                        const MeshInput& mesh, RegionCounts& regions,
+                        std::vector<MeshWarning>& warnings, ProgressLine& progress) {
+    progress.begin_stage("reading the samples");
+    const SampleFile samples = read_samples(path);
+    check_on_mesh(path, samples, options.mesh.mesh, mesh);
+    if (samples.rows.empty()) {
+        fail_input(path, "has no samples to analyze");
+    }
+    warn_of_other_surface(path, samples, options.mesh.additions(), warnings);
+    const std::vector<double> radii = sample_radii(path, samples, mesh, options.distance.parsed());
+
+    SetAnalysis set;
+    set.path = path;
+    set.samples = samples.rows.size();
+    const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
+    set.min_distance = 2 * *most;
+    if (*least == *most) {
+        set.rho = packing_density(mesh.prepared.statistics().area, set.min_distance,
+                                  static_cast<double>(set.samples));
+    }
+    std::vector<SurfacePoint> points;
+    std::vector<std::uint32_t> faces;
+    points.reserve(set.samples);
+    faces.reserve(set.samples);
+    for (std::size_t i = 0; i < set.samples; ++i) {
+        const SampleRow& row = samples.rows[i];
+        points.push_back({row.face, static_cast<double>(row.bary[1]),
+                          static_cast<double>(row.bary[2]), radii[i]});
+        faces.push_back(row.face);
+    }
+    set.bare_components = parts_without(mesh.file.triangles, faces);
+    regions.add(mesh, samples.rows);
+    progress.begin_stage("measuring distances");
+    set.found = analysis::measure(mesh.prepared, points, probes_for(options, set.samples),
+                                  parse_seed("--seed", options.seed), [&](double part) {
+                                      check_interrupted();
+                                      progress.update(part, grouped(set.samples) + " samples");
+                                  });
+    progress.clear();
+    return set;
+}
+
+void run_analyze(const AnalyzeOptions& options) {
+    options.distance.parsed(); // Before the files are read.
+    parse_seed("--seed", options.seed);
+    probes_for(options, 1);
+    std::vector<NamedFile> read;
+    for (const std::string& samples : options.samples) {
+        read.push_back({"the samples", samples});
+    }
+    options.mesh.add_files(read, "the mesh");
+    check_outputs(options.out, "", read);
+    ProgressLine progress(options.out.quiet);
+    const MeshInput mesh = load_mesh(options.mesh, progress);
+    std::vector<MeshWarning> warnings = mesh.warnings;
+    std::vector<SetAnalysis> sets;
+    RegionCounts regions;
+    for (const std::string& path : options.samples) {
+        sets.push_back(analyze_set(options, path, mesh, regions, warnings, progress));
+    }
+    const Analysis analysis{options.mesh, mesh, warnings, sets,
+                            are_alike(sets) ? regions.test() : std::nullopt};
+    publish(options.out, report_json(analysis), report_text(analysis));
+}
+
+} // namespace
+
+void add_analyze_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "analyze", "Tell how samples are spread, by exact distances and without a device");
+    const auto options = std::make_shared<AnalyzeOptions>();
+    add_mesh_argument(*command, options->mesh, "Mesh that the samples were made on");
+    command
+        ->add_option("SAMPLES", options->samples,
+                     "Samples to analyze: *.ply or *.csv; several of other seeds\n"
+                     "tell whether all places are as likely")
+        ->type_name("")
+        ->required();
+    add_distance_options(*command, options->distance);
+    add_option(*command, "--probes", options->probes, "N",
+               "Random places where gaps are looked for (10 per sample,\n"
+               "20,000 at least)");
+    add_option(*command, "--seed", options->seed, "S", "Seed of these places")
+        ->capture_default_str();
+    add_mesh_options(*command, options->mesh);
+    add_json_option(*command, options->out);
+    command->add_flag("-q,--quiet", options->out.quiet, "No progress and no result");
+    command->callback([options] { run_analyze(*options); });
+}
+
+} // namespace geodisk::tools

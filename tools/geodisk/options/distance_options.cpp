@@ -1,0 +1,30 @@
+#include "geodisk/options/distance_options.hpp"
+
+#include "program/failure.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+
+std::optional<Length> DistanceOptions::parsed() const {
+    if (!min_distance.empty() && !radius.empty()) {
+        fail_usage("--min-distance and --radius say the same; give one of them");
+    }
+    if (!min_distance.empty()) {
+        return parse_length("--min-distance", min_distance);
+    }
+    if (!radius.empty()) {
+        Length length = parse_length("--radius", radius);
+        length.value *= 2;
+        return length;
+    }
+    return std::nullopt;
+}
+
+void add_distance_options(CLI::App& command, DistanceOptions& options) {
+    add_option(command, "-d,--min-distance", options.min_distance, "D",
+               "Minimum distance, in mesh units or with % of the diagonal;\n"
+               "without it, that of the samples' header or their own radii");
+    add_option(command, "-r,--radius", options.radius, "R", "The same as a radius, half of it");
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,44 @@
+// What `geodisk analyze` tells: to people and to programs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/evenness.hpp"
+#include "analysis/surface_statistics.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/mesh_options.hpp"
+
+namespace geodisk::tools {
+
+/// What one file holds.
+struct SetAnalysis {
+    std::string path;
+    std::size_t samples = 0;
+    double min_distance = 0;   ///< Twice the largest radius.
+    std::optional<double> rho; ///< Where radii do not vary.
+    std::uint64_t bare_components = 0;
+    analysis::SurfaceStatistics found;
+};
+
+/// Whether all sets have about the same minimum distance, so that means over them say something.
+bool are_alike(const std::vector<SetAnalysis>& sets);
+
+/// All sets, on one mesh; what is borrowed must outlive it.
+struct Analysis {
+    const MeshOptions& mesh_options;
+    const MeshInput& mesh;
+    const std::vector<MeshWarning>& warnings;
+    const std::vector<SetAnalysis>& sets;
+    std::optional<analysis::Evenness> evenness; ///< Of several sets that are alike.
+};
+
+std::string report_text(const Analysis& analysis);
+
+/// One JSON object and a line break.
+std::string report_json(const Analysis& analysis);
+
+} // namespace geodisk::tools
