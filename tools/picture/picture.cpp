@@ -54,7 +54,8 @@ std::uint8_t to_srgb(float light) {
         }
         return codes;
     }();
-    return kTable[static_cast<std::size_t>(std::clamp(light, 0.0f, 1.0f) * (kSteps - 1) + 0.5f)];
+    return kTable[static_cast<std::size_t>(
+        std::lround(std::clamp(light, 0.0f, 1.0f) * (kSteps - 1)))];
 }
 
 /// Mean of a square of drawn pixels, in front of the background.

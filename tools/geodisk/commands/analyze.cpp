@@ -29,7 +29,6 @@ namespace {
 
 using analysis::Evenness;
 using analysis::SurfacePoint;
-using analysis::SurfaceStatistics;
 
 constexpr double kProbesPerSample = 10;
 constexpr double kFewestProbes = 20000;
