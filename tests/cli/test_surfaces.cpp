@@ -172,7 +172,7 @@ TEST_CASE("a lift measures in the lifted surface and keeps the coordinates") {
     const Outcome other = run(folder, {"verify", "builtin:terrain:20", "a.ply"});
     CHECK(other.status == 1);
     CHECK(
-        contains(other.err, "a.ply: made with --lift normals:0.2, which is not what is verified"));
+        contains(other.err, "a.ply: made with --lift normals:0.2, which is not what is looked at"));
     CHECK_FALSE(contains(other.out, "off the mesh"));
 
     REQUIRE(run(folder, {"sample", "builtin:cube", "-o", "cube.ply", "-n", "9"}).status == 0);

@@ -40,6 +40,7 @@ void set_up(CLI::App& app) {
     geodisk::tools::add_sample_command(app);
     geodisk::tools::add_verify_command(app);
     geodisk::tools::add_analyze_command(app);
+    geodisk::tools::add_spectrum_command(app);
     geodisk::tools::add_render_command(app);
     geodisk::tools::add_transfer_command(app);
     geodisk::tools::add_box_command(app);

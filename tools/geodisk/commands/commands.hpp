@@ -28,6 +28,9 @@ void verify_box(const std::string& samples, const std::string& min_distance,
 /// Tells how samples on a mesh are spread, without a device.
 void add_analyze_command(CLI::App& app);
 
+/// Computes the power spectrum of samples in a box of two dimensions, without a device.
+void add_spectrum_command(CLI::App& app);
+
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
 void add_render_command(CLI::App& app);
 

@@ -1,0 +1,83 @@
+// `geodisk spectrum` shows blue noise where there is some.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/png_image.hpp"
+
+namespace geodisk::test {
+
+TEST_CASE("samples in the plane are blue noise without a direction") {
+    const TemporaryFolder folder;
+    Arguments files;
+    for (int seed = 0; seed < 5; ++seed) {
+        files.push_back(std::to_string(seed) + ".csv");
+        REQUIRE(run(folder, {"box", "--dim", "2", "--periodic", "-d", "0.03", "--seed",
+                             std::to_string(seed), "-o", files.back()})
+                    .status == 0);
+    }
+    const Outcome outcome =
+        run(folder, joined(joined({"spectrum"}, files), {"--json", "-", "-o", "s.png"}));
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const auto report = nlohmann::json::parse(outcome.out);
+    CHECK(report["sets"] == 5);
+    CHECK(report["low_power"].get<double>() < 0.2);
+    CHECK(report["peak"]["power"].get<double>() > 1.2);
+    CHECK(report["peak"]["frequency"].get<double>() == doctest::Approx(1.1).epsilon(0.2));
+    CHECK(report["mean_anisotropy_db"].get<double>() ==
+          doctest::Approx(report["expected_anisotropy_db"].get<double>()).epsilon(0.1));
+    CHECK(report["expected_anisotropy_db"].get<double>() == doctest::Approx(-6.99).epsilon(0.01));
+    CHECK(report["rings"]["power"].size() == report["rings"]["frequency"].size());
+    const PngImage image = read_png(folder / "s.png");
+    CHECK(image.width == 2 * 133 + 1);
+    CHECK(image.height == image.width);
+    // Dark in the middle, lighter around it.
+    const auto light_at = [&](int x, int y) {
+        int sum = 0;
+        for (int dy = -3; dy <= 3; ++dy) {
+            for (int dx = -3; dx <= 3; ++dx) {
+                sum += image
+                           .pixels[static_cast<std::size_t>(y + dy) *
+                                       static_cast<std::size_t>(image.width) +
+                                   static_cast<std::size_t>(x + dx)]
+                           .red;
+            }
+        }
+        return sum / 49;
+    };
+    CHECK(light_at(133, 133) < 30);
+    CHECK(light_at(133 + 60, 133) > 80);
+
+    const Outcome table = run(folder, joined(joined({"spectrum"}, files), {"-o", "s.csv"}));
+    CHECK(table.status == 0);
+    CHECK(contains(table.out, "anisotropy"));
+    CHECK(bytes_of(folder / "s.csv").starts_with("frequency,frequencies,power,anisotropy_db\n"));
+}
+
+TEST_CASE("what has no spectrum is told") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"box", "--dim", "2", "-d", "0.1", "-o", "a.csv"}).status == 0);
+    REQUIRE(run(folder, {"box", "--dim", "3", "-d", "0.2", "-o", "b.csv"}).status == 0);
+    REQUIRE(
+        run(folder, {"box", "--dim", "2", "-d", "0.1", "--extents", "1,2", "-o", "c.csv"}).status ==
+        0);
+    check_fails(folder, 2, "SAMPLES", {"spectrum"});
+    check_fails(folder, 2, "--reach", {"spectrum", "a.csv", "--reach", "0"});
+    check_fails(folder, 2, "s.txt", {"spectrum", "a.csv", "-o", "s.txt"});
+    check_fails(folder, 2, "would replace", {"spectrum", "a.csv", "-o", "a.csv"});
+    check_fails(folder, 3, "3 dimensions", {"spectrum", "b.csv"});
+    check_fails(folder, 3, "c.csv: has a box of 1 x 2", {"spectrum", "a.csv", "c.csv"});
+    check_fails(folder, 3, "no.csv", {"spectrum", "no.csv"});
+    folder.write("none.csv", "# box: 1 x 1\n# sides: open\n# min_distance: 0.1\nx,y\n");
+    check_fails(folder, 3, "no samples", {"spectrum", "none.csv"});
+    folder.write("far.csv", "# box: 1 x 1\n# sides: open\n# min_distance: 1e-6\nx,y\n0,0\n");
+    check_fails(folder, 6, "--reach", {"spectrum", "far.csv"});
+    folder.write("near.csv", "# box: 1 x 1\n# sides: open\n# min_distance: 10\nx,y\n0,0\n");
+    check_fails(folder, 3, "too small", {"spectrum", "near.csv"});
+}
+
+} // namespace geodisk::test
