@@ -132,16 +132,17 @@ TEST_CASE("windows in a cell are in the order of their samples") {
 TEST_CASE("what a picture cannot hold is an error, and so is what its progress throws") {
     const PreparedMesh mesh = prepared(builtin("icosphere", 4));
     std::vector<DiskSource> disks;
-    for (const Point& point : random_points(mesh, 1, 12000)) {
-        disks.push_back({point.face, point.weight1, point.weight2, 3.2});
+    for (const Point& point : random_points(mesh, 1, 200)) {
+        disks.push_back({point.face, point.weight1, point.weight2, 0.2});
     }
-    const auto error = tools::error_of([&] { make_window_table(mesh, disks, 3.2, {}); });
+    const std::size_t windows = make_window_table(mesh, disks, 0.2, {}).windows.size();
+    CHECK(make_window_table(mesh, disks, 0.2, {}, windows).windows.size() == windows);
+    const auto error =
+        tools::error_of([&] { make_window_table(mesh, disks, 0.2, {}, windows - 1); });
     REQUIRE(error);
     CHECK(error->code() == tools::ExitCode::out_of_memory);
     struct Stop {};
-    CHECK_THROWS_AS(
-        make_window_table(mesh, std::span(disks).first(200), 0.1, [](double) { throw Stop(); }),
-        Stop);
+    CHECK_THROWS_AS(make_window_table(mesh, disks, 0.2, [](double) { throw Stop(); }), Stop);
 }
 
 TEST_CASE("a flat box is its plane, and a torus where its sides are periodic") {

@@ -168,7 +168,7 @@ void sort_by_cell(std::vector<std::vector<Placed>>& batches, std::size_t cells,
 } // namespace
 
 WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSource> sources,
-                              double spacing, const PartDone& tell) {
+                              double spacing, const PartDone& tell, std::size_t most) {
     const ref::Surface<double> surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells));
     WindowTable table;
     table.unit = surface.unit;
@@ -181,17 +181,19 @@ WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSour
     const auto make_worker = [&] {
         return [&, maker = WindowMaker(surface, table.faces)](std::size_t batch, std::size_t begin,
                                                               std::size_t end) mutable {
+            std::vector<Placed>& placed = batches[batch];
             for (std::size_t i = begin; i < end; ++i) {
                 const DiskSource& source = sources[i];
+                const std::size_t before = placed.size();
                 maker.make(static_cast<std::uint32_t>(i),
                            {source.face, source.weight1, source.weight2},
-                           source.reach / surface.unit, batches[batch]);
-            }
-            if ((windows += batches[batch].size()) > kMostWindows) {
-                throw UserError(ExitCode::out_of_memory,
-                                "the disks light more than " + grouped(kMostWindows) +
-                                    " places of the surface, too many for a picture; disks, "
-                                    "points or a smaller radius light fewer");
+                           source.reach / surface.unit, placed);
+                if ((windows += placed.size() - before) > most) {
+                    throw UserError(ExitCode::out_of_memory,
+                                    "the disks light more than " + grouped(most) +
+                                        " places of the surface, too many for a picture; disks, "
+                                        "points or a smaller radius light fewer");
+                }
             }
         };
     };

@@ -30,13 +30,14 @@ struct WindowTable {
     std::vector<WindowRec> windows;    ///< In each cell by sample, ascending.
 };
 
+inline constexpr std::size_t kMostWindows = std::size_t{1} << 25; ///< A gigabyte.
+
 /// `spacing` is the length, in mesh units, that the cells are to suit: about the reach of most.
 /// Works on as many threads as there are cores; `tell` is called on the caller's and may throw.
-/// Throws UserError: `out_of_memory` for more windows than kMostWindows, `bad_input` for a disk
-/// that does not end.
+/// Throws UserError: `out_of_memory` for more windows than `most`, `bad_input` for a disk that does
+/// not end.
 WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSource> sources,
-                              double spacing, const PartDone& tell);
-
-inline constexpr std::size_t kMostWindows = std::size_t{1} << 25; ///< A gigabyte.
+                              double spacing, const PartDone& tell,
+                              std::size_t most = kMostWindows);
 
 } // namespace geodisk::tools::picture
