@@ -11,14 +11,14 @@
 
 using namespace geodisk;
 using namespace geodisk::test;
+using tools::SurfaceDisk;
 using tools::analysis::measure;
-using tools::analysis::SurfacePoint;
 using tools::analysis::SurfaceStatistics;
 
 namespace {
 
-std::vector<SurfacePoint> with_radius(const std::vector<Point>& points, double radius) {
-    std::vector<SurfacePoint> samples;
+std::vector<SurfaceDisk> with_radius(const std::vector<Point>& points, double radius) {
+    std::vector<SurfaceDisk> samples;
     samples.reserve(points.size());
     for (const Point& point : points) {
         samples.push_back({point.face, point.weight1, point.weight2, radius});
@@ -73,7 +73,7 @@ TEST_CASE("nearest distances are those of all pairs in the plane") {
 TEST_CASE("what one disk leaves uncovered is the rest of the area") {
     const TestMesh mesh = flat_grid(4, 4, 1, 1);
     const PreparedMesh surface = prepared(mesh);
-    const std::vector<SurfacePoint> one = with_radius({point_at(mesh, 0.5, 0.5)}, 0.15);
+    const std::vector<SurfaceDisk> one = with_radius({point_at(mesh, 0.5, 0.5)}, 0.15);
     const SurfaceStatistics result = measure(surface, one, 40000, 1, {});
     CHECK(result.uncovered == doctest::Approx(1 - std::numbers::pi * 0.3 * 0.3).epsilon(0.01));
     // The farthest places are the corners.
@@ -109,7 +109,7 @@ TEST_CASE("random points know nothing of each other, on any surface") {
 TEST_CASE("radii that vary are taken in pairs") {
     const TestMesh mesh = flat_grid(4, 4, 1, 1);
     const PreparedMesh surface = prepared(mesh);
-    std::vector<SurfacePoint> samples =
+    std::vector<SurfaceDisk> samples =
         with_radius({point_at(mesh, 0.3, 0.5), point_at(mesh, 0.5, 0.5)}, 0.05);
     samples[1].radius = 0.2;
     const SurfaceStatistics result = measure(surface, samples, 1000, 1, {});

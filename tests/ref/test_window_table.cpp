@@ -16,8 +16,9 @@
 
 using namespace geodisk;
 using namespace geodisk::test;
-using tools::picture::DiskSource;
+using tools::SurfaceDisk;
 using tools::picture::FaceRec;
+using tools::picture::make_window_table;
 using tools::picture::WindowRec;
 using tools::picture::WindowTable;
 
@@ -63,7 +64,7 @@ void check_table(const std::string& name, const TestMesh& mesh, double reach, st
     const PreparedMesh surface = prepared(mesh);
     const std::vector<Point> sources = random_points(surface, 5, samples);
     const std::vector<Point> points = random_points(surface, 6, probes);
-    std::vector<DiskSource> disks;
+    std::vector<SurfaceDisk> disks;
     disks.reserve(sources.size());
     for (const Point& source : sources) {
         disks.push_back({source.face, source.weight1, source.weight2, reach});
@@ -111,7 +112,7 @@ TEST_CASE("distances in pictures are exact") {
 
 TEST_CASE("windows in a cell are in the order of their samples") {
     const PreparedMesh mesh = prepared(builtin("icosphere", 3));
-    std::vector<DiskSource> disks;
+    std::vector<SurfaceDisk> disks;
     for (const Point& point : random_points(mesh, 1, 500)) { // More than one thread takes at once.
         disks.push_back({point.face, point.weight1, point.weight2, 0.4});
     }
@@ -131,7 +132,7 @@ TEST_CASE("windows in a cell are in the order of their samples") {
 
 TEST_CASE("what a picture cannot hold is an error, and so is what its progress throws") {
     const PreparedMesh mesh = prepared(builtin("icosphere", 4));
-    std::vector<DiskSource> disks;
+    std::vector<SurfaceDisk> disks;
     for (const Point& point : random_points(mesh, 1, 200)) {
         disks.push_back({point.face, point.weight1, point.weight2, 0.2});
     }
@@ -155,13 +156,13 @@ TEST_CASE("a flat box is its plane, and a torus where its sides are periodic") {
         const tools::picture::FlatBox flat(box);
         const double places[][2] = {{0, 0},     {0.03, 0.02}, {1.97, 0.69}, {1, 0.35}, {2, 0.7},
                                     {0.7, 0.1}, {1.9, 0.01},  {0.1, 0.65},  {1.2, 0.5}};
-        std::vector<DiskSource> disks;
+        std::vector<SurfaceDisk> disks;
         for (const auto& at : places) {
             disks.push_back(flat.disk(at[0], at[1], 0.3));
         }
         const WindowTable table = make_window_table(flat.mesh(), disks, 0.3, {});
         for (const auto& at : places) {
-            const DiskSource point = flat.disk(at[0], at[1], 0);
+            const SurfaceDisk point = flat.disk(at[0], at[1], 0);
             const auto shown =
                 look_up(table, {point.face, point.weight1, point.weight2}, disks.size());
             for (std::size_t s = 0; s < disks.size(); ++s) {

@@ -33,7 +33,6 @@ class PowerSpectrum {
     /// 1 where samples know nothing of each other. Not of (0, 0) and beyond the highest frequency,
     /// where it is 0.
     double power(std::int64_t column, std::int64_t row) const;
-    double highest() const { return highest_; }
 
     /// Frequencies of about equal length.
     struct Ring {

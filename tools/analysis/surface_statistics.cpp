@@ -69,12 +69,12 @@ struct Layout {
     ref::Bins<double> bins;              ///< Samples, then places.
     std::vector<std::uint32_t> place_of; ///< Of each sample, in the bins.
 
-    Layout(const PreparedMesh& mesh, std::span<const SurfacePoint> given,
+    Layout(const PreparedMesh& mesh, std::span<const SurfaceDisk> given,
            const std::vector<Point>& places, double spacing)
         : surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells)), samples(given.size()) {
         std::vector<Point> points;
         points.reserve(given.size() + places.size());
-        for (const SurfacePoint& sample : given) {
+        for (const SurfaceDisk& sample : given) {
             points.push_back({sample.face, sample.weight1, sample.weight2});
         }
         points.insert(points.end(), places.begin(), places.end());
@@ -91,8 +91,8 @@ struct Layout {
 /// Computes the disks of samples, one after the other.
 class Worker {
   public:
-    Worker(const Layout& layout, std::span<const SurfacePoint> samples, double reach,
-           double longest, std::size_t bins, std::vector<Found>& found)
+    Worker(const Layout& layout, std::span<const SurfaceDisk> samples, double reach, double longest,
+           std::size_t bins, std::vector<Found>& found)
         : layout_(layout), samples_(samples), reach_(reach), longest_(longest), bin_count_(bins),
           found_(found), detector_(layout.surface, layout.bins, ref::double_tolerances(), 1),
           distances_(layout.bins.order.size(), kNone) {}
@@ -143,7 +143,7 @@ class Worker {
     }
 
     const Layout& layout_;
-    std::span<const SurfacePoint> samples_;
+    std::span<const SurfaceDisk> samples_;
     double reach_, longest_;
     std::size_t bin_count_;
     std::vector<Found>& found_;
@@ -151,17 +151,6 @@ class Worker {
     std::vector<double> distances_;   ///< By place in the bins, of the current source.
     std::vector<std::uint32_t> near_; ///< Places with one.
 };
-
-double median_spacing(std::span<const SurfacePoint> samples) {
-    std::vector<double> radii;
-    radii.reserve(samples.size());
-    for (const SurfacePoint& sample : samples) {
-        radii.push_back(sample.radius);
-    }
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return 2 * *middle;
-}
 
 void note_nearest(const std::vector<double>& nearest, SurfaceStatistics& result) {
     result.nearest = {1.0 / kBinsPerDistance, {}};
@@ -211,21 +200,21 @@ void note_pairs(const std::vector<Found>& all, std::size_t samples, SurfaceStati
 
 } // namespace
 
-SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfacePoint> samples,
+SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfaceDisk> samples,
                           std::uint32_t probes, std::uint64_t seed, const PartDone& tell) {
     std::mt19937_64 random(seed);
     const std::vector<Point> places = draw_places(mesh, probes, random);
     const auto [least, most] = std::minmax_element(
         samples.begin(), samples.end(),
-        [](const SurfacePoint& a, const SurfacePoint& b) { return a.radius < b.radius; });
+        [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });
     const bool vary = least->radius < most->radius;
     SurfaceStatistics result;
     result.reach = vary ? SurfaceStatistics::kReachVarying : SurfaceStatistics::kReach;
     result.probes = probes;
 
-    const Layout layout(mesh, samples, places, median_spacing(samples));
+    const Layout layout(mesh, samples, places, 2 * median_radius(samples));
     const std::size_t bins = vary ? 0 : static_cast<std::size_t>(result.reach) * kBinsPerDistance;
-    std::vector<Found> found((samples.size() + kBatch - 1) / kBatch);
+    std::vector<Found> found(batch_count(samples.size(), kBatch));
     const double longest = 2 * ref::longest_path(mesh);
     try {
         in_batches(

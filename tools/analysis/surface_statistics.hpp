@@ -7,16 +7,10 @@
 
 #include <geodisk/mesh.hpp>
 
+#include "geometry/surface_disk.hpp"
 #include "program/batches.hpp"
 
 namespace geodisk::tools::analysis {
-
-/// A sample: where it is, and its radius in mesh units.
-struct SurfacePoint {
-    std::uint32_t face;
-    double weight1, weight2; ///< Of the face's second and third corner.
-    double radius;
-};
 
 /// A histogram from 0 on, with bins of equal width.
 struct Histogram {
@@ -48,7 +42,7 @@ struct SurfaceStatistics {
 /// Draws `probes` places by `seed`; `samples` are not empty, and their radii positive. Works on as
 /// many threads as there are cores; the result does not depend on them. Throws UserError(bad_input)
 /// for a disk that does not end, and what `tell` throws.
-SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfacePoint> samples,
+SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfaceDisk> samples,
                           std::uint32_t probes, std::uint64_t seed, const PartDone& tell);
 
 } // namespace geodisk::tools::analysis

@@ -87,18 +87,6 @@ class RenderReport {
     const Drawn& drawn_;
 };
 
-/// Twice the median radius.
-double spacing_of(const std::vector<picture::DiskSource>& disks) {
-    std::vector<double> radii;
-    radii.reserve(disks.size());
-    for (const picture::DiskSource& disk : disks) {
-        radii.push_back(disk.reach);
-    }
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return 2 * *middle;
-}
-
 /// Shows how far the work is, and ends it on a signal.
 PartDone show_progress(ProgressLine& progress) {
     return [&progress](double part) {
@@ -118,18 +106,19 @@ void check_picture_path(const Path& path) {
 
 void draw_surface(const RenderOptions& options, const picture::PictureParams& params,
                   const Subject& subject, const PreparedMesh& mesh, const picture::Scene& scene,
-                  std::vector<picture::DiskSource> disks, ProgressLine& progress) {
+                  std::vector<SurfaceDisk> disks, ProgressLine& progress) {
     if (disks.empty()) {
         fail_input(subject.samples_file, "has no samples to show");
     }
     progress.begin_stage("computing the disks");
     const Stopwatch watch;
-    const double spacing = spacing_of(disks);
+    const double spacing = 2 * median_radius(disks);
     const double reach = picture::reach_of(params.style);
     std::vector<double> radii;
-    for (picture::DiskSource& disk : disks) {
-        radii.push_back(disk.reach);
-        disk.reach *= reach;
+    radii.reserve(disks.size());
+    for (SurfaceDisk& disk : disks) {
+        radii.push_back(disk.radius);
+        disk.radius *= reach;
     }
     const picture::WindowTable table =
         picture::make_window_table(mesh, disks, spacing, show_progress(progress));

@@ -28,7 +28,7 @@ void check_picture_path(const Path& path);
 /// writes the picture. Throws UserError.
 void draw_surface(const RenderOptions& options, const picture::PictureParams& params,
                   const Subject& subject, const PreparedMesh& mesh, const picture::Scene& scene,
-                  std::vector<picture::DiskSource> disks, ProgressLine& progress);
+                  std::vector<SurfaceDisk> disks, ProgressLine& progress);
 
 /// The same of what needs no windows.
 void draw_content(const RenderOptions& options, const picture::PictureParams& params,

@@ -60,7 +60,7 @@ FlatBox::FlatBox(const BoxParams& box)
                                     std::uint32_t row) { return row * (kCells + 1) + column; })),
       mesh_(prepare(box, kCells, positions_, triangles_)) {}
 
-DiskSource FlatBox::disk(double x, double y, double reach) const {
+SurfaceDisk FlatBox::disk(double x, double y, double radius) const {
     const auto cell_of = [](double at) {
         return static_cast<std::uint32_t>(std::clamp(std::floor(at), 0.0, kCells - 1.0));
     };
@@ -69,9 +69,9 @@ DiskSource FlatBox::disk(double x, double y, double reach) const {
     const double right = std::clamp(u - column, 0.0, 1.0), up = std::clamp(v - row, 0.0, 1.0);
     const std::uint32_t face = 2 * (row * kCells + column);
     if (right + up <= 1) {
-        return {face, right, up, reach};
+        return {face, right, up, radius};
     }
-    return {face + 1, 1 - right, 1 - up, reach}; // From the upper right corner.
+    return {face + 1, 1 - right, 1 - up, radius}; // From the upper right corner.
 }
 
 } // namespace geodisk::tools::picture

@@ -9,7 +9,7 @@
 #include <geodisk/box.hpp>
 #include <geodisk/mesh.hpp>
 
-#include "picture/window_table.hpp"
+#include "geometry/surface_disk.hpp"
 
 namespace geodisk::tools::picture {
 
@@ -24,7 +24,7 @@ class FlatBox {
     std::span<const std::uint32_t> triangles() const { return triangles_; }
 
     /// The disk of a point of the box.
-    DiskSource disk(double x, double y, double reach) const;
+    SurfaceDisk disk(double x, double y, double radius) const;
 
   private:
     /// Along each side: the fewest for which no two triangles of a torus have the same corners.

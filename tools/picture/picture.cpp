@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -168,11 +169,12 @@ std::uint32_t kind_of(Style style) {
     }
 }
 
-/// `covered` are pixels that show the surface, of which half the samples are in sight.
-DrawKind kind_with_scale(Style style, std::span<const SampleRec> samples, double covered) {
+/// `covered()` pixels show the surface, on which half the samples are in sight.
+DrawKind kind_with_scale(Style style, std::span<const SampleRec> samples,
+                         const std::function<double()>& covered) {
     DrawKind what{kind_of(style)};
     if (style == Style::points) {
-        const double disk = kCoverage * covered / (0.5 * static_cast<double>(samples.size()));
+        const double disk = kCoverage * covered() / (0.5 * static_cast<double>(samples.size()));
         const double radius = std::sqrt(std::max(1.0, disk) / std::numbers::pi);
         what.high = static_cast<float>(std::clamp(kPointRadius / radius, kPointPart, 1.0));
     } else if (style == Style::density) {
@@ -302,8 +304,10 @@ Picture draw_picture(const Gpu& gpu, const Content& content, const PictureParams
         const Pane& pane = panes[i];
         const double aspect = static_cast<double>(pane.width) / pane.height;
         const Camera camera = make_camera(scene, view, picture.up, aspect);
-        const double side = std::min(pane.width, pane.height);
-        const double covered = try_view(renderer, scene, view, picture.up).covered * side * side;
+        const auto covered = [&] {
+            const double side = std::min(pane.width, pane.height);
+            return try_view(renderer, scene, view, picture.up).covered * side * side;
+        };
         const DrawKind what = content.balls.empty()
                                   ? kind_with_scale(params.style, content.samples, covered)
                                   : DrawKind{kDrawFrame, 1, params.cuts};

@@ -167,7 +167,7 @@ void sort_by_cell(std::vector<std::vector<Placed>>& batches, std::size_t cells,
 
 } // namespace
 
-WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSource> sources,
+WindowTable make_window_table(const PreparedMesh& mesh, std::span<const SurfaceDisk> disks,
                               double spacing, const PartDone& tell, std::size_t most) {
     const ref::Surface<double> surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells));
     WindowTable table;
@@ -176,18 +176,17 @@ WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSour
     const FaceRec& last = table.faces.back();
     const std::size_t cells = last.first_cell + std::size_t{last.columns} * last.rows;
 
-    std::vector<std::vector<Placed>> batches((sources.size() + kBatch - 1) / kBatch);
+    std::vector<std::vector<Placed>> batches(batch_count(disks.size(), kBatch));
     std::atomic<std::size_t> windows = 0;
     const auto make_worker = [&] {
         return [&, maker = WindowMaker(surface, table.faces)](std::size_t batch, std::size_t begin,
                                                               std::size_t end) mutable {
             std::vector<Placed>& placed = batches[batch];
             for (std::size_t i = begin; i < end; ++i) {
-                const DiskSource& source = sources[i];
+                const SurfaceDisk& disk = disks[i];
                 const std::size_t before = placed.size();
-                maker.make(static_cast<std::uint32_t>(i),
-                           {source.face, source.weight1, source.weight2},
-                           source.reach / surface.unit, placed);
+                maker.make(static_cast<std::uint32_t>(i), {disk.face, disk.weight1, disk.weight2},
+                           disk.radius / surface.unit, placed);
                 if ((windows += placed.size() - before) > most) {
                     throw UserError(ExitCode::out_of_memory,
                                     "the disks light more than " + grouped(most) +
@@ -198,7 +197,7 @@ WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSour
         };
     };
     try {
-        in_batches(sources.size(), kBatch, make_worker, tell);
+        in_batches(disks.size(), kBatch, make_worker, tell);
     } catch (const ref::EndlessDisk& error) {
         throw UserError(ExitCode::bad_input, error.what());
     }

@@ -8,20 +8,14 @@
 
 #include <geodisk/mesh.hpp>
 
+#include "geometry/surface_disk.hpp"
 #include "picture_records.h"
 #include "program/batches.hpp"
 
 namespace geodisk::tools::picture {
 
-/// A point on the surface and how far distances from it are wanted, in mesh units.
-struct DiskSource {
-    std::uint32_t face;
-    double weight1, weight2; ///< Of the face's second and third corner.
-    double reach;
-};
-
 /// The distance of point p from sample s is the least, over the windows of s in p's cell that p is
-/// seen through, of sigma and the straight way to the window's source; p lies beyond the reach of s
+/// seen through, of sigma and the straight way to the window's source; p lies outside the disk of s
 /// where there is none, or that is larger.
 struct WindowTable {
     double unit = 1;                   ///< Of all lengths here, in mesh units.
@@ -36,7 +30,7 @@ inline constexpr std::size_t kMostWindows = std::size_t{1} << 25; ///< A gigabyt
 /// Works on as many threads as there are cores; `tell` is called on the caller's and may throw.
 /// Throws UserError: `out_of_memory` for more windows than `most`, `bad_input` for a disk that does
 /// not end.
-WindowTable make_window_table(const PreparedMesh& mesh, std::span<const DiskSource> sources,
+WindowTable make_window_table(const PreparedMesh& mesh, std::span<const SurfaceDisk> disks,
                               double spacing, const PartDone& tell,
                               std::size_t most = kMostWindows);
 

@@ -15,13 +15,18 @@ namespace geodisk::tools {
 /// Called now and then with the part that is done. It may throw, which ends the work.
 using PartDone = std::function<void(double part)>;
 
+/// How many batches of up to `size` there are.
+constexpr std::size_t batch_count(std::size_t count, std::size_t size) {
+    return (count + size - 1) / size;
+}
+
 /// Each thread makes a worker of its own by `make_worker()`, whose `worker(batch, begin, end)` is
 /// called for batches of [0, count), each of which one worker gets. `tell` is called on the calling
 /// thread, the last time when all is done. Then it returns, or rethrows what was thrown first.
 template <class MakeWorker>
 void in_batches(std::size_t count, std::size_t size, const MakeWorker& make_worker,
                 const PartDone& tell) {
-    const std::size_t batches = (count + size - 1) / size;
+    const std::size_t batches = batch_count(count, size);
     std::atomic<std::size_t> next{0}, done{0};
     std::mutex mutex;
     std::exception_ptr error;

@@ -147,23 +147,23 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
     print_warning(samples_path + ": " + warnings.back().message);
 }
 
-std::vector<double> sample_radii(const std::string& samples_path, const SampleFile& samples,
-                                 const MeshInput& mesh, const std::optional<Length>& min_distance) {
-    if (samples.rows.empty()) {
-        return {};
+std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
+                                      const MeshInput& mesh,
+                                      const std::optional<Length>& min_distance) {
+    const bool has_own = !min_distance && has_radii(samples.rows);
+    double radius = 0;
+    if (min_distance) {
+        radius = distance_on_mesh(*min_distance, mesh.prepared.statistics()) / 2;
+    } else if (!has_own && !samples.rows.empty()) {
+        radius = header_distance(samples_path, samples.header) / 2;
     }
-    if (!min_distance && has_radii(samples.rows)) {
-        std::vector<double> radii;
-        radii.reserve(samples.rows.size());
-        for (const SampleRow& row : samples.rows) {
-            radii.push_back(row.radius);
-        }
-        return radii;
+    std::vector<SurfaceDisk> disks;
+    disks.reserve(samples.rows.size());
+    for (const SampleRow& row : samples.rows) {
+        disks.push_back({row.face, static_cast<double>(row.bary[1]),
+                         static_cast<double>(row.bary[2]), has_own ? row.radius : radius});
     }
-    const double distance = min_distance
-                                ? distance_on_mesh(*min_distance, mesh.prepared.statistics())
-                                : header_distance(samples_path, samples.header);
-    return std::vector<double>(samples.rows.size(), distance / 2);
+    return disks;
 }
 
 std::string offset_text(const StrayRow& stray) {

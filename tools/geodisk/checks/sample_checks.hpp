@@ -8,6 +8,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geometry/surface_disk.hpp"
 
 namespace geodisk::tools {
 
@@ -39,10 +40,11 @@ void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
                            const HeaderEntries& additions, std::vector<MeshWarning>& warnings);
 
-/// The radius of each sample, in mesh units: half of `min_distance` if that is given, else its own,
+/// The disk of each sample. Its radius is half of `min_distance` if that is given, else its own,
 /// else half of the header's distance. Throws as header_distance() and distance_on_mesh().
-std::vector<double> sample_radii(const std::string& samples_path, const SampleFile& samples,
-                                 const MeshInput& mesh, const std::optional<Length>& min_distance);
+std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
+                                      const MeshInput& mesh,
+                                      const std::optional<Length>& min_distance);
 
 /// How far `stray` is off, as the end of a sentence.
 std::string offset_text(const StrayRow& stray);

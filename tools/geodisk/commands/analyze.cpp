@@ -28,7 +28,6 @@ namespace geodisk::tools {
 namespace {
 
 using analysis::Evenness;
-using analysis::SurfacePoint;
 
 constexpr double kProbesPerSample = 10;
 constexpr double kFewestProbes = 20000;
@@ -111,31 +110,29 @@ SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
         fail_input(path, "has no samples to analyze");
     }
     warn_of_other_surface(path, samples, options.mesh.additions(), warnings);
-    const std::vector<double> radii = sample_radii(path, samples, mesh, options.distance.parsed());
+    const std::vector<SurfaceDisk> disks =
+        sample_disks(path, samples, mesh, options.distance.parsed());
 
     SetAnalysis set;
     set.path = path;
     set.samples = samples.rows.size();
-    const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
-    set.min_distance = 2 * *most;
-    if (*least == *most) {
+    const auto [least, most] = std::minmax_element(
+        disks.begin(), disks.end(),
+        [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });
+    set.min_distance = 2 * most->radius;
+    if (least->radius == most->radius) {
         set.rho = packing_density(mesh.prepared.statistics().area, set.min_distance,
                                   static_cast<double>(set.samples));
     }
-    std::vector<SurfacePoint> points;
     std::vector<std::uint32_t> faces;
-    points.reserve(set.samples);
     faces.reserve(set.samples);
-    for (std::size_t i = 0; i < set.samples; ++i) {
-        const SampleRow& row = samples.rows[i];
-        points.push_back({row.face, static_cast<double>(row.bary[1]),
-                          static_cast<double>(row.bary[2]), radii[i]});
-        faces.push_back(row.face);
+    for (const SurfaceDisk& disk : disks) {
+        faces.push_back(disk.face);
     }
     set.bare_components = parts_without(mesh.file.triangles, faces);
     regions.add(mesh, samples.rows);
     progress.begin_stage("measuring distances");
-    set.found = analysis::measure(mesh.prepared, points, probes_for(options, set.samples),
+    set.found = analysis::measure(mesh.prepared, disks, probes_for(options, set.samples),
                                   parse_seed("--seed", options.seed), [&](double part) {
                                       check_interrupted();
                                       progress.update(part, grouped(set.samples) + " samples");

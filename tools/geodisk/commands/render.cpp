@@ -17,18 +17,6 @@
 namespace geodisk::tools {
 namespace {
 
-std::vector<picture::DiskSource> disks_of(const SampleFile& samples,
-                                          const std::vector<double>& radii) {
-    std::vector<picture::DiskSource> disks;
-    disks.reserve(radii.size());
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-        const SampleRow& row = samples.rows[i];
-        disks.push_back({row.face, static_cast<double>(row.bary[1]),
-                         static_cast<double>(row.bary[2]), radii[i]});
-    }
-    return disks;
-}
-
 void render_surface(const RenderOptions& options) {
     const picture::PictureParams params = parse_picture(options);
     if (params.cuts) {
@@ -49,8 +37,7 @@ void render_surface(const RenderOptions& options) {
     check_on_mesh(options.samples, samples, options.mesh.mesh, mesh);
     std::vector<MeshWarning> warnings = mesh.warnings;
     warn_of_other_surface(options.samples, samples, options.mesh.additions(), warnings);
-    std::vector<picture::DiskSource> disks =
-        disks_of(samples, sample_radii(options.samples, samples, mesh, distance));
+    std::vector<SurfaceDisk> disks = sample_disks(options.samples, samples, mesh, distance);
     const Subject subject{options.samples,
                           mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),
                           {{"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},

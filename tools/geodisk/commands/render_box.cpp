@@ -56,7 +56,7 @@ BoxParams read_box(const RenderOptions& options, const SampleFile& samples) {
 void render_flat(const RenderOptions& options, const PictureParams& params, const Subject& subject,
                  const BoxParams& box, const SampleFile& samples, ProgressLine& progress) {
     const picture::FlatBox flat(box);
-    std::vector<picture::DiskSource> disks;
+    std::vector<SurfaceDisk> disks;
     for (const SampleRow& row : samples.rows) {
         disks.push_back(flat.disk(row.position[0], row.position[1], box.min_distance / 2));
     }
