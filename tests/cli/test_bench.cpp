@@ -147,7 +147,8 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
     check_fails(folder, 2, "contradicts", {"builtin:cube", "--tune", "--json", "t.json"}, tuned);
 }
 
-TEST_CASE("two that keep a tuning at once, and one that reads it, do not meet half a file") {
+TEST_CASE("two that keep a tuning at once, and one that reads it, do not meet half a file" *
+          doctest::test_suite("slow")) {
     const TemporaryFolder folder;
     Setting tuned = bench();
     tuned.environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}};

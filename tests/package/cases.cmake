@@ -156,6 +156,7 @@ elseif(CASE STREQUAL "shared")
 elseif(CASE STREQUAL "add_subdirectory")
     configure("${package_tests}/add_subdirectory" "${work}/add subdirectory"
         -DCMAKE_BUILD_TYPE=
+        -DBUILD_SHARED_LIBS=ON
         "-DGEODISK_SOURCE=${source_root}")
     build("${work}/add subdirectory")
     run_programs("${work}/add subdirectory")
