@@ -1,6 +1,7 @@
 // `geodisk spectrum` shows blue noise where there is some.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -58,6 +59,58 @@ TEST_CASE("samples in the plane are blue noise without a direction") {
     CHECK(bytes_of(folder / "s.csv").starts_with("frequency,frequencies,power,anisotropy_db\n"));
 }
 
+TEST_CASE("samples of a surface are blue noise without a direction") {
+    const TemporaryFolder folder;
+    Arguments files{"builtin:icosphere:4"};
+    for (int seed = 0; seed < 5; ++seed) {
+        files.push_back(std::to_string(seed) + (seed % 2 == 0 ? ".ply" : ".csv"));
+        REQUIRE(run(folder, {"sample", "builtin:icosphere:4", "-d", "0.4", "--seed",
+                             std::to_string(seed), "-o", files.back()})
+                    .status == 0);
+    }
+    const Arguments spectrum = joined({"spectrum"}, files);
+    const Outcome outcome =
+        run(folder, joined(spectrum, {"--json", "-", "-o", "s.csv", "--harmonics", "500"}));
+    REQUIRE(outcome.status == 0);
+    CHECK(contains(outcome.err, "500 harmonics of 2,562 vertices"));
+    const auto report = nlohmann::json::parse(outcome.out);
+    CHECK(report["sets"] == 5);
+    CHECK(report["min_distance"] == 0.4);
+    CHECK(report["harmonics"]["count"] == 500);
+    CHECK(report["harmonics"]["highest_frequency"].get<double>() ==
+          doctest::Approx(0.4 * std::sqrt(500 / 3.1416 / 12.54)).epsilon(0.12)); // It is coarse.
+    CHECK(report["harmonics"]["expected_bytes"].get<double>() > 1e6);
+    CHECK(report["warnings"].back()["kind"] == "coarse_mesh");
+    CHECK(report["low_power"].get<double>() < 0.2);
+    CHECK(report["peak"]["power"].get<double>() > 1.2);
+    CHECK(report["peak"]["frequency"].get<double>() == doctest::Approx(1.1).epsilon(0.2));
+    CHECK(report["mean_anisotropy_db"].get<double>() ==
+          doctest::Approx(report["expected_anisotropy_db"].get<double>()).epsilon(0.15));
+    CHECK(report["expected_anisotropy_db"].get<double>() == doctest::Approx(-3.98).epsilon(0.01));
+    CHECK(report["rings"]["power"].size() == report["rings"]["count"].size());
+    CHECK(bytes_of(folder / "s.csv").starts_with("frequency,frequencies,power,anisotropy_db\n"));
+
+    const Outcome text = run(folder, joined(spectrum, {"--harmonics", "100"}));
+    CHECK(text.status == 0);
+    CHECK(text.err.empty());
+    CHECK(contains(text.out, "100 up to 0."));
+    CHECK(contains(text.out, "takes --harmonics 1000"));
+
+    const std::string mesh = files.front();
+    check_fails(folder, 2, "come after it", {"spectrum", mesh});
+    check_fails(folder, 2, "--reach", {"spectrum", mesh, "0.ply", "--reach", "2"});
+    check_fails(folder, 2, "no directions", {"spectrum", mesh, "0.ply", "-o", "s.png"});
+    check_fails(folder, 2, "so only 2,561 harmonics",
+                {"spectrum", mesh, "0.ply", "--harmonics", "2562"});
+    check_fails(folder, 2, "--harmonics", {"spectrum", mesh, "0.ply", "--harmonics", "0"});
+    check_fails(folder, 3, "0.ply", {"spectrum", "builtin:cube", "0.ply"});
+    REQUIRE(run(folder, {"sample", mesh, "-d", "0.5", "-o", "other.ply"}).status == 0);
+    check_fails(folder, 3, "other.ply: has a minimum distance of 0.5, 0.ply one of 0.4",
+                {"spectrum", mesh, "0.ply", "other.ply"});
+    CHECK(run(folder, {"spectrum", mesh, "0.ply", "other.ply", "-d", "0.4", "--harmonics", "50"})
+              .status == 0);
+}
+
 TEST_CASE("what has no spectrum is told") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"box", "--dim", "2", "-d", "0.1", "-o", "a.csv"}).status == 0);
@@ -66,6 +119,8 @@ TEST_CASE("what has no spectrum is told") {
         run(folder, {"box", "--dim", "2", "-d", "0.1", "--extents", "1,2", "-o", "c.csv"}).status ==
         0);
     check_fails(folder, 2, "SAMPLES", {"spectrum"});
+    check_fails(folder, 2, "--harmonics", {"spectrum", "a.csv", "--harmonics", "9"});
+    check_fails(folder, 2, "boxes have theirs", {"spectrum", "a.csv", "-d", "0.2"});
     check_fails(folder, 2, "--reach", {"spectrum", "a.csv", "--reach", "0"});
     check_fails(folder, 2, "s.txt", {"spectrum", "a.csv", "-o", "s.txt"});
     check_fails(folder, 2, "would replace", {"spectrum", "a.csv", "-o", "a.csv"});

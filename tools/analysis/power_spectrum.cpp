@@ -111,40 +111,19 @@ void PowerSpectrum::add(std::span<const double> points, const PartDone& tell) {
     ++sets_;
 }
 
-std::vector<PowerSpectrum::Ring> PowerSpectrum::rings() const {
-    const double width = 1 / std::min(width_, height_);
-    struct Sums {
-        double count = 0, powers = 0, squares = 0;
-    };
-    std::vector<Sums> sums(static_cast<std::size_t>(highest_ / width) + 1);
+std::vector<SpectrumRing> PowerSpectrum::rings() const {
+    RingSums sums(1 / std::min(width_, height_), highest_);
     for (std::uint32_t row = 0; row <= rows_; ++row) {
         for (std::int64_t column = -std::int64_t{columns_}; column <= std::int64_t{columns_};
              ++column) {
             if (row == 0 && column <= 0) {
                 continue; // The mean, and what is mirrored.
             }
-            const double length = std::hypot(static_cast<double>(column) / width_, row / height_);
-            const auto ring = static_cast<std::size_t>(length / width);
-            if (length <= highest_ && ring < sums.size()) {
-                const double power = this->power(column, row);
-                sums[ring].count += 1;
-                sums[ring].powers += power;
-                sums[ring].squares += power * power;
-            }
+            sums.add(std::hypot(static_cast<double>(column) / width_, row / height_),
+                     power(column, row));
         }
     }
-    std::vector<Ring> rings;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        const auto& [count, powers, squares] = sums[i];
-        if (count < 2) {
-            continue; // No variance.
-        }
-        const double mean = powers / count;
-        const double variance = std::max(0.0, squares - powers * mean) / (count - 1);
-        rings.push_back({(static_cast<double>(i) + 0.5) * width, static_cast<std::uint32_t>(count),
-                         mean, mean > 0 ? variance / (mean * mean) : 0});
-    }
-    return rings;
+    return sums.rings();
 }
 
 } // namespace geodisk::tools::analysis

@@ -7,6 +7,7 @@
 
 #include <geodisk/box.hpp>
 
+#include "analysis/spectrum_rings.hpp"
 #include "program/batches.hpp"
 
 namespace geodisk::tools::analysis {
@@ -34,16 +35,9 @@ class PowerSpectrum {
     /// where it is 0.
     double power(std::int64_t column, std::int64_t row) const;
 
-    /// Frequencies of about equal length.
-    struct Ring {
-        double frequency; ///< The middle, in waves per unit of length.
-        std::uint32_t count;
-        double mean;       ///< Of the power, the radial mean.
-        double anisotropy; ///< Its variance over its squared mean: 1 / sets() if no direction is
-                           ///< another than the others.
-    };
-    /// As wide as the coarser side's frequencies are apart.
-    std::vector<Ring> rings() const;
+    /// As wide as the coarser side's frequencies are apart. The anisotropy is 1 / sets() if no
+    /// direction is another than the others.
+    std::vector<SpectrumRing> rings() const;
 
   private:
     std::size_t index(std::int64_t column, std::uint32_t row) const;

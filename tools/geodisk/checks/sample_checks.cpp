@@ -166,6 +166,18 @@ std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const Sam
     return disks;
 }
 
+void check_same_distance(const std::string& samples_path, double min_distance,
+                         const std::string& first_path, double first_distance) {
+    constexpr double kSameDistance = 1e-6; // Of what headers and weights round.
+    if (std::abs(min_distance - first_distance) > kSameDistance * first_distance) {
+        const std::string other =
+            samples_path == first_path ? " and of " : ", " + first_path + " one of ";
+        fail_input(samples_path, "has a minimum distance of " + rounded(min_distance, 6) + other +
+                                     rounded(first_distance, 6) +
+                                     "; a spectrum is of samples that keep the same");
+    }
+}
+
 std::string offset_text(const StrayRow& stray) {
     return rounded(stray.offset, 3) + " away from where its face and weights put it";
 }

@@ -46,6 +46,11 @@ std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const Sam
                                       const MeshInput& mesh,
                                       const std::optional<Length>& min_distance);
 
+/// Throws UserError(bad_input) if samples have another distance than those of the first file, both
+/// in mesh units: what is told of all is told in minimum distances.
+void check_same_distance(const std::string& samples_path, double min_distance,
+                         const std::string& first_path, double first_distance);
+
 /// How far `stray` is off, as the end of a sentence.
 std::string offset_text(const StrayRow& stray);
 

@@ -12,6 +12,7 @@ namespace geodisk::tools {
 
 struct OutputOptions;
 struct RenderOptions;
+struct SpectrumOptions;
 
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
 void add_sample_command(CLI::App& app);
@@ -28,8 +29,12 @@ void verify_box(const std::string& samples, const std::string& min_distance,
 /// Tells how samples on a mesh are spread, without a device.
 void add_analyze_command(CLI::App& app);
 
-/// Computes the power spectrum of samples in a box of two dimensions, without a device.
+/// Computes the power spectrum of samples on a mesh or in a box of two dimensions, without a
+/// device.
 void add_spectrum_command(CLI::App& app);
+
+/// What `spectrum` does with samples in boxes of two dimensions.
+void spectrum_of_boxes(const SpectrumOptions& options);
 
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
 void add_render_command(CLI::App& app);

@@ -1,266 +1,225 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
-#include <sstream>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <geodisk/version.hpp>
 
-#include "analysis/power_spectrum.hpp"
+#include "analysis/surface_spectrum.hpp"
 #include "files/input_file.hpp"
+#include "files/ply_file.hpp"
 #include "files/sample_file.hpp"
+#include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
-#include "geodisk/inputs/box_input.hpp"
-#include "geodisk/options/run_options.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/spectrum_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
-#include "geodisk/reports/box_report.hpp"
-#include "geodisk/reports/json.hpp"
-#include "picture/png.hpp"
+#include "geodisk/reports/mesh_report.hpp"
+#include "geodisk/reports/spectrum_report.hpp"
 #include "program/arguments.hpp"
-#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/program.hpp"
-#include "program/table.hpp"
 
 namespace geodisk::tools {
 namespace {
 
-using analysis::PowerSpectrum;
+using analysis::Laplacian;
+using analysis::ManifoldHarmonics;
+using analysis::PlacedSamples;
+using analysis::SurfaceSpectrum;
 
-constexpr double kMostFrequencies = 0x1p24;
-constexpr double kMostReach = 100;
-/// Up to this part of a wave per minimum distance, blue noise has hardly any power.
-constexpr double kLow = 0.5;
-/// Power that is white in the picture.
-constexpr double kWhite = 2;
+constexpr std::size_t kHarmonics = 1000;
+/// Of the vertices: shorter waves than of so many harmonics have hardly three vertices each.
+constexpr double kMostOfVertices = 0.1;
+/// Where the power of blue noise has gone up and down once.
+constexpr double kWantedReach = 2;
 
-struct SpectrumOptions {
-    std::vector<std::string> samples;
-    std::string reach = "4";
-    OutputOptions out; ///< A picture or a table.
-};
-
-/// Spectrum of all files, and what they have in common.
-struct BoxSpectrum {
-    BoxParams box;
-    double samples = 0; ///< On average.
-    PowerSpectrum spectrum;
-    std::vector<PowerSpectrum::Ring> rings;
-
-    /// In waves per minimum distance.
-    double relative(double frequency) const { return frequency * box.min_distance; }
-};
-
-double decibels(double ratio) {
-    return 10 * std::log10(ratio);
-}
-
-void check_spectrum_path(const Path& path) {
-    const std::string extension = lower_extension(path);
-    if (extension != ".png" && extension != ".csv") {
-        fail_usage(path.string() + ": spectra are written as *.png, a picture, or *.csv, the "
-                                   "radial mean and anisotropy");
+void check_surface_spectrum_path(const Path& path) {
+    if (lower_extension(path) != ".csv") {
+        fail_usage(path.string() + ": spectra of surfaces are written as *.csv, the radial mean "
+                                   "and anisotropy; they have no directions to show in a picture");
     }
     check_writable(path);
 }
 
-BoxParams read_box(const std::string& path, const SampleFile& samples) {
-    BoxParams box = box_of(path, "", samples);
-    if (box.extents.size() != 2) {
-        fail_input(path, "its box has " + counted(box.extents.size(), "dimension", "dimensions") +
-                             "; spectra are of those with 2");
+/// By extension, or what a PLY header says.
+bool are_box_samples(const std::string& path) {
+    const std::string extension = lower_extension(path);
+    if (extension != ".ply") {
+        return extension == ".csv";
     }
-    if (samples.rows.empty()) {
-        fail_input(path, "has no samples");
-    }
-    return box;
+    const PlyFile file(path);
+    return std::any_of(file.comments().begin(), file.comments().end(),
+                       [](const std::string& comment) { return comment.starts_with("box:"); });
 }
 
-PowerSpectrum make_spectrum(const std::string& path, const BoxParams& box, double reach) {
-    const double highest = reach / box.min_distance;
-    if (2 * highest * box.extents[0] * highest * box.extents[1] > kMostFrequencies) {
-        throw UserError(ExitCode::out_of_memory,
-                        path + ": there are too many frequencies up to " + rounded(reach, 3) +
-                            " waves per minimum distance; give less with --reach");
-    }
-    if (highest * std::min(box.extents[0], box.extents[1]) < 2) {
-        fail_input(path, "its box is too small for its minimum distance: there are no two waves "
-                         "along its sides up to the frequency of --reach");
-    }
-    return PowerSpectrum(box, highest);
-}
-
-BoxSpectrum compute(const SpectrumOptions& options, double reach, ProgressLine& progress) {
-    std::optional<BoxSpectrum> result;
-    for (const std::string& path : options.samples) {
-        progress.begin_stage("reading the samples");
-        const SampleFile samples = read_box_samples(path);
-        const BoxParams box = read_box(path, samples);
-        if (!result) {
-            result = BoxSpectrum{box, 0, make_spectrum(path, box, reach), {}};
-        } else if (box.extents != result->box.extents) {
-            fail_input(path, "has a box of " + box_text(box) + ", " + options.samples.front() +
-                                 " one of " + box_text(result->box));
-        }
-        std::vector<double> points;
-        points.reserve(2 * samples.rows.size());
-        for (const SampleRow& row : samples.rows) {
-            points.insert(points.end(), {row.position[0], row.position[1]});
-        }
-        progress.begin_stage("computing the spectrum");
-        result->spectrum.add(points, [&](double part) {
-            check_interrupted();
-            progress.update((result->spectrum.sets() + part) /
-                                static_cast<double>(options.samples.size()),
-                            grouped(samples.rows.size()) + " samples");
-        });
-        result->samples +=
-            static_cast<double>(samples.rows.size()) / static_cast<double>(options.samples.size());
-    }
-    progress.clear();
-    result->rings = result->spectrum.rings();
-    return std::move(*result);
-}
-
-/// What people look for first.
-struct Findings {
-    double peak = 0, peak_at = 0; ///< Of the radial mean; the frequency relative.
-    double low = 0;               ///< The mean power at low frequencies.
-    double anisotropy = 0;        ///< Mean over rings, in decibels.
+/// The sets of all files, and the distance that they have in common.
+struct SurfaceSets {
+    std::vector<PlacedSamples> sets;
+    double samples = 0, min_distance = 0;
 };
 
-Findings find(const BoxSpectrum& result) {
-    Findings found;
-    double low_count = 0;
-    for (const PowerSpectrum::Ring& ring : result.rings) {
-        if (ring.mean > found.peak) {
-            found.peak = ring.mean;
-            found.peak_at = result.relative(ring.frequency);
+SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
+                      const Laplacian& laplacian, std::vector<MeshWarning>& warnings,
+                      ProgressLine& progress) {
+    SurfaceSets result;
+    for (const std::string& path : options.samples) {
+        progress.begin_stage("reading the samples");
+        const SampleFile file = read_samples(path);
+        check_on_mesh(path, file, options.mesh.mesh, mesh);
+        if (file.rows.empty()) {
+            fail_input(path, "has no samples");
         }
-        if (result.relative(ring.frequency) < kLow) {
-            found.low += ring.mean * ring.count;
-            low_count += ring.count;
+        warn_of_other_surface(path, file, options.mesh.additions(), warnings);
+        PlacedSamples& places = result.sets.emplace_back();
+        for (const SurfaceDisk& disk : sample_disks(path, file, mesh, options.distance.parsed())) {
+            const double min_distance = 2 * disk.radius;
+            if (result.min_distance == 0) {
+                result.min_distance = min_distance;
+            }
+            check_same_distance(path, min_distance, options.samples.front(), result.min_distance);
+            if (laplacian.nodes[std::size_t{3} * disk.face] == Laplacian::kNoNode) {
+                fail_input(path, "sample " + std::to_string(places.size()) + " lies on triangle " +
+                                     std::to_string(disk.face) + ", which is a single point");
+            }
+            places.push_back({disk.face, disk.weight1, disk.weight2});
         }
-        found.anisotropy +=
-            decibels(std::max(ring.anisotropy, 1e-12)) / static_cast<double>(result.rings.size());
+        result.samples += static_cast<double>(places.size());
     }
-    found.low /= std::max(1.0, low_count);
-    return found;
+    result.samples /= static_cast<double>(result.sets.size());
+    return result;
 }
 
-std::string text_of_spectrum(const BoxSpectrum& result) {
-    const Findings found = find(result);
-    const double sets = result.spectrum.sets();
-    std::ostringstream out;
-    out << "box           " << box_text(result.box) << '\n'
-        << "samples       " << rounded(result.samples, 6)
-        << (sets > 1 ? " on average in " + grouped(result.spectrum.sets()) + " sets" : "") << '\n'
-        << "power         " << rounded(found.low, 3) << " below " << rounded(kLow, 2)
-        << " waves per minimum distance, peak " << rounded(found.peak, 3) << " at "
-        << rounded(found.peak_at, 3) << "; 1 is white noise\n"
-        << "anisotropy    " << fixed(found.anisotropy, 2) << " dB on average over "
-        << counted(result.rings.size(), "ring", "rings") << "; " << fixed(decibels(1 / sets), 2)
-        << " dB if all directions are alike\n";
-    return out.str();
+std::size_t parse_harmonics(const std::string& text) {
+    return text.empty() ? kHarmonics : static_cast<std::size_t>(parse_count("--harmonics", text));
 }
 
-std::string json_of_spectrum(const SpectrumOptions& options, const BoxSpectrum& result) {
-    const Findings found = find(result);
-    Json frequency = Json::array(), power = Json::array(), anisotropy = Json::array();
-    for (const PowerSpectrum::Ring& ring : result.rings) {
-        frequency.push_back(result.relative(ring.frequency));
-        power.push_back(ring.mean);
-        anisotropy.push_back(decibels(std::max(ring.anisotropy, 1e-12)));
+/// As many as are asked for; all, if there are fewer than those that are taken by themselves.
+std::size_t harmonics_to_compute(const SpectrumOptions& options, const Laplacian& laplacian,
+                                 const ManifoldHarmonics& harmonics,
+                                 std::vector<MeshWarning>& warnings) {
+    std::size_t count = parse_harmonics(options.harmonics);
+    if (options.harmonics.empty()) {
+        count = std::min(count, harmonics.count());
     }
-    return text_of(Json{
-        {"version", GEODISK_VERSION_STRING},
-        {"box", {{"extents", result.box.extents}, {"periodic", result.box.is_periodic}}},
-        {"samples_files", options.samples},
-        {"min_distance", result.box.min_distance},
-        {"samples", result.samples},
-        {"sets", result.spectrum.sets()},
-        {"low_power", found.low},
-        {"peak", {{"power", found.peak}, {"frequency", found.peak_at}}},
-        {"mean_anisotropy_db", found.anisotropy},
-        {"expected_anisotropy_db", decibels(1.0 / result.spectrum.sets())},
-        {"rings", {{"frequency", frequency}, {"power", power}, {"anisotropy_db", anisotropy}}}});
-}
-
-/// Of the power around frequency 0: black for none, white for kWhite.
-picture::Pixels picture_of(const PowerSpectrum& spectrum) {
-    picture::Pixels pixels{2 * spectrum.columns() + 1, 2 * spectrum.rows() + 1, {}};
-    pixels.rgba.reserve(std::size_t{4} * pixels.width * pixels.height);
-    const std::int64_t columns = spectrum.columns(), rows = spectrum.rows();
-    for (std::int64_t row = rows; row >= -rows; --row) {
-        for (std::int64_t column = -columns; column <= columns; ++column) {
-            const double part = std::min(1.0, spectrum.power(column, row) / kWhite);
-            const auto grey = static_cast<std::uint8_t>(std::lround(255 * part));
-            pixels.rgba.insert(pixels.rgba.end(), {grey, grey, grey, 255});
-        }
+    if (count > harmonics.count()) {
+        fail_usage("--harmonics: " + options.mesh.mesh + " has " +
+                   counted(laplacian.size(), "vertex", "vertices") + ", so only " +
+                   counted(harmonics.count(), "harmonic", "harmonics"));
     }
-    return pixels;
-}
-
-std::string table_of(const BoxSpectrum& result) {
-    Table table({"frequency", "frequencies", "power", "anisotropy_db"});
-    for (const PowerSpectrum::Ring& ring : result.rings) {
-        table.add({exact_text(result.relative(ring.frequency)), std::to_string(ring.count),
-                   exact_text(ring.mean), exact_text(decibels(std::max(ring.anisotropy, 1e-12)))});
+    if (static_cast<double>(count) > kMostOfVertices * laplacian.size()) {
+        warnings.push_back({"coarse_mesh", count, "",
+                            grouped(count) + " harmonics of " +
+                                counted(laplacian.size(), "vertex", "vertices") +
+                                ": the shortest waves are those of the triangles rather than of "
+                                "the surface; subdivide the mesh before sampling",
+                            ""});
+        print_warning(options.mesh.mesh + ": " + warnings.back().message);
     }
-    return table.csv();
+    return count;
 }
 
-void run_spectrum(const SpectrumOptions& options) {
-    const double reach = parse_ratio("--reach", options.reach, kLow, kMostReach);
+std::string harmonics_line(const SurfaceSpectrum& spectrum, double min_distance, double seconds) {
+    const double reach = spectrum.frequencies.back() * min_distance;
+    std::string line = "harmonics     " + grouped(spectrum.frequencies.size()) + " up to " +
+                       rounded(reach, 3) + " waves per minimum distance, in " +
+                       seconds_text(seconds);
+    if (reach < kWantedReach) {
+        // Weyl's law.
+        const double wanted =
+            std::numbers::pi * spectrum.area * std::pow(kWantedReach / min_distance, 2);
+        line += "; up to " + rounded(kWantedReach, 2) + " takes --harmonics " +
+                fixed(std::ceil(wanted / 100) * 100, 0);
+    }
+    return line + '\n';
+}
+
+void spectrum_of_surface(const SpectrumOptions& options) {
+    if (!options.reach.empty()) {
+        fail_usage("--reach is for samples in boxes; on a mesh --harmonics tells how far it goes");
+    }
+    parse_harmonics(options.harmonics); // Before the files are read.
+    options.distance.parsed();
     std::vector<NamedFile> read;
     for (const std::string& samples : options.samples) {
         read.push_back({"the samples", samples});
     }
-    check_outputs(options.out, "the spectrum", read, check_spectrum_path);
+    options.mesh.add_files(read, "the mesh");
+    check_outputs(options.out, "the spectrum", read, check_surface_spectrum_path);
     ProgressLine progress(options.out.quiet);
-    const BoxSpectrum result = compute(options, reach, progress);
-    const std::string report = json_of_spectrum(options, result);
-    const std::string text = text_of_spectrum(result);
+    const MeshInput mesh = load_mesh(options.mesh, progress);
+    std::vector<MeshWarning> warnings = mesh.warnings;
+    const Stopwatch watch;
+    const Laplacian laplacian = analysis::make_laplacian(mesh.prepared, mesh.file.triangles);
+    const SurfaceSets sets = read_sets(options, mesh, laplacian, warnings, progress);
+    progress.begin_stage("preparing the waves of the surface");
+    const ManifoldHarmonics harmonics(laplacian);
+    progress.clear();
+    const std::size_t count = harmonics_to_compute(options, laplacian, harmonics, warnings);
+    const auto [expected_seconds, bytes] = harmonics.cost(count);
+    const std::string detail = "about " + seconds_text(expected_seconds) + " and " +
+                               size_text(static_cast<std::uint64_t>(bytes));
+    progress.begin_stage("computing " + counted(count, "harmonic", "harmonics"));
+    const SurfaceSpectrum spectrum =
+        compute_spectrum(laplacian, harmonics, count, sets.sets, [&](double part) {
+            check_interrupted();
+            progress.update(part, detail);
+        });
+    progress.clear();
+    const double seconds = watch.seconds();
+
+    const SpectrumReport report{options.samples, sets.samples, sets.min_distance, spectrum.rings(),
+                                2.0 / static_cast<double>(sets.sets.size())};
+    const std::string& path = options.mesh.mesh;
+    Json json{{"version", GEODISK_VERSION_STRING},
+              {"mesh", mesh_json(path, options.mesh.additions(), mesh)},
+              {"warnings", warnings_json(warnings)},
+              {"harmonics",
+               {{"count", count},
+                {"highest_frequency", spectrum.frequencies.back() * sets.min_distance},
+                {"seconds", seconds},
+                {"expected_seconds", expected_seconds},
+                {"expected_bytes", bytes}}}};
+    report.add_to(json);
+    const std::string text = mesh_lines("mesh", path, options.mesh.additions(), mesh) +
+                             harmonics_line(spectrum, sets.min_distance, seconds) + report.text();
     if (options.out.output.empty()) {
-        publish(options.out, report, text);
+        publish(options.out, text_of(json), text);
         return;
     }
     AtomicFile file(options.out.output);
-    if (lower_extension(options.out.output) == ".png") {
-        picture::write_png(file, picture_of(result.spectrum));
-    } else {
-        file.write(table_of(result));
-    }
+    file.write(report.csv());
     file.sync();
-    publish(options.out, file, report, text);
+    publish(options.out, file, text_of(json), text);
 }
 
 } // namespace
 
 void add_spectrum_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "spectrum", "Compute the power spectrum of samples in a box of 2 dimensions");
+    CLI::App* command =
+        app.add_subcommand("spectrum", "Compute the power spectrum of samples on a mesh or in a "
+                                       "box of 2 dimensions");
     const auto options = std::make_shared<SpectrumOptions>();
-    command
-        ->add_option("SAMPLES", options->samples,
-                     "Samples of geodisk box --dim 2: *.ply or *.csv; of\n"
-                     "several the mean is taken")
-        ->type_name("")
-        ->required();
-    add_option(*command, "-o,--output", options->out.output, "OUT",
-               "Spectrum to write: *.png, a picture with frequency 0 in the\n"
-               "middle, or *.csv, radial mean and anisotropy");
-    add_option(*command, "--reach", options->reach, "F",
-               "Highest frequency, in waves per minimum distance")
-        ->capture_default_str();
-    add_json_option(*command, options->out);
-    command->add_flag("-q,--quiet", options->out.quiet, "No progress and no result");
-    command->callback([options] { run_spectrum(*options); });
+    const auto files = std::make_shared<std::vector<std::string>>();
+    add_spectrum_options(*command, *options, *files);
+    command->callback([options, files] {
+        if (are_box_samples(files->front())) {
+            options->samples = *files;
+            spectrum_of_boxes(*options);
+            return;
+        }
+        options->mesh.mesh = files->front();
+        options->samples.assign(files->begin() + 1, files->end());
+        if (options->samples.empty()) {
+            fail_usage("SAMPLES: " + files->front() + " is a mesh; samples on it come after it");
+        }
+        spectrum_of_surface(*options);
+    });
 }
 
 } // namespace geodisk::tools

@@ -1,0 +1,301 @@
+#include "analysis/manifold_harmonics.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+#include <Spectra/MatOp/SparseSymMatProd.h>
+#include <Spectra/SymGEigsShiftSolver.h>
+
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/stopwatch.hpp"
+
+namespace geodisk::tools::analysis {
+namespace {
+
+using Eigen::Index;
+
+/// Eigenvalues below this, times the area, are of waves some 200 times as long as the surface is
+/// wide.
+constexpr double kLowest = 1e-3;
+/// Harmonics of a band, about. Each takes a product with all others of its band, and each band two
+/// factorizations.
+constexpr std::size_t kBandSize = 100;
+/// A band with more of them than so many is cut, down to this relative width.
+constexpr std::size_t kLargestBand = 180;
+constexpr double kNarrowest = 1e-7;
+/// By which a shift moves that hits an eigenvalue.
+constexpr double kNudge = 1e-9;
+constexpr double kTolerance = 1e-10; ///< Of an eigenvalue of the inverse.
+constexpr Index kMostRestarts = 300;
+/// Of the Krylov space, beyond twice the eigenvalues looked for.
+constexpr std::size_t kSpareDimensions = 20;
+
+std::size_t krylov_size(std::size_t wanted) {
+    return 2 * wanted + kSpareDimensions;
+}
+
+/// stiffness - shift mass = L D L'.
+class Factors {
+  public:
+    explicit Factors(const Laplacian& laplacian) : laplacian_(laplacian) {
+        solver_.analyzePattern(laplacian.stiffness - laplacian.mass);
+    }
+
+    /// Moves the shift a little where it is an eigenvalue. Returns it.
+    double factorize(double shift) {
+        for (;; shift *= 1 + kNudge) {
+            solver_.factorize(laplacian_.stiffness - shift * laplacian_.mass);
+            if (solver_.info() == Eigen::Success && solver_.vectorD().allFinite()) {
+                return shift;
+            }
+        }
+    }
+    /// How many eigenvalues are below the shift.
+    std::size_t below() const {
+        return static_cast<std::size_t>((solver_.vectorD().array() < 0).count());
+    }
+    Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& right) const {
+        return solver_.solve(right);
+    }
+    double entries() const {
+        return static_cast<double>(solver_.matrixL().nestedExpression().nonZeros());
+    }
+
+  private:
+    const Laplacian& laplacian_;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+};
+
+/// Eigenvalues from `low` up to, without, `high`.
+struct Slice {
+    double low, high;
+    std::size_t first, count; ///< `first` are lower.
+};
+
+/// The inverse of `factors`, as Spectra wants it, without the functions that are known.
+class Inverse {
+  public:
+    using Scalar = double;
+
+    Inverse(const Factors& factors, const Laplacian& laplacian, const std::function<void()>& watch)
+        : factors_(factors), laplacian_(laplacian), watch_(watch) {}
+
+    Index rows() const { return laplacian_.mass.rows(); }
+    Index cols() const { return rows(); }
+    void set_shift(double) const {} // The factors are of that shift already.
+    void perform_op(const double* in, double* out) const {
+        watch_();
+        Eigen::Map<Eigen::VectorXd> result(out, rows());
+        result = factors_.solve(Eigen::Map<const Eigen::VectorXd>(in, rows()));
+        if (known_.cols() > 0) {
+            result -= known_ * (weighted_.transpose() * result);
+        }
+    }
+    void leave_out(const Eigen::MatrixXd& functions) {
+        known_ = functions;
+        weighted_ = laplacian_.mass * functions;
+    }
+
+  private:
+    const Factors& factors_;
+    const Laplacian& laplacian_;
+    const std::function<void()>& watch_;
+    Eigen::MatrixXd known_, weighted_;
+};
+
+/// What a slice's Lanczos runs have found.
+struct Found {
+    std::vector<double> eigenvalues;
+    Eigen::MatrixXd functions;
+
+    void add(double eigenvalue, const Eigen::VectorXd& function, const Laplacian& laplacian) {
+        eigenvalues.push_back(eigenvalue);
+        functions.conservativeResize(function.size(), functions.cols() + 1);
+        functions.rightCols(1) = function / std::sqrt(function.dot(laplacian.mass * function));
+    }
+
+    HarmonicBand sorted(std::size_t first) const {
+        std::vector<Index> order(eigenvalues.size());
+        std::iota(order.begin(), order.end(), Index{0});
+        const auto value = [&](Index i) { return eigenvalues[static_cast<std::size_t>(i)]; };
+        std::sort(order.begin(), order.end(),
+                  [&](Index a, Index b) { return value(a) < value(b); });
+        HarmonicBand band;
+        band.first = first;
+        band.eigenvalues.resize(static_cast<Index>(order.size()));
+        band.functions.resize(functions.rows(), static_cast<Index>(order.size()));
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            band.eigenvalues[static_cast<Index>(i)] = value(order[i]);
+            band.functions.col(static_cast<Index>(i)) = functions.col(order[i]);
+        }
+        return band;
+    }
+};
+
+[[noreturn]] void fail_slice(const Slice& slice, std::size_t found) {
+    const auto frequency = [](double eigenvalue) {
+        return rounded(std::sqrt(eigenvalue) / (2 * std::numbers::pi), 6);
+    };
+    throw UserError(ExitCode::bad_input,
+                    "of " + counted(slice.count, "harmonic", "harmonics") + " between " +
+                        frequency(slice.low) + " and " + frequency(slice.high) +
+                        " waves per unit of length only " + grouped(found) +
+                        " could be found; the mesh has triangles too flat for double precision");
+}
+
+/// All of the slice. Lanczos finds one function of several that share an eigenvalue, as on
+/// symmetric surfaces, so it runs again without those known until all are there.
+HarmonicBand solve_slice(const Laplacian& laplacian, Factors& factors, const Slice& slice,
+                         const std::function<void()>& watch) {
+    const double shift = factors.factorize((slice.low + slice.high) / 2);
+    Spectra::SparseSymMatProd<double> mass(laplacian.mass);
+    Inverse inverse(factors, laplacian, watch);
+    Found found;
+    while (found.eigenvalues.size() < slice.count) {
+        const std::size_t wanted = slice.count - found.eigenvalues.size();
+        const std::size_t known = found.eigenvalues.size();
+        const std::size_t krylov = std::min<std::size_t>(krylov_size(wanted), laplacian.size());
+        Spectra::SymGEigsShiftSolver<Inverse, Spectra::SparseSymMatProd<double>,
+                                     Spectra::GEigsMode::ShiftInvert>
+            solver(inverse, mass, static_cast<Index>(std::min(wanted, krylov - 1)),
+                   static_cast<Index>(krylov), shift);
+        solver.init();
+        solver.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kTolerance);
+        const Eigen::VectorXd eigenvalues = solver.eigenvalues();
+        const Eigen::MatrixXd functions = solver.eigenvectors();
+        for (Index i = 0; i < eigenvalues.size(); ++i) {
+            if (eigenvalues[i] >= slice.low && eigenvalues[i] < slice.high) {
+                found.add(eigenvalues[i], functions.col(i), laplacian);
+            }
+        }
+        if (found.eigenvalues.size() == known || found.eigenvalues.size() > slice.count) {
+            fail_slice(slice, known);
+        }
+        inverse.leave_out(found.functions);
+    }
+    return found.sorted(slice.first);
+}
+
+} // namespace
+
+/// The first factors, at the lowest eigenvalue, and what they took.
+struct ManifoldHarmonics::Probe {
+    explicit Probe(const Laplacian& laplacian) : factors(laplacian) {
+        const Stopwatch factorizing;
+        lowest = factors.factorize(kLowest / laplacian.area);
+        factor_seconds = factorizing.seconds();
+        below = factors.below();
+        Eigen::VectorXd vector = Eigen::VectorXd::Ones(laplacian.mass.rows());
+        const Stopwatch solving;
+        vector = factors.solve(vector);
+        solve_seconds = solving.seconds();
+    }
+
+    /// From the lowest eigenvalue on, about kBandSize in each.
+    std::vector<Slice> slices(const Laplacian& laplacian, std::size_t harmonics,
+                              const PartDone& tell) {
+        std::vector<Slice> result;
+        // Weyl's law.
+        double low = lowest,
+               width = 4 * std::numbers::pi * static_cast<double>(kBandSize) / laplacian.area;
+        for (std::size_t first = 0; first < harmonics;) {
+            const double high = factors.factorize(low + width);
+            const std::size_t before = below + first, until = factors.below();
+            const std::size_t count = until - std::min(before, until);
+            if (count > kLargestBand && width > kNarrowest * low) {
+                width /= 2;
+                continue;
+            }
+            if (count > 0) {
+                result.push_back({low, high, first, count});
+                first += count;
+            }
+            width = count > kBandSize / 2 ? width : 2 * width;
+            low = high;
+            if (tell) {
+                tell(0);
+            }
+        }
+        return result;
+    }
+
+    Factors factors;
+    double lowest, factor_seconds, solve_seconds;
+    std::size_t below;
+};
+
+ManifoldHarmonics::ManifoldHarmonics(const Laplacian& laplacian)
+    : laplacian_(laplacian), probe_(std::make_unique<Probe>(laplacian)),
+      count_(laplacian.size() - probe_->below) {}
+
+ManifoldHarmonics::~ManifoldHarmonics() = default;
+ManifoldHarmonics::ManifoldHarmonics(ManifoldHarmonics&&) noexcept = default;
+
+HarmonicCost ManifoldHarmonics::cost(std::size_t harmonics) const {
+    // As measured: Lanczos solves 2.5 times for each harmonic of a full band, and each vector is
+    // multiplied with those of the Krylov space some four times.
+    constexpr double kSolves = 2.5, kProducts = 4, kPerSecond = 1e9;
+    const double size = laplacian_.size(), krylov = static_cast<double>(krylov_size(kBandSize));
+    const auto bands = static_cast<double>(batch_count(harmonics, kBandSize));
+    const double band_seconds =
+        probe_->factor_seconds +
+        kSolves * kBandSize * (probe_->solve_seconds + kProducts * 2 * size * krylov / kPerSecond);
+    const double threads =
+        std::min(bands, std::max(1.0, 1.0 * std::thread::hardware_concurrency()));
+    return {bands * (probe_->factor_seconds + band_seconds / threads),
+            threads * (probe_->factors.entries() * (sizeof(double) + sizeof(int)) +
+                       size * sizeof(double) * (krylov + 2 * kBandSize))};
+}
+
+void ManifoldHarmonics::compute(std::size_t harmonics,
+                                const std::function<void(const HarmonicBand&)>& visit,
+                                const PartDone& tell) const {
+    const std::vector<Slice> slices = probe_->slices(laplacian_, harmonics, tell);
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<bool> ends{false};
+    std::atomic<std::size_t> done{0};
+    struct Ended {};
+    // Within a band as well, which takes seconds.
+    const std::function<void()> watch = [&] {
+        if (ends) {
+            throw Ended();
+        }
+        if (tell && std::this_thread::get_id() == caller) {
+            tell(static_cast<double>(done) / static_cast<double>(slices.size()));
+        }
+    };
+    const auto make_worker = [&] {
+        return [&, factors = Factors(laplacian_)](std::size_t batch, std::size_t,
+                                                  std::size_t) mutable {
+            const Slice& slice = slices[batch];
+            try {
+                HarmonicBand band = solve_slice(laplacian_, factors, slice, watch);
+                const std::size_t rest = harmonics - slice.first;
+                if (rest < slice.count) {
+                    const auto kept = static_cast<Index>(rest);
+                    band.eigenvalues.conservativeResize(kept);
+                    band.functions.conservativeResize(Eigen::NoChange, kept);
+                }
+                visit(band);
+                ++done;
+            } catch (const Ended&) { // By an error that another thread throws.
+            } catch (...) {
+                ends = true;
+                throw;
+            }
+        };
+    };
+    in_batches(slices.size(), 1, make_worker, {});
+}
+
+} // namespace geodisk::tools::analysis

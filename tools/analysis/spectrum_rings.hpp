@@ -1,0 +1,37 @@
+// Averages of a power spectrum over frequencies of about equal length.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace geodisk::tools::analysis {
+
+/// Frequencies of about equal length.
+struct SpectrumRing {
+    double frequency; ///< The middle, in waves per unit of length.
+    std::uint32_t count;
+    double mean;       ///< Of the power, the radial mean.
+    double anisotropy; ///< Its variance over its squared mean, of the power averaged over sets.
+};
+
+/// Adds powers up, each to its ring.
+class RingSums {
+  public:
+    /// Rings are `width` wide, from frequency 0 to `highest`; both positive.
+    RingSums(double width, double highest);
+
+    /// Of a frequency beyond the highest nothing is added.
+    void add(double frequency, double power);
+
+    /// Those of at least two frequencies, as fewer have no variance.
+    std::vector<SpectrumRing> rings() const;
+
+  private:
+    struct Sums {
+        double count = 0, powers = 0, squares = 0;
+    };
+    double width_, highest_;
+    std::vector<Sums> sums_;
+};
+
+} // namespace geodisk::tools::analysis

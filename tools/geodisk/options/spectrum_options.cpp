@@ -1,0 +1,28 @@
+#include "geodisk/options/spectrum_options.hpp"
+
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+
+void add_spectrum_options(CLI::App& command, SpectrumOptions& options,
+                          std::vector<std::string>& files) {
+    command
+        .add_option("MESH SAMPLES", files,
+                    "Samples, *.ply or *.csv, of one mesh, and before them the mesh;\n"
+                    "or of boxes of 2 dimensions. Of several the mean is taken")
+        ->type_name("")
+        ->required();
+    add_option(command, "-o,--output", options.out.output, "OUT",
+               "Spectrum to write: *.csv, radial mean and anisotropy, or of\n"
+               "boxes *.png, a picture with frequency 0 in the middle");
+    add_option(command, "--harmonics", options.harmonics, "K",
+               "Waves of the surface, from the longest on (1000)");
+    add_option(command, "--reach", options.reach, "F",
+               "Highest frequency in boxes, in waves per minimum distance (4)");
+    add_distance_options(command, options.distance);
+    add_mesh_options(command, options.mesh);
+    add_json_option(command, options.out);
+    command.add_flag("-q,--quiet", options.out.quiet, "No progress and no result");
+}
+
+} // namespace geodisk::tools
