@@ -15,15 +15,16 @@ Setting paper() {
     return setting;
 }
 
-/// Runs it and checks that it writes `name`.csv, with so many rows below the columns, and plots.
-Outcome check_figure(const std::string& name, const std::vector<std::string>& plots,
+/// Runs it and checks that it writes `name`.csv, with so many rows below the columns, and other
+/// files, plots above all.
+Outcome check_figure(const std::string& name, const std::vector<std::string>& others,
                      std::ptrdiff_t rows, const std::vector<std::string>& arguments) {
     INFO(name);
     const TemporaryFolder folder;
     Outcome outcome = run(folder, arguments, paper());
     REQUIRE(outcome.status == 0);
     CHECK(outcome.err.empty());
-    std::vector<std::string> expected = plots;
+    std::vector<std::string> expected = others;
     expected.push_back(name + ".csv");
     std::sort(expected.begin(), expected.end());
     CHECK(files_in(folder) == expected);
@@ -37,9 +38,9 @@ Outcome check_figure(const std::string& name, const std::vector<std::string>& pl
         CHECK(std::count(line.begin(), line.end(), ',') ==
               std::count(lines[0].begin(), lines[0].end(), ','));
     }
-    for (const std::string& plot : plots) {
-        CHECK(contains(bytes_of(folder / plot), "<svg "));
-        CHECK_FALSE(contains(bytes_of(folder / plot), "nan"));
+    for (const std::string& other : others) {
+        CHECK(contains(bytes_of(folder / other), other.ends_with(".svg") ? "<svg " : ", commit "));
+        CHECK_FALSE(contains(bytes_of(folder / other), "nan"));
     }
     CHECK(contains(outcome.out, name + ".csv"));
     return outcome;
@@ -54,6 +55,18 @@ TEST_CASE("table1 stands beside the printed rows") {
     CHECK(contains(outcome.out, "reference"));
     CHECK(contains(outcome.out, "91.39"));
     CHECK_FALSE(contains(outcome.out, "75.94"));
+}
+
+TEST_CASE("fig4 tells methods apart by their spectra") {
+    const Outcome outcome = check_figure("fig4", {"fig4-curves.csv", "fig4a.svg", "fig4b.svg"}, 6,
+                                         {"fig4", "builtin:icosphere:3", "-n", "60", "--harmonics",
+                                          "100", "--repeats", "3", "--deals", "40"});
+    for (const char* const text : {"phase groups (closed form)", "-1.76 dB", "detectable"}) {
+        CHECK(contains(outcome.out, text));
+    }
+    const TemporaryFolder folder;
+    check_fails(folder, 2, "--harmonics", {"fig4", "builtin:icosphere:1", "--harmonics", "1000"},
+                paper());
 }
 
 TEST_CASE("fig5 sweeps samples and candidates") {

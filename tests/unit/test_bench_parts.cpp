@@ -1,4 +1,4 @@
-#include "bench/log_plot.hpp"
+#include "bench/line_plot.hpp"
 #include "bench/statistics.hpp"
 #include "bench/subdivision.hpp"
 
@@ -95,7 +95,7 @@ TEST_CASE("subdivision keeps the surface and how it hangs together") {
 }
 
 TEST_CASE("a plot draws every line and escapes its texts") {
-    LogPlot plot{"a < b & c, 'd' \"e\" `f` \\n", "samples", "time", "s", false, {}};
+    LinePlot plot{"a < b & c, 'd' \"e\" `f` \\n", "samples", "time", "s", false, {}};
     plot.lines.push_back({"solid", 0, false, {{100, 0.1}, {1000, 0.2}}});
     plot.lines.push_back({"dashed", 7, true, {{100, 0.3}, {0, 5}}}); // One cannot be drawn.
     plot.lines.push_back({"empty", 2, false, {}});
@@ -109,11 +109,11 @@ TEST_CASE("a plot draws every line and escapes its texts") {
         CHECK(contains(svg, text));
     }
     CHECK_FALSE(contains(svg, ">5 s<"));
-    CHECK(contains(svg_text(LogPlot{}), "</svg>"));
+    CHECK(contains(svg_text(LinePlot{}), "</svg>"));
 }
 
 TEST_CASE("small numbers without a unit are in full") {
-    LogPlot plot;
+    LinePlot plot;
     plot.lines.push_back({"", 0, false, {{0.05, 1e5}, {0.2, 2e6}}});
     const std::string svg = svg_text(plot);
     for (const char* const text : {">0.05<", ">0.1<", ">100k<", ">2M<"}) {
@@ -123,7 +123,7 @@ TEST_CASE("small numbers without a unit are in full") {
 }
 
 TEST_CASE("a linear axis reaches from the least to the greatest value") {
-    LogPlot plot{"", "", "", "%", true, {}};
+    LinePlot plot{"", "", "", "%", true, {}};
     plot.lines.push_back({"rho", 0, false, {{10, 0.701}, {100, 0.778}}});
     const std::string svg = svg_text(plot);
     for (const char* const text : {">0.7 %<", ">0.74 %<", ">0.78 %<"}) {

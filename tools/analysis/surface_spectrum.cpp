@@ -7,17 +7,15 @@
 namespace geodisk::tools::analysis {
 namespace {
 
-/// Of all functions of a band at the samples of a set.
-Eigen::VectorXd sums_of(const HarmonicBand& band, const Laplacian& laplacian,
-                        const PlacedSamples& samples) {
-    Eigen::VectorXd at_nodes = Eigen::VectorXd::Zero(laplacian.mass.rows());
+/// Of a function over the samples, by its values at the nodes.
+double sum_of(const double* at_nodes, const Laplacian& laplacian, const PlacedSamples& samples) {
+    double sum = 0;
     for (const auto& [face, weight1, weight2] : samples) {
         const std::uint32_t* const nodes = &laplacian.nodes[std::size_t{3} * face];
-        at_nodes[nodes[0]] += 1 - weight1 - weight2;
-        at_nodes[nodes[1]] += weight1;
-        at_nodes[nodes[2]] += weight2;
+        sum += (1 - weight1 - weight2) * at_nodes[nodes[0]] + weight1 * at_nodes[nodes[1]] +
+               weight2 * at_nodes[nodes[2]];
     }
-    return band.functions.transpose() * at_nodes;
+    return sum;
 }
 
 } // namespace
@@ -51,18 +49,14 @@ SurfaceSpectrum compute_spectrum(const Laplacian& laplacian, const ManifoldHarmo
     harmonics.compute(
         count,
         [&](const HarmonicBand& band) {
-            const auto size = static_cast<std::size_t>(band.eigenvalues.size());
-            for (std::size_t i = 0; i < size; ++i) {
-                spectrum.frequencies[band.first + i] =
-                    std::sqrt(band.eigenvalues[static_cast<Eigen::Index>(i)]) /
-                    (2 * std::numbers::pi);
-            }
-            for (std::size_t set = 0; set < sets.size(); ++set) {
-                const Eigen::VectorXd sums = sums_of(band, laplacian, sets[set]);
-                const double scale = laplacian.area / static_cast<double>(sets[set].size());
-                for (std::size_t i = 0; i < size; ++i) {
-                    const double sum = sums[static_cast<Eigen::Index>(i)];
-                    spectrum.powers[set][band.first + i] = scale * sum * sum;
+            for (Eigen::Index i = 0; i < band.eigenvalues.size(); ++i) {
+                const std::size_t harmonic = band.first + static_cast<std::size_t>(i);
+                spectrum.frequencies[harmonic] =
+                    std::sqrt(band.eigenvalues[i]) / (2 * std::numbers::pi);
+                for (std::size_t set = 0; set < sets.size(); ++set) {
+                    const double sum = sum_of(band.functions.col(i).data(), laplacian, sets[set]);
+                    spectrum.powers[set][harmonic] =
+                        sum * sum * laplacian.area / static_cast<double>(sets[set].size());
                 }
             }
         },

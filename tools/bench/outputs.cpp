@@ -4,7 +4,7 @@
 #include <list>
 #include <string>
 
-#include "bench/log_plot.hpp"
+#include "bench/line_plot.hpp"
 #include "bench/report.hpp"
 #include "files/output_file.hpp"
 #include "program/failure.hpp"
@@ -42,7 +42,7 @@ struct Quantity {
 };
 
 /// Adds a line per mesh and quantity, those of one mesh side by side.
-void add_lines(LogPlot& plot, const std::vector<Series>& series, Sweep sweep,
+void add_lines(LinePlot& plot, const std::vector<Series>& series, Sweep sweep,
                std::initializer_list<Quantity> quantities) {
     std::size_t group = 0;
     for (const Series& one : series) {
@@ -50,7 +50,7 @@ void add_lines(LogPlot& plot, const std::vector<Series>& series, Sweep sweep,
             continue;
         }
         for (const Quantity& quantity : quantities) {
-            LogPlot::Line line{one.mesh + quantity.name, group, quantity.is_dashed, {}};
+            LinePlot::Line line{one.mesh + quantity.name, group, quantity.is_dashed, {}};
             for (const Measurement& row : one.rows) {
                 line.points.push_back({swept_value(sweep, row), quantity.value(row)});
             }
@@ -65,18 +65,18 @@ std::vector<std::string> plot_texts(const Circumstances& circumstances,
                                     const std::vector<Series>& series) {
     const std::string& device = circumstances.device;
     const char* const time = "time from candidates to set";
-    LogPlot time_n{.title = "Time by samples, " + device,
-                   .x_label = "samples",
-                   .y_label = time,
-                   .y_unit = "s"};
-    LogPlot time_faces{.title = "Time by triangles of the same surface, " + device,
-                       .x_label = "triangles",
-                       .y_label = time,
-                       .y_unit = "s"};
-    LogPlot memory_n{.title = "Device memory by samples, " + device,
-                     .x_label = "samples",
-                     .y_label = "device memory",
-                     .y_unit = "B"};
+    LinePlot time_n{.title = "Time by samples, " + device,
+                    .x_label = "samples",
+                    .y_label = time,
+                    .y_unit = "s"};
+    LinePlot time_faces{.title = "Time by triangles of the same surface, " + device,
+                        .x_label = "triangles",
+                        .y_label = time,
+                        .y_unit = "s"};
+    LinePlot memory_n{.title = "Device memory by samples, " + device,
+                      .x_label = "samples",
+                      .y_label = "device memory",
+                      .y_unit = "B"};
     const auto both = {
         Quantity{[](const Measurement& row) { return row.seconds.device; }, ", device", false},
         Quantity{[](const Measurement& row) { return row.seconds.reference; }, ", reference",

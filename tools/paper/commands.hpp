@@ -7,6 +7,7 @@ namespace geodisk::paper {
 
 void add_table1(CLI::App& app);
 void add_boxes(CLI::App& app);
+void add_fig4(CLI::App& app);
 void add_fig5(CLI::App& app);
 void add_fig7(CLI::App& app);
 void add_fig8(CLI::App& app);

@@ -34,7 +34,11 @@ SampleSet Device::run(Runner& runner, const PaperMesh& mesh, const SampleParams&
     return tools::take(std::move(result), mesh.name);
 }
 
-DeviceRun Device::sample(const PaperMesh& mesh, SampleParams params, int repeats) {
+SampleSet Device::sample(const PaperMesh& mesh, const SampleParams& params) {
+    return run(runner_, mesh, params);
+}
+
+DeviceRun Device::measure(const PaperMesh& mesh, SampleParams params, int repeats) {
     DeviceRun mean;
     std::vector<double> seconds;
     std::vector<double> rhos;

@@ -33,15 +33,17 @@ class Device {
 
     const std::string& name() const { return context_.report().name; }
 
+    SampleSet sample(const PaperMesh& mesh, const SampleParams& params);
+
     /// One run to warm up and `repeats` with ascending seeds.
-    DeviceRun sample(const PaperMesh& mesh, SampleParams params, int repeats);
+    DeviceRun measure(const PaperMesh& mesh, SampleParams params, int repeats);
 
     /// A run with `slots` active candidates at a time and their calls of CheckStatus counted.
     SampleSet count_calls(const PaperMesh& mesh, const SampleParams& params, std::uint32_t slots);
 
   private:
     Runner make_runner(RunnerOptions options = {}) const;
-    SampleSet run(Runner& runner, const PaperMesh& mesh, const SampleParams& params);
+    static SampleSet run(Runner& runner, const PaperMesh& mesh, const SampleParams& params);
 
     Context context_;
     Runner runner_;

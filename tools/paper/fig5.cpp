@@ -22,7 +22,7 @@ struct Options {
 /// Draws the three parts of the figure while it fills the table.
 struct Figure {
     Table table{{"mesh", "sweep", "|P|/|S|", "samples", "seconds", "samples/s", "rho"}};
-    bench::LogPlot speed_by_count, speed_by_ratio, rho_by_ratio;
+    bench::LinePlot speed_by_count, speed_by_ratio, rho_by_ratio;
 
     explicit Figure(const std::string& device) {
         speed_by_count.title = "Speed by samples, " + device;
@@ -31,16 +31,16 @@ struct Figure {
         rho_by_ratio.title = "Packing density by candidates per sample";
         rho_by_ratio.y_label = "rho";
         rho_by_ratio.is_linear_y = true;
-        for (bench::LogPlot* const plot : {&speed_by_ratio, &rho_by_ratio}) {
+        for (bench::LinePlot* const plot : {&speed_by_ratio, &rho_by_ratio}) {
             plot->x_label = "candidates per sample";
         }
-        for (bench::LogPlot* const plot : {&speed_by_count, &speed_by_ratio}) {
+        for (bench::LinePlot* const plot : {&speed_by_count, &speed_by_ratio}) {
             plot->y_label = "samples per second";
         }
     }
 
     void begin_mesh(const std::string& name) {
-        for (bench::LogPlot* const plot : {&speed_by_count, &speed_by_ratio, &rho_by_ratio}) {
+        for (bench::LinePlot* const plot : {&speed_by_count, &speed_by_ratio, &rho_by_ratio}) {
             plot->lines.push_back({name, plot->lines.size(), false, {}});
         }
     }
@@ -74,11 +74,11 @@ void run(const Options& options) {
         for (const double count : counts) {
             const SampleParams params =
                 params_for(mesh, count, kDefaultPoolRatio, options.common.seed);
-            figure.add(mesh.name, false, device.sample(mesh, params, options.common.repeats));
+            figure.add(mesh.name, false, device.measure(mesh, params, options.common.repeats));
         }
         for (const double ratio : ratios) {
             const SampleParams params = params_for(mesh, ratio_count, ratio, options.common.seed);
-            figure.add(mesh.name, true, device.sample(mesh, params, options.common.repeats));
+            figure.add(mesh.name, true, device.measure(mesh, params, options.common.repeats));
         }
     }
     outputs.add_table(

@@ -25,7 +25,7 @@ void run(const Options& options) {
 
     Table table(
         {"mesh", "triangles", "area", "radius", "samples", "rho", "least", "most", "seconds"});
-    bench::LogPlot plot;
+    bench::LinePlot plot;
     plot.title = "Packing density of " + options.count + " samples by triangles";
     plot.x_label = "triangles";
     plot.y_label = "rho";
@@ -35,7 +35,7 @@ void run(const Options& options) {
     plot.lines.push_back({"most", 2, true, {}});
     for (const PaperMesh& mesh : meshes) {
         const SampleParams params = params_for(mesh, count, kDefaultPoolRatio, options.common.seed);
-        const DeviceRun result = device.sample(mesh, params, options.common.repeats);
+        const DeviceRun result = device.measure(mesh, params, options.common.repeats);
         const auto triangles = static_cast<double>(mesh.prepared.statistics().triangles);
         table.add({mesh.name, tools::fixed(triangles, 0), tools::rounded(mesh.area(), 6),
                    tools::rounded(params.min_distance / 2, 6), tools::fixed(result.samples, 1),

@@ -33,7 +33,7 @@ void run(const Options& options) {
     const std::vector<double> counts = options.counts.counts();
     const std::vector<PaperMesh> meshes = load_meshes(options.meshes);
     Table table({"mesh", "metric", "samples", "pairs too close", "samples too close", "%"});
-    bench::LogPlot plot;
+    bench::LinePlot plot;
     plot.title = "Samples of the closed form that are too close";
     plot.x_label = "samples";
     plot.y_label = "too close to another by exact distance";

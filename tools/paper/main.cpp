@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kFooter =
     R"(The paper is Ying, Xin, Sun and He, "An Intrinsic Algorithm for Parallel Poisson Disk Sampling
 on Arbitrary Surfaces", IEEE TVCG 19(9), 2013. Each subcommand prints a table and writes it as CSV,
-with plots as SVG, into the folder --out. fig5, fig8 and boxes run on a Vulkan device, table1 on
+with plots as SVG, into the folder --out. fig4, fig5, fig8 and boxes run on a Vulkan device, table1 on
 one and on the host; the others are sequential, in double precision, on one core.
 
 Examples:
@@ -26,6 +26,7 @@ void set_up(CLI::App& app) {
     app.footer(kFooter);
     app.require_subcommand(1);
     geodisk::paper::add_table1(app);
+    geodisk::paper::add_fig4(app);
     geodisk::paper::add_fig5(app);
     geodisk::paper::add_fig7(app);
     geodisk::paper::add_fig8(app);

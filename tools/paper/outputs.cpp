@@ -24,16 +24,20 @@ Outputs::Outputs(const std::string& folder, const std::string& name, bool has_pl
 void Outputs::add_table(const Table& table, const std::vector<std::string>& circumstances,
                         const std::string& heading, const std::string& remarks) {
     std::cout << heading << "\n\n" << table.text() << '\n' << remarks << '\n';
-    std::string text = "# geodisk " GEODISK_VERSION_STRING ", commit ";
-    text += kCommit;
-    text += kCommitIsDirty ? " with changes\n" : "\n";
+    circumstances_ = "# geodisk " GEODISK_VERSION_STRING ", commit ";
+    circumstances_ += kCommit;
+    circumstances_ += kCommitIsDirty ? " with changes\n" : "\n";
     for (const std::string& line : circumstances) {
-        text += "# " + tools::one_line(line) + '\n';
+        circumstances_ += "# " + tools::one_line(line) + '\n';
     }
-    files_.push_back({prefix_ + ".csv", text + table.csv()});
+    add_data("", table);
 }
 
-void Outputs::add_plot(const std::string& ending, const bench::LogPlot& plot) {
+void Outputs::add_data(const std::string& ending, const Table& table) {
+    files_.push_back({prefix_ + ending + ".csv", circumstances_ + table.csv()});
+}
+
+void Outputs::add_plot(const std::string& ending, const bench::LinePlot& plot) {
     files_.push_back({prefix_ + ending + ".svg", bench::svg_text(plot)});
 }
 

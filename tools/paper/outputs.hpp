@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/log_plot.hpp"
+#include "bench/line_plot.hpp"
 #include "program/table.hpp"
 
 namespace geodisk::paper {
@@ -23,8 +23,11 @@ class Outputs {
     void add_table(const Table& table, const std::vector<std::string>& circumstances,
                    const std::string& heading, const std::string& remarks);
 
+    /// `name` + `ending`.csv, which is not printed; after add_table(), whose circumstances it has.
+    void add_data(const std::string& ending, const Table& table);
+
     /// `name` + `ending`.svg.
-    void add_plot(const std::string& ending, const bench::LogPlot& plot);
+    void add_plot(const std::string& ending, const bench::LinePlot& plot);
 
     /// Writes all of them, or throws and writes none. Prints their names.
     void write() const;
@@ -34,6 +37,7 @@ class Outputs {
         std::string path, text;
     };
     std::string prefix_; ///< Folder and name.
+    std::string circumstances_;
     std::vector<File> files_;
 };
 

@@ -1,8 +1,13 @@
 #include "paper/pool.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
+#include "baselines/random.hpp"
 #include "engine/tolerances.hpp"
 #include "files/mesh_file.hpp"
 #include "kernels/pool.hpp"
@@ -37,6 +42,28 @@ Pool draw_pool(const PaperMesh& mesh, const SampleParams& params) {
     const ref::Surface<double> surface(mesh.prepared, params);
     return {params, first_tolerances(mesh.prepared, params),
             ref::draw_pool(surface, mesh.prepared, params).by_rank()};
+}
+
+Pool draw_independent_pool(const PaperMesh& mesh, const SampleParams& params) {
+    tools::check_interrupted();
+    const auto size = tools::take(pool_size(mesh.prepared, params), mesh.name);
+    std::vector<double> areas; // Of all faces up to each.
+    double area = 0;
+    const auto& edges = mesh.prepared.half_edges();
+    for (std::size_t first = 0; first < edges.size(); first += 3) {
+        area += edges[first].length * edges[first].apex_y / 2;
+        areas.push_back(area);
+    }
+    ref::RandomStream random(params.seed);
+    Pool pool{params, first_tolerances(mesh.prepared, params), {}};
+    for (std::uint64_t i = 0; i < size; ++i) {
+        const auto above = std::upper_bound(areas.begin(), areas.end(), random.uniform() * area);
+        const auto face = static_cast<std::uint32_t>(
+            std::min<std::ptrdiff_t>(above - areas.begin(), std::ssize(areas) - 1));
+        const double from_corner = std::sqrt(random.uniform()), along = random.uniform();
+        pool.by_rank.push_back({face, from_corner * (1 - along), from_corner * along});
+    }
+    return pool;
 }
 
 } // namespace geodisk::paper

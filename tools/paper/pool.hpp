@@ -38,4 +38,8 @@ SampleParams params_for(const PaperMesh& mesh, double count, double ratio, std::
 
 Pool draw_pool(const PaperMesh& mesh, const SampleParams& params);
 
+/// As many candidates as draw_pool() has on average, drawn otherwise: one after the other, each
+/// uniform by area over the whole surface and independent of the others.
+Pool draw_independent_pool(const PaperMesh& mesh, const SampleParams& params);
+
 } // namespace geodisk::paper

@@ -45,9 +45,9 @@ std::vector<std::string> columns() {
 }
 
 /// `group` is that of the ratio: measured and printed lines share a colour.
-void add_line(bench::LogPlot& plot, const std::string& label, std::size_t group, bool is_printed,
+void add_line(bench::LinePlot& plot, const std::string& label, std::size_t group, bool is_printed,
               const std::array<double, 10>& percent) {
-    bench::LogPlot::Line line{label, group, is_printed, {}};
+    bench::LinePlot::Line line{label, group, is_printed, {}};
     for (std::size_t i = 0; i < percent.size(); ++i) {
         line.points.push_back({static_cast<double>(i + 1), percent[i]});
     }
@@ -55,7 +55,7 @@ void add_line(bench::LogPlot& plot, const std::string& label, std::size_t group,
 }
 
 /// Adds the printed row for the same ratio where there is one.
-void add_printed(Table& table, bench::LogPlot& plot, double ratio, std::size_t group) {
+void add_printed(Table& table, bench::LinePlot& plot, double ratio, std::size_t group) {
     for (const PrintedRow& printed : kPrinted) {
         if (printed.ratio != ratio) {
             continue;
@@ -145,7 +145,7 @@ void run(const Options& options) {
     Device device(options.device);
 
     Table table(columns());
-    bench::LogPlot plot;
+    bench::LinePlot plot;
     plot.title = "Calls of CheckStatus, " + mesh.name +
                  ", |P|/N = " + tools::rounded(pool_ratios.front(), 4);
     plot.x_label = "calls, the last point for 10 and more";

@@ -1,4 +1,4 @@
-#include "bench/log_plot.hpp"
+#include "bench/line_plot.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-
-#include "program/exact_text.hpp"
-#include "program/failure.hpp"
-#include "program/human_text.hpp"
 
 #ifndef _WIN32
 #include <fcntl.h>
@@ -48,7 +44,7 @@ std::string quoted(const std::string& text) {
 
 /// What an axis has to show.
 struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = 0;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
 
     void add(double value) {
         low = std::min(low, value);
@@ -61,12 +57,14 @@ std::string range_text(char axis, double low, double high) {
            tools::exact_text(high) + "]\n";
 }
 
+/// From below the least to above the greatest value; sideways lines may begin and end at the frame.
 std::string linear_axis(char axis, const Range& range, const std::string& unit) {
+    const double margin = axis == 'x' ? 0 : 0.1;
     const double extent = range.high > range.low ? range.high - range.low
-                          : range.high > 0       ? range.high
+                          : range.high != 0      ? std::abs(range.high)
                                                  : 1;
-    return range_text(axis, range.low - 0.1 * extent, range.high + 0.1 * extent) + "set format " +
-           axis + ' ' + quoted("%g" + (unit.empty() ? "" : ' ' + unit)) + '\n';
+    return range_text(axis, range.low - margin * extent, range.high + margin * extent) +
+           "set format " + axis + ' ' + quoted("%g" + (unit.empty() ? "" : ' ' + unit)) + '\n';
 }
 
 /// Ticks at powers of ten and, where there is room for them, at some or all multiples in between,
@@ -83,20 +81,19 @@ std::string log_axis(char axis, const Range& range, const std::string& unit) {
            " add (gprintf(" + quoted(format) + ", k * 10.0**i) k * 10.0**i)\n";
 }
 
-bool is_drawable(const Point& point, bool is_linear_y) {
-    return point.x > 0 && (point.y > 0 || (is_linear_y && point.y == 0)) &&
-           std::isfinite(point.x) && std::isfinite(point.y);
+bool is_drawable(double value, bool is_linear) {
+    return std::isfinite(value) && (is_linear || value > 0);
 }
 
-std::string script_of(const LogPlot& plot) {
+std::string script_of(const LinePlot& plot) {
     Range x, y;
     std::string data, lines;
     for (std::size_t i = 0; i < plot.lines.size(); ++i) {
-        const LogPlot::Line& line = plot.lines[i];
+        const LinePlot::Line& line = plot.lines[i];
         const std::string name = "$line" + std::to_string(i);
         std::string points;
         for (const Point& point : line.points) {
-            if (is_drawable(point, plot.is_linear_y)) {
+            if (is_drawable(point.x, plot.is_linear_x) && is_drawable(point.y, plot.is_linear_y)) {
                 x.add(point.x);
                 y.add(point.y);
                 points += tools::exact_text(point.x) + ' ' + tools::exact_text(point.y) + '\n';
@@ -105,12 +102,12 @@ std::string script_of(const LogPlot& plot) {
         // A line without points is in the legend as well.
         data += name + " << END\n" + (points.empty() ? "NaN NaN\n" : points) + "END\n";
         const int marker = kMarkers[line.group / kColours.size() % kMarkers.size()];
-        lines += ", " + name + " with linespoints linewidth 2 dashtype " +
-                 (line.is_dashed ? "2" : "1") + " pointtype " +
+        lines += ", " + name + " with " + (line.has_markers ? "linespoints" : "lines") +
+                 " linewidth 2 dashtype " + (line.is_dashed ? "2" : "1") + " pointtype " +
                  std::to_string(line.is_dashed ? marker - 1 : marker) + " linecolor rgb '" +
                  kColours[line.group % kColours.size()] + "' title " + quoted(line.label);
     }
-    if (x.high == 0) { // Nothing to draw: axes alone.
+    if (x.high < x.low) { // Nothing to draw: axes alone.
         x = y = {1, 10};
     }
     const std::string unit = plot.y_unit == "%" ? "%%" : plot.y_unit; // As formats want it.
@@ -119,7 +116,8 @@ std::string script_of(const LogPlot& plot) {
            std::to_string(500 + 20 * rows) + " font 'sans-serif,13' background 'white'\n" +
            "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) +
            "\nset ylabel " + quoted(plot.y_label) +
-           "\nset grid\nset key below maxcols 2 Left reverse\n" + log_axis('x', x, "") +
+           "\nset grid\nset key below maxcols 2 Left reverse\n" +
+           (plot.is_linear_x ? linear_axis : log_axis)('x', x, "") +
            (plot.is_linear_y ? linear_axis : log_axis)('y', y, unit) + data + "plot NaN notitle" +
            lines + '\n';
 }
@@ -167,7 +165,7 @@ void check_gnuplot() {
     }
 }
 
-std::string svg_text(const LogPlot& plot) {
+std::string svg_text(const LinePlot& plot) {
     const std::optional<std::string> svg = drawn(script_of(plot));
     if (!svg) {
         tools::fail_output("gnuplot cannot draw the plot " + tools::in_quotes(plot.title));
