@@ -1,7 +1,7 @@
 #include "geodisk/picture_run.hpp"
 
-#include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include <geodisk/version.hpp>
 
@@ -9,6 +9,7 @@
 #include "geodisk/opened_device.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "picture/png.hpp"
+#include "picture/surface_content.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -112,22 +113,10 @@ void draw_surface(const RenderOptions& options, const picture::PictureParams& pa
     }
     progress.begin_stage("computing the disks");
     const Stopwatch watch;
-    const double spacing = 2 * median_radius(disks);
-    const double reach = picture::reach_of(params.style);
-    std::vector<double> radii;
-    radii.reserve(disks.size());
-    for (SurfaceDisk& disk : disks) {
-        radii.push_back(disk.radius);
-        disk.radius *= reach;
-    }
-    const picture::WindowTable table =
-        picture::make_window_table(mesh, disks, spacing, show_progress(progress));
-    std::vector<picture::SampleRec> samples;
-    samples.reserve(radii.size());
-    for (const double radius : radii) {
-        samples.push_back({static_cast<float>(radius / table.unit), color_of(samples.size())});
-    }
-    draw_content(options, params, subject, {scene, table, samples}, progress, watch.seconds());
+    const picture::SurfaceContent content = picture::make_surface_content(
+        mesh, std::move(disks), params.style, show_progress(progress));
+    draw_content(options, params, subject, {scene, content.table, content.samples}, progress,
+                 watch.seconds());
 }
 
 void draw_content(const RenderOptions& options, const picture::PictureParams& params,

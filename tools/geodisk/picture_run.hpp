@@ -35,9 +35,4 @@ void draw_content(const RenderOptions& options, const picture::PictureParams& pa
                   const Subject& subject, const picture::Content& content, ProgressLine& progress,
                   double window_seconds = 0);
 
-/// Neighbours in a file get any colours.
-inline std::uint32_t color_of(std::size_t sample) {
-    return static_cast<std::uint32_t>(sample) * 2654435761u >> 8;
-}
-
 } // namespace geodisk::tools

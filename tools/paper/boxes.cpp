@@ -47,13 +47,6 @@ void add_run(Speed& speed, Work&& work) {
     speed.seconds.push_back(watch.seconds());
 }
 
-SampleSet run_device(Runner& runner, const BoxParams& box) {
-    auto result = runner.sample_and_wait(tools::take(Domain::box(box)),
-                                         [](const Progress&) { return !tools::is_interrupted(); });
-    tools::check_interrupted();
-    return tools::take(std::move(result));
-}
-
 void check_equal(const SampleSet& set, const BoxParams& box) {
     const ref::BoxPool<float> pool(box);
     const ref::BoxLattice lattice(box);
@@ -81,10 +74,10 @@ void add_dimension(const Options& options, const Context& context, std::uint32_t
         static_cast<std::uint32_t>(tools::parse_ratio("--trials", options.trials, 1, 1000));
     Runner runner =
         tools::take(Runner::create(context.device(), context.queue(), kept_options(context)));
-    check_equal(run_device(runner, box), box);
+    check_equal(run_box(runner, box), box);
     Speed device, reference, around;
     for (int i = 0; i < options.common.repeats; ++i, ++box.seed) {
-        const SampleSet set = run_device(runner, box);
+        const SampleSet set = run_box(runner, box);
         device.samples = static_cast<double>(set.points.size()) / dimension;
         device.seconds.push_back(set.report.seconds.sample);
         add_run(reference, [&] { return ref::throw_darts(ref::BoxPool<double>(box)).size(); });

@@ -1,6 +1,7 @@
 #include "paper/device.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bench/statistics.hpp"
@@ -10,8 +11,11 @@
 
 namespace geodisk::paper {
 
-Context open_context(const std::string& name) {
-    return tools::take(Context::create({name, /* validation */ false, {}}));
+Context open_context(const std::string& name, bool graphics) {
+    ContextOptions options;
+    options.device = name;
+    options.graphics = graphics;
+    return tools::take(Context::create(options));
 }
 
 RunnerOptions kept_options(const Context& context) {
@@ -20,7 +24,8 @@ RunnerOptions kept_options(const Context& context) {
     return options;
 }
 
-Device::Device(const std::string& name) : context_(open_context(name)), runner_(make_runner()) {}
+Device::Device(const std::string& name, bool graphics)
+    : context_(open_context(name, graphics)), runner_(make_runner()) {}
 
 Runner Device::make_runner(RunnerOptions options) const {
     options.sampler.tuning = kept_options(context_).sampler.tuning;
@@ -32,6 +37,17 @@ SampleSet Device::run(Runner& runner, const PaperMesh& mesh, const SampleParams&
                                          [](const Progress&) { return !tools::is_interrupted(); });
     tools::check_interrupted();
     return tools::take(std::move(result), mesh.name);
+}
+
+SampleSet run_box(Runner& runner, const BoxParams& box) {
+    auto result = runner.sample_and_wait(tools::take(Domain::box(box)),
+                                         [](const Progress&) { return !tools::is_interrupted(); });
+    tools::check_interrupted();
+    return tools::take(std::move(result));
+}
+
+SampleSet Device::sample(const BoxParams& box) {
+    return run_box(runner_, box);
 }
 
 SampleSet Device::sample(const PaperMesh& mesh, const SampleParams& params) {

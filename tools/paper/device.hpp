@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include <geodisk/box.hpp>
 #include <geodisk/context.hpp>
 #include <geodisk/runner.hpp>
 
@@ -11,11 +12,14 @@
 
 namespace geodisk::paper {
 
-/// An empty name for the default device.
-Context open_context(const std::string& name);
+/// An empty name for the default device. With `graphics` the queue is to draw as well.
+Context open_context(const std::string& name, bool graphics = false);
 
 /// With the tuning that is kept for the device.
 RunnerOptions kept_options(const Context& context);
+
+/// A run that a signal ends. Throws UserError.
+SampleSet run_box(Runner& runner, const BoxParams& box);
 
 struct DeviceRun {
     double samples = 0; ///< Mean over the repetitions.
@@ -28,12 +32,14 @@ struct DeviceRun {
 /// A device with the tuning that is kept for it.
 class Device {
   public:
-    /// An empty name for the default one.
-    explicit Device(const std::string& name);
+    /// As open_context().
+    explicit Device(const std::string& name, bool graphics = false);
 
+    const Context& context() const { return context_; }
     const std::string& name() const { return context_.report().name; }
 
     SampleSet sample(const PaperMesh& mesh, const SampleParams& params);
+    SampleSet sample(const BoxParams& box);
 
     /// One run to warm up and `repeats` with ascending seeds.
     DeviceRun measure(const PaperMesh& mesh, SampleParams params, int repeats);

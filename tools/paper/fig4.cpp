@@ -263,15 +263,15 @@ void run(const Options& options) {
         "Dart throwing has independent uniform candidates, not those that geodisk draws. Off"
         "\nis the root mean square over harmonics of what radial mean and anisotropy are off from"
         "\nthose of dart throwing, p how often chance makes it as large, by permutation of the"
-        "\nruns; detectable is what would be found, with p < 0.05, nine times of ten. If no "
-        "direction is another than the others the anisotropy is " +
+        "\nruns; detectable is what would be found, with p < 0.05, nine times of ten."
+        "\nIf no direction is another than the others the anisotropy is " +
             tools::fixed(decibels(2.0 / common.repeats), 2) +
             " dB.\n"
             "The paper: its method has the spectra of dart throwing, by exact distances and the"
             "\nclosed form of Bowers et al.; the anisotropy of phase groups deviates.");
     outputs.add_data("-curves", figure.curves);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const std::string number = meshes.size() > 1 ? std::to_string(i + 1) : "";
+        const std::string number = meshes.size() > 1 ? "-" + std::to_string(i + 1) : "";
         outputs.add_plot(number + "a", figure.radial_means[i]);
         outputs.add_plot(number + "b", figure.anisotropies[i]);
     }

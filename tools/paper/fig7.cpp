@@ -4,9 +4,11 @@
 #include <optional>
 
 #include "paper/commands.hpp"
+#include "paper/device.hpp"
 #include "paper/metrics.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
+#include "paper/painter.hpp"
 #include "program/arguments.hpp"
 #include "program/human_text.hpp"
 
@@ -15,7 +17,9 @@ namespace {
 
 struct Options {
     CommonOptions common;
+    std::string device;
     NumberList distances{"", {"0.05", "0.1", "0.2"}};
+    PanelSize size;
 };
 
 struct Surface {
@@ -28,6 +32,7 @@ constexpr Surface kSurfaces[] = {
     {"builtin:swiss-roll", "builtin:unrolled-sheet"},
     {"builtin:crossed-sheet", "builtin:uncrossed-sheet"},
 };
+constexpr const char* kCrossing = "builtin:crossed-sheet:48";
 
 struct Comparison {
     std::array<Tally, kMetrics.size()> tallies;
@@ -92,9 +97,25 @@ struct Figure {
     }
 };
 
+/// The sheet that crosses itself: through space, by the closed form and by exact distances.
+Pixels show_crossing(const Painter& painter, double distance, const Options& options) {
+    PictureParams panel;
+    panel.width = panel.height = options.size.pixels();
+    const PaperMesh mesh = load_mesh(kCrossing);
+    const Pool pool = draw_pool(mesh, {distance, options.common.seed, kDefaultPoolRatio});
+    std::vector<Pixels> panels;
+    for (const Metric metric : {Metric::straight, Metric::curve, Metric::exact}) {
+        panels.push_back(
+            painter.surface(mesh, disks_of(pool, throw_darts(mesh, pool, metric)), panel));
+    }
+    return side_by_side(panels);
+}
+
 void run(const Options& options) {
     Outputs outputs(options.common.out, "fig7");
     const std::vector<double> distances = options.distances.ratios(0.005, 10);
+    const Context context = open_context(options.device, /* graphics */ true);
+    const Painter painter(context);
     Figure figure;
     for (const Surface& surface : kSurfaces) {
         const PaperMesh mesh = load_mesh(surface.mesh);
@@ -118,8 +139,10 @@ void run(const Options& options) {
         "\nfolded sheet are 0.01 apart, the turns of the roll 0.05; the crossed sheet passes"
         "\nthrough itself. A surface laid flat has the same exact distances, so the same set.\n"
         "The paper gives no figures: methods that look for conflicts in space place fewer"
-        "\nsamples near a self-intersection.");
+        "\nsamples near a self-intersection. The picture has the crossed sheet, by straight lines,"
+        "\nthe closed form and exact distances.");
     outputs.add_plot("", figure.plot);
+    outputs.add_picture("", show_crossing(painter, distances[distances.size() / 2], options));
     outputs.write();
 }
 
@@ -131,6 +154,8 @@ void add_fig7(CLI::App& app) {
         run, [](CLI::App& command, Options& options) {
             add_list(command, options.distances, "--distances",
                      "Minimum distances, 0.005 to 10; the surfaces are about 1 wide");
+            add_panel_size(command, options.size);
+            add_device(command, options.device);
         });
 }
 

@@ -4,6 +4,7 @@
 #include "paper/device.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
+#include "paper/painter.hpp"
 #include "program/arguments.hpp"
 #include "program/human_text.hpp"
 
@@ -15,13 +16,18 @@ struct Options {
     std::vector<std::string> meshes;
     std::string device;
     std::string count = "700";
+    PanelSize size;
 };
 
 void run(const Options& options) {
     Outputs outputs(options.common.out, "fig8");
     const double count = tools::parse_count("--count", options.count);
     const std::vector<PaperMesh> meshes = load_meshes(options.meshes);
-    Device device(options.device);
+    PictureParams panel;
+    panel.width = panel.height = options.size.pixels();
+    Device device(options.device, /* graphics */ true);
+    const Painter painter(device.context());
+    std::vector<Pixels> panels;
 
     Table table(
         {"mesh", "triangles", "area", "radius", "samples", "rho", "least", "most", "seconds"});
@@ -36,6 +42,8 @@ void run(const Options& options) {
     for (const PaperMesh& mesh : meshes) {
         const SampleParams params = params_for(mesh, count, kDefaultPoolRatio, options.common.seed);
         const DeviceRun result = device.measure(mesh, params, options.common.repeats);
+        panels.push_back(painter.surface(
+            mesh, disks_of(device.sample(mesh, params), params.min_distance), panel));
         const auto triangles = static_cast<double>(mesh.prepared.statistics().triangles);
         table.add({mesh.name, tools::fixed(triangles, 0), tools::rounded(mesh.area(), 6),
                    tools::rounded(params.min_distance / 2, 6), tools::fixed(result.samples, 1),
@@ -55,6 +63,7 @@ void run(const Options& options) {
         "The paper: 700 samples on Bunny with 1.4k, 14k and 144k triangles look alike;"
         "\nrho is between 0.70 and 0.76 in all cases.");
     outputs.add_plot("", plot);
+    outputs.add_picture("", side_by_side(panels));
     outputs.write();
 }
 
@@ -67,6 +76,7 @@ void add_fig8(CLI::App& app) {
             add_meshes(command, options.meshes);
             tools::add_option(command, "-n,--count", options.count, "N", "Samples to aim at")
                 ->capture_default_str();
+            add_panel_size(command, options.size);
             add_device(command, options.device);
         });
 }

@@ -12,8 +12,9 @@ namespace {
 constexpr const char* kFooter =
     R"(The paper is Ying, Xin, Sun and He, "An Intrinsic Algorithm for Parallel Poisson Disk Sampling
 on Arbitrary Surfaces", IEEE TVCG 19(9), 2013. Each subcommand prints a table and writes it as CSV,
-with plots as SVG, into the folder --out. fig4, fig5, fig8 and boxes run on a Vulkan device, table1 on
-one and on the host; the others are sequential, in double precision, on one core.
+with plots as SVG and pictures as PNG, into the folder --out. fig13 and fig14 are sequential,
+in double precision, on one core; table1 runs on a Vulkan device and on the host, all others on a
+device, which draws their pictures as well.
 
 Examples:
   geodisk_paper table1 gargoyle.obj
@@ -24,16 +25,8 @@ The exit status is that of geodisk_bench. Whenever it is not 0, no file is writt
 void set_up(CLI::App& app) {
     app.set_version_flag("--version", "geodisk_paper " GEODISK_VERSION_STRING);
     app.footer(kFooter);
-    app.require_subcommand(1);
-    geodisk::paper::add_table1(app);
-    geodisk::paper::add_fig4(app);
-    geodisk::paper::add_fig5(app);
-    geodisk::paper::add_fig7(app);
-    geodisk::paper::add_fig8(app);
-    geodisk::paper::add_fig9(app);
-    geodisk::paper::add_fig13(app);
-    geodisk::paper::add_fig14(app);
-    geodisk::paper::add_boxes(app);
+    geodisk::paper::add_commands(app);
+    geodisk::paper::add_figures(app);
 }
 
 } // namespace

@@ -63,4 +63,15 @@ void add_device(CLI::App& command, std::string& device) {
                       "Device by name, index or UUID (geodisk info)");
 }
 
+std::uint32_t PanelSize::pixels() const {
+    constexpr double kFewest = 16, kMost = 4096;
+    return static_cast<std::uint32_t>(tools::parse_ratio("--size", text, kFewest, kMost));
+}
+
+void add_panel_size(CLI::App& command, PanelSize& size) {
+    tools::add_option(command, "--size", size.text, "W",
+                      "Pixels along each side of a picture, 16 to 4096")
+        ->capture_default_str();
+}
+
 } // namespace geodisk::paper

@@ -43,6 +43,16 @@ void add_list(CLI::App& command, NumberList& list, const std::string& option,
 
 void add_device(CLI::App& command, std::string& device);
 
+/// Pixels along each side of a picture.
+struct PanelSize {
+    std::string text = "640";
+
+    /// Throws UserError(usage).
+    std::uint32_t pixels() const;
+};
+
+void add_panel_size(CLI::App& command, PanelSize& size);
+
 /// Adds a subcommand that draws a figure: its own options, with `add(command, options)`, and the
 /// common ones, with so many repetitions; when chosen, it calls `run(options)`.
 template <class Options, class Run, class Add>

@@ -3,11 +3,14 @@
 #include <filesystem>
 #include <iostream>
 #include <list>
+#include <sstream>
+#include <utility>
 
 #include <geodisk/version.hpp>
 
 #include "files/output_file.hpp"
 #include "paper/commit.hpp"
+#include "picture/png.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -30,6 +33,10 @@ void Outputs::add_table(const Table& table, const std::vector<std::string>& circ
     for (const std::string& line : circumstances) {
         circumstances_ += "# " + tools::one_line(line) + '\n';
     }
+    std::istringstream caption(heading + ".\n" + remarks);
+    for (std::string line; std::getline(caption, line);) {
+        circumstances_ += "# " + line + '\n';
+    }
     add_data("", table);
 }
 
@@ -41,11 +48,20 @@ void Outputs::add_plot(const std::string& ending, const bench::LinePlot& plot) {
     files_.push_back({prefix_ + ending + ".svg", bench::svg_text(plot)});
 }
 
+void Outputs::add_picture(const std::string& ending, tools::picture::Pixels picture) {
+    files_.push_back({prefix_ + ending + ".png", std::move(picture)});
+}
+
 void Outputs::write() const {
     std::list<tools::AtomicFile> written;
     for (const File& file : files_) {
-        written.emplace_back(file.path).write(file.text);
-        written.back().sync();
+        tools::AtomicFile& output = written.emplace_back(file.path);
+        if (const auto* const text = std::get_if<std::string>(&file.content)) {
+            output.write(*text);
+        } else {
+            tools::picture::write_png(output, std::get<tools::picture::Pixels>(file.content));
+        }
+        output.sync();
     }
     for (tools::AtomicFile& file : written) {
         file.commit();

@@ -1,30 +1,35 @@
-// The files of a figure.
+// The files of a figure: a table, plots and pictures.
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/line_plot.hpp"
+#include "picture/picture.hpp"
 #include "program/table.hpp"
 
 namespace geodisk::paper {
 
 using tools::Table;
 
-/// Files that appear together, NAME.csv and plots.
+/// Files that appear together, NAME.csv, plots and pictures.
 class Outputs {
   public:
     /// Throws UserError(bad_output) if `folder` cannot take a file `name`.csv, or plots are to come
     /// and gnuplot is missing.
     Outputs(const std::string& folder, const std::string& name, bool has_plots = true);
 
-    /// `name`.csv, below comment lines that tell program and circumstances. Prints the table as
-    /// well, between `heading` and `remarks`.
+    /// `name`.csv, below comment lines with program, circumstances, `heading` and `remarks`. Prints
+    /// the table as well, between the latter two.
     void add_table(const Table& table, const std::vector<std::string>& circumstances,
                    const std::string& heading, const std::string& remarks);
 
     /// `name` + `ending`.csv, which is not printed; after add_table(), whose circumstances it has.
     void add_data(const std::string& ending, const Table& table);
+
+    /// `name` + `ending`.png.
+    void add_picture(const std::string& ending, tools::picture::Pixels picture);
 
     /// `name` + `ending`.svg.
     void add_plot(const std::string& ending, const bench::LinePlot& plot);
@@ -34,7 +39,8 @@ class Outputs {
 
   private:
     struct File {
-        std::string path, text;
+        std::string path;
+        std::variant<std::string, tools::picture::Pixels> content;
     };
     std::string prefix_; ///< Folder and name.
     std::string circumstances_;

@@ -19,7 +19,7 @@ namespace geodisk::paper {
 PaperMesh load_mesh(const std::string& path) {
     tools::MeshFile file = tools::read_mesh(path);
     PreparedMesh prepared =
-        tools::take(PreparedMesh::prepare({file.positions, file.triangles}), path);
+        tools::take(PreparedMesh::prepare({file.positions, file.triangles, file.dimension}), path);
     return {std::filesystem::path(path).filename().string(), std::move(file), std::move(prepared)};
 }
 

@@ -19,7 +19,7 @@ struct PaperMesh {
     tools::MeshFile file;
     PreparedMesh prepared;
 
-    MeshView view() const { return {file.positions, file.triangles}; }
+    MeshView view() const { return {file.positions, file.triangles, file.dimension}; }
     double area() const { return prepared.statistics().area; }
 };
 

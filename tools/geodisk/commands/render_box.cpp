@@ -12,6 +12,7 @@
 #include "geodisk/reports/box_report.hpp"
 #include "picture/box_frame.hpp"
 #include "picture/flat_box.hpp"
+#include "picture/surface_content.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -79,7 +80,7 @@ void render_balls(const RenderOptions& options, const PictureParams& params, con
     std::vector<picture::BallRec> balls;
     for (const SampleRow& row : samples.rows) {
         const std::array<double, 3> at{row.position[0], row.position[1], row.position[2]};
-        balls.push_back(frame.ball(at, radius, color_of(balls.size())));
+        balls.push_back(frame.ball(at, radius, picture::color_of(balls.size())));
     }
     draw_content(options, params, subject, {frame.scene(), frame.table(), {}, balls}, progress);
 }

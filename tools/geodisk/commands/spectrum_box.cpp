@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +18,7 @@
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/spectrum_report.hpp"
 #include "picture/png.hpp"
+#include "picture/power_picture.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -32,8 +31,6 @@ using analysis::PowerSpectrum;
 
 constexpr double kMostFrequencies = 0x1p24;
 constexpr double kReach = 4, kLeastReach = 0.5, kMostReach = 100;
-/// Power that is white in the picture.
-constexpr double kWhite = 2;
 
 /// Spectrum of all files, and what they have in common.
 struct BoxSpectrum {
@@ -113,21 +110,6 @@ BoxSpectrum compute(const SpectrumOptions& options, double reach, ProgressLine& 
     return std::move(*result);
 }
 
-/// Of the power around frequency 0: black for none, white for kWhite.
-picture::Pixels picture_of(const PowerSpectrum& spectrum) {
-    picture::Pixels pixels{2 * spectrum.columns() + 1, 2 * spectrum.rows() + 1, {}};
-    pixels.rgba.reserve(std::size_t{4} * pixels.width * pixels.height);
-    const std::int64_t columns = spectrum.columns(), rows = spectrum.rows();
-    for (std::int64_t row = rows; row >= -rows; --row) {
-        for (std::int64_t column = -columns; column <= columns; ++column) {
-            const double part = std::min(1.0, spectrum.power(column, row) / kWhite);
-            const auto grey = static_cast<std::uint8_t>(std::lround(255 * part));
-            pixels.rgba.insert(pixels.rgba.end(), {grey, grey, grey, 255});
-        }
-    }
-    return pixels;
-}
-
 } // namespace
 
 void spectrum_of_boxes(const SpectrumOptions& options) {
@@ -157,7 +139,7 @@ void spectrum_of_boxes(const SpectrumOptions& options) {
     }
     AtomicFile file(options.out.output);
     if (lower_extension(options.out.output) == ".png") {
-        picture::write_png(file, picture_of(result.spectrum));
+        picture::write_png(file, picture::power_picture(result.spectrum));
     } else {
         file.write(result.report.csv());
     }

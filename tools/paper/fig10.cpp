@@ -1,0 +1,90 @@
+// Fig. 10: surfaces of four dimensions, and samples that a surface has in another pose (section
+// 5.8).
+#include <utility>
+
+#include "paper/commands.hpp"
+#include "paper/device.hpp"
+#include "paper/metrics.hpp"
+#include "paper/options.hpp"
+#include "paper/outputs.hpp"
+#include "paper/painter.hpp"
+#include "program/arguments.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::paper {
+namespace {
+
+struct Options {
+    CommonOptions common;
+    std::string device;
+    std::string count = "2000";
+    PanelSize size;
+};
+
+constexpr const char* kSurfaces[] = {"builtin:clifford-torus:160", "builtin:klein-bottle:120"};
+/// A pose, and another of the same faces and lengths.
+constexpr std::pair<const char*, const char*> kPoses{"builtin:swiss-roll:192",
+                                                     "builtin:unrolled-sheet:192"};
+
+/// The same faces and weights on another surface.
+std::size_t pairs_too_close(const PaperMesh& mesh, const SampleSet& set, double min_distance) {
+    Pool pool{{min_distance}, {}, {}};
+    std::vector<std::uint32_t> ranks;
+    for (const Sample& sample : set.samples) {
+        ranks.push_back(static_cast<std::uint32_t>(ranks.size()));
+        pool.by_rank.push_back({sample.face, sample.weights[1], sample.weights[2]});
+    }
+    return find_violations(mesh, pool, ranks).pairs;
+}
+
+void run(const Options& options) {
+    Outputs outputs(options.common.out, "fig10", /* has_plots */ false);
+    const double count = tools::parse_count("--count", options.count);
+    PictureParams panel;
+    panel.width = panel.height = options.size.pixels();
+    Device device(options.device, /* graphics */ true);
+    const Painter painter(device.context());
+    Table table({"surface", "coordinates", "samples of", "samples", "pairs too close"});
+    std::vector<Pixels> panels;
+    const auto show = [&](const PaperMesh& mesh, const PaperMesh& sampled, const SampleSet& set,
+                          double min_distance) {
+        table.add({mesh.name, std::to_string(mesh.file.dimension), sampled.name,
+                   std::to_string(set.samples.size()),
+                   std::to_string(pairs_too_close(mesh, set, min_distance))});
+        panels.push_back(painter.surface(mesh, disks_of(set, min_distance), panel));
+    };
+    for (const char* const name : kSurfaces) {
+        const PaperMesh mesh = load_mesh(name);
+        const SampleParams params = params_for(mesh, count, kDefaultPoolRatio, options.common.seed);
+        show(mesh, mesh, device.sample(mesh, params), params.min_distance);
+    }
+    const PaperMesh pose = load_mesh(kPoses.first), other = load_mesh(kPoses.second);
+    const SampleParams params = params_for(pose, count, kDefaultPoolRatio, options.common.seed);
+    const SampleSet set = device.sample(pose, params);
+    show(pose, pose, set, params.min_distance);
+    show(other, pose, set, params.min_distance);
+    outputs.add_table(table,
+                      {"device " + device.name(), "seed " + std::to_string(options.common.seed)},
+                      "Surfaces in R^4, and samples of one pose taken to another of the same faces",
+                      "Surfaces of four dimensions are shown in perspective, as by stereographic"
+                      "\nprojection; their distances are those of R^4. The paper: the method knows"
+                      "\nlengths along the surface alone, so samples of a pose are valid in another"
+                      "\nthat is isometric.");
+    outputs.add_picture("", side_by_side(panels));
+    outputs.write();
+}
+
+} // namespace
+
+void add_fig10(CLI::App& app) {
+    add_figure<Options>(
+        app, "fig10", "Fig. 10: pictures of surfaces in R^4 and of another pose, on a device", 1,
+        run, [](CLI::App& command, Options& options) {
+            tools::add_option(command, "-n,--count", options.count, "N", "Samples of each surface")
+                ->capture_default_str();
+            add_panel_size(command, options.size);
+            add_device(command, options.device);
+        });
+}
+
+} // namespace geodisk::paper

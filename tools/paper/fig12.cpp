@@ -1,0 +1,138 @@
+// Fig. 12: boxes of two and three dimensions, and the spectrum of the former (section 5.9).
+#include <cmath>
+
+#include <geodisk/box.hpp>
+
+#include "analysis/power_spectrum.hpp"
+#include "paper/commands.hpp"
+#include "paper/device.hpp"
+#include "paper/options.hpp"
+#include "paper/outputs.hpp"
+#include "paper/painter.hpp"
+#include "picture/power_picture.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::paper {
+namespace {
+
+using tools::analysis::PowerSpectrum;
+using tools::analysis::SpectrumRing;
+
+struct Options {
+    CommonOptions common;
+    std::string device;
+    std::string square = "0.0147", cube = "0.023", spectrum = "0.00268";
+    PanelSize size;
+};
+
+/// Waves per minimum distance.
+constexpr double kReach = 4;
+
+BoxParams box_of(std::size_t dimension, double radius, std::uint64_t seed) {
+    BoxParams box;
+    box.extents.assign(dimension, 1.0);
+    box.min_distance = 2 * radius;
+    box.seed = seed;
+    return box;
+}
+
+bench::LinePlot spectrum_plot(const char* title, const char* y_label, const char* y_unit) {
+    bench::LinePlot plot{.title = title,
+                         .x_label = "waves per minimum distance",
+                         .y_label = y_label,
+                         .y_unit = y_unit,
+                         .is_linear_y = true,
+                         .is_linear_x = true};
+    plot.lines.push_back({"geodisk", 0, false, {}, false});
+    return plot;
+}
+
+void run(const Options& options) {
+    const CommonOptions& common = options.common;
+    Outputs outputs(common.out, "fig12");
+    constexpr double kLeast = 1e-4, kMost = 0.2;
+    const double square = tools::parse_ratio("--square", options.square, kLeast, kMost);
+    const double cube = tools::parse_ratio("--cube", options.cube, 0.002, kMost);
+    const double radius = tools::parse_ratio("--spectrum", options.spectrum, 0.001, kMost);
+    PictureParams panel;
+    panel.width = panel.height = options.size.pixels();
+    Device device(options.device, /* graphics */ true);
+    const Painter painter(device.context());
+
+    const BoxParams flat = box_of(2, square, common.seed), space = box_of(3, cube, common.seed);
+    const SampleSet in_square = device.sample(flat), in_cube = device.sample(space);
+    std::vector<Pixels> panels{painter.samples(flat, in_square, panel),
+                               painter.samples(space, in_cube, panel)};
+    panel.cuts = true;
+    panels.push_back(painter.samples(space, in_cube, panel));
+    outputs.add_picture("abc", side_by_side(panels));
+
+    BoxParams torus = box_of(2, radius, 0);
+    torus.is_periodic = true;
+    PowerSpectrum spectrum(torus, kReach / torus.min_distance);
+    double samples = 0;
+    for (int i = 0; i < common.repeats; ++i) {
+        torus.seed = common.seed_of(i);
+        const SampleSet set = device.sample(torus);
+        samples += static_cast<double>(set.points.size()) / 2 / common.repeats;
+        spectrum.add(set.points, [](double) { tools::check_interrupted(); });
+    }
+    bench::LinePlot mean = spectrum_plot("Radial mean of the power", "power", "");
+    bench::LinePlot anisotropy = spectrum_plot("Anisotropy", "anisotropy", "dB");
+    Table table({"waves per D", "frequencies", "radial mean", "anisotropy dB"});
+    double deviation = 0, frequencies = 0;
+    for (const SpectrumRing& ring : spectrum.rings()) {
+        const double at = ring.frequency * torus.min_distance;
+        const double decibels = 10 * std::log10(ring.anisotropy);
+        mean.lines[0].points.push_back({at, ring.mean});
+        anisotropy.lines[0].points.push_back({at, decibels});
+        table.add({tools::fixed(at, 4), std::to_string(ring.count), tools::fixed(ring.mean, 4),
+                   tools::fixed(decibels, 3)});
+        deviation += ring.anisotropy * ring.count;
+        frequencies += ring.count;
+    }
+    const std::string circumstances = "square r = " + options.square +
+                                      ", cube r = " + options.cube +
+                                      ", spectrum r = " + options.spectrum;
+    Table sizes({"box", "r", "samples", "the paper's"});
+    sizes.add({"square", options.square, std::to_string(in_square.points.size() / 2), "787"});
+    sizes.add({"cube", options.cube, std::to_string(in_cube.points.size() / 3), "6064"});
+    sizes.add({"periodic square", options.spectrum, tools::fixed(samples, 1), "21886"});
+    outputs.add_table(
+        sizes, {"device " + device.name(), common.text(), circumstances},
+        "Boxes of two and three dimensions, and the power spectrum of " +
+            std::to_string(common.repeats) + " sets",
+        "Anisotropy of the whole: " + tools::fixed(10 * std::log10(deviation / frequencies), 2) +
+            " dB, and " + tools::fixed(-10 * std::log10(common.repeats), 2) +
+            " dB if all directions are alike. The paper's squares are"
+            "\nopen, as here but for the spectrum, and its samples r or 2 r apart, which it"
+            "\ndoes not say.");
+    outputs.add_data("-spectrum", table);
+    outputs.add_picture("d", tools::picture::power_picture(spectrum));
+    outputs.add_plot("e", mean);
+    outputs.add_plot("f", anisotropy);
+    outputs.write();
+}
+
+} // namespace
+
+void add_fig12(CLI::App& app) {
+    add_figure<Options>(
+        app, "fig12", "Fig. 12: pictures of boxes and spectra of a square, on a device", 10, run,
+        [](CLI::App& command, Options& options) {
+            tools::add_option(command, "--square", options.square, "R", "Radius in the square")
+                ->capture_default_str();
+            tools::add_option(command, "--cube", options.cube, "R", "Radius in the cube")
+                ->capture_default_str();
+            tools::add_option(command, "--spectrum", options.spectrum, "R",
+                              "Radius in the periodic square whose spectrum is taken")
+                ->capture_default_str();
+            add_panel_size(command, options.size);
+            add_device(command, options.device);
+        });
+}
+
+} // namespace geodisk::paper
