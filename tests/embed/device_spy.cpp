@@ -249,6 +249,11 @@ PFN_vkVoidFunction DeviceSpy::Functions::find(std::string_view name) {
         GEODISK_PAIR(vkCreateDescriptorPool, vkDestroyDescriptorPool),
         GEODISK_PAIR(vkCreateCommandPool, vkDestroyCommandPool),
         GEODISK_PAIR(vkCreateFence, vkDestroyFence),
+        GEODISK_PAIR(vkCreateImage, vkDestroyImage),
+        GEODISK_PAIR(vkCreateImageView, vkDestroyImageView),
+        GEODISK_PAIR(vkCreateRenderPass, vkDestroyRenderPass),
+        GEODISK_PAIR(vkCreateFramebuffer, vkDestroyFramebuffer),
+        GEODISK_STEP(vkBindImageMemory),
         GEODISK_STEP(vkBindBufferMemory),
         GEODISK_STEP(vkAllocateDescriptorSets),
         GEODISK_STEP(vkAllocateCommandBuffers),
@@ -258,6 +263,9 @@ PFN_vkVoidFunction DeviceSpy::Functions::find(std::string_view name) {
         GEODISK_STEP(vkQueueSubmit),
         GEODISK_STEP(vkResetFences),
         {"vkCreateComputePipelines", reinterpret_cast<PFN_vkVoidFunction>(&create_pipelines)},
+        {"vkCreateGraphicsPipelines", reinterpret_cast<PFN_vkVoidFunction>(
+                                          &Create<"vkCreateGraphicsPipelines", "vkDestroyPipeline",
+                                                  PFN_vkCreateGraphicsPipelines>::call)},
         {"vkDestroyPipeline", reinterpret_cast<PFN_vkVoidFunction>(
                                   &Destroy<"vkDestroyPipeline", PFN_vkDestroyPipeline>::call)},
         {"vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(&allocate)},

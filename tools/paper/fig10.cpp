@@ -21,10 +21,10 @@ struct Options {
     PanelSize size;
 };
 
-constexpr const char* kSurfaces[] = {"builtin:clifford-torus:160", "builtin:klein-bottle:120"};
+constexpr const char* kSurfaces[] = {"builtin:clifford-torus:96", "builtin:klein-bottle:72"};
 /// A pose, and another of the same faces and lengths.
-constexpr std::pair<const char*, const char*> kPoses{"builtin:swiss-roll:192",
-                                                     "builtin:unrolled-sheet:192"};
+constexpr std::pair<const char*, const char*> kPoses{"builtin:swiss-roll:96",
+                                                     "builtin:unrolled-sheet:96"};
 
 /// The same faces and weights on another surface.
 std::size_t pairs_too_close(const PaperMesh& mesh, const SampleSet& set, double min_distance) {

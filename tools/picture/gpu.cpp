@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include "program/failure.hpp"
 
 namespace geodisk::tools::picture {
 namespace {
 
-constexpr std::uint64_t kPatience = 1'000'000'000; // Nanoseconds, again and again.
+constexpr std::chrono::milliseconds kPause{1};
 constexpr VkDeviceSize kStaging = VkDeviceSize{16} << 20;
 
 template <class Function>
@@ -19,6 +20,11 @@ Function load(PFN_vkGetInstanceProcAddr get, VkInstance instance, const char* na
         throw UserError(ExitCode::no_device, std::string("the Vulkan driver lacks ") + name);
     }
     return function;
+}
+
+[[noreturn]] void fail_stalled() {
+    throw UserError(ExitCode::internal,
+                    "the device has not answered while drawing, and is given up");
 }
 
 } // namespace
@@ -38,7 +44,8 @@ void check(VkResult result, const char* call) {
                         " while drawing");
 }
 
-Gpu::Gpu(const DeviceRefs& device, const QueueRef& queue) : device_(device.device), queue_(queue) {
+Gpu::Gpu(const DeviceRefs& device, const QueueRef& queue, std::chrono::nanoseconds stall_limit)
+    : device_(device.device), queue_(queue), stall_limit_(stall_limit) {
     const auto get = device.get_instance_proc_addr;
     const auto get_device =
         load<PFN_vkGetDeviceProcAddr>(get, device.instance, "vkGetDeviceProcAddr");
@@ -63,21 +70,20 @@ Gpu::Gpu(const DeviceRefs& device, const QueueRef& queue) : device_(device.devic
     if ((depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0) {
         depth_format_ = VK_FORMAT_D32_SFLOAT;
     }
-    auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-    pool.queueFamilyIndex = queue.family;
-    check(vk_.vkCreateCommandPool(device_, &pool, nullptr, &pool_), "vkCreateCommandPool");
+    auto info = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+    info.queueFamilyIndex = queue.family;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    check(vk_.vkCreateCommandPool(device_, &info, nullptr, &pool), "vkCreateCommandPool");
+    pool_ = {*this, pool};
     auto allocate =
         structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    allocate.commandPool = pool_;
+    allocate.commandPool = pool;
     allocate.commandBufferCount = 1;
     check(vk_.vkAllocateCommandBuffers(device_, &allocate, &commands_), "vkAllocateCommandBuffers");
-    const auto fence = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    check(vk_.vkCreateFence(device_, &fence, nullptr, &fence_), "vkCreateFence");
-}
-
-Gpu::~Gpu() {
-    vk_.vkDestroyFence(device_, fence_, nullptr);
-    vk_.vkDestroyCommandPool(device_, pool_, nullptr);
+    const auto unsignaled = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+    VkFence fence = VK_NULL_HANDLE;
+    check(vk_.vkCreateFence(device_, &unsignaled, nullptr, &fence), "vkCreateFence");
+    fence_ = {*this, fence};
 }
 
 VkDeviceMemory Gpu::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags required,
@@ -100,29 +106,47 @@ VkDeviceMemory Gpu::allocate(const VkMemoryRequirements& needs, VkMemoryProperty
 }
 
 void Gpu::run(const std::function<void(VkCommandBuffer)>& record) const {
-    check(vk_.vkResetCommandPool(device_, pool_, 0), "vkResetCommandPool");
+    if (is_given_up_) {
+        fail_stalled();
+    }
+    check(vk_.vkResetCommandPool(device_, pool_.get(), 0), "vkResetCommandPool");
     auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vk_.vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
     record(commands_);
     check(vk_.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
-    check(vk_.vkResetFences(device_, 1, &fence_), "vkResetFences");
+    const VkFence fence = fence_.get();
+    check(vk_.vkResetFences(device_, 1, &fence), "vkResetFences");
     auto submit = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands_;
     if (queue_.lock != nullptr) {
         queue_.lock(queue_.lock_user);
     }
-    const VkResult submitted = vk_.vkQueueSubmit(queue_.queue, 1, &submit, fence_);
+    const VkResult submitted = vk_.vkQueueSubmit(queue_.queue, 1, &submit, fence);
     if (queue_.unlock != nullptr) {
         queue_.unlock(queue_.lock_user);
     }
     check(submitted, "vkQueueSubmit");
-    VkResult waited = VK_TIMEOUT;
-    while (waited == VK_TIMEOUT) {
-        waited = vk_.vkWaitForFences(device_, 1, &fence_, VK_TRUE, kPatience);
+    wait(fence);
+}
+
+void Gpu::wait(VkFence fence) const {
+    const auto deadline = std::chrono::steady_clock::now() + stall_limit_;
+    for (;;) {
+        const VkResult waited = vk_.vkWaitForFences(
+            device_, 1, &fence, VK_TRUE, static_cast<std::uint64_t>(stall_limit_.count()));
+        if (waited == VK_SUCCESS || waited == VK_ERROR_DEVICE_LOST) {
+            check(waited, "vkWaitForFences");
+            return;
+        }
+        // Without memory to wait with, the work goes on all the same.
+        if (waited == VK_TIMEOUT || std::chrono::steady_clock::now() >= deadline) {
+            is_given_up_ = true;
+            fail_stalled();
+        }
+        std::this_thread::sleep_for(kPause);
     }
-    check(waited, "vkWaitForFences");
 }
 
 Buffer::Buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, bool is_mapped)

@@ -1,6 +1,7 @@
 // Drawing on a lent device: its functions, objects that destroy themselves, and waiting.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -56,40 +57,10 @@ T structure(VkStructureType type) {
 /// Throws UserError for a failed call: `out_of_memory`, or `internal`.
 void check(VkResult result, const char* call);
 
-/// A device and a queue for graphics, both lent; they must outlive the objects made here. Not
-/// thread-safe.
-class Gpu {
-  public:
-    /// Throws UserError, like all that follow.
-    Gpu(const DeviceRefs& device, const QueueRef& queue);
-    Gpu(const Gpu&) = delete;
-    Gpu& operator=(const Gpu&) = delete;
-    ~Gpu();
+class Gpu;
 
-    VkDevice device() const { return device_; }
-    const Functions& vk() const { return vk_; }
-    const VkPhysicalDeviceLimits& limits() const { return limits_; }
-    VkFormat depth_format() const { return depth_format_; }
-
-    VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags required,
-                            VkMemoryPropertyFlags preferred) const;
-
-    /// Submits what `record` records and waits until it is done.
-    void run(const std::function<void(VkCommandBuffer)>& record) const;
-
-  private:
-    Functions vk_;
-    VkDevice device_;
-    QueueRef queue_;
-    VkPhysicalDeviceLimits limits_{};
-    VkFormat depth_format_ = VK_FORMAT_X8_D24_UNORM_PACK32;
-    VkPhysicalDeviceMemoryProperties memory_{};
-    VkCommandPool pool_ = VK_NULL_HANDLE;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    VkFence fence_ = VK_NULL_HANDLE;
-};
-
-/// Owns an object of a device; kDestroy is the member of Functions that destroys it.
+/// Owns an object of a device; kDestroy is the member of Functions that destroys it. A device that
+/// was given up may use it for ever, and keeps it.
 template <class T, auto kDestroy>
 class Handle {
   public:
@@ -102,17 +73,62 @@ class Handle {
         std::swap(value_, other.value_);
         return *this;
     }
-    ~Handle() {
-        if (value_ != VK_NULL_HANDLE) {
-            (gpu_->vk().*kDestroy)(gpu_->device(), value_, nullptr);
-        }
-    }
+    ~Handle();
     T get() const { return value_; }
 
   private:
     const Gpu* gpu_ = nullptr;
     T value_ = VK_NULL_HANDLE;
 };
+
+/// A device and a queue for graphics, both lent; they must outlive the objects made here. Not
+/// thread-safe.
+class Gpu {
+  public:
+    /// A part of a picture takes far less, even on a CPU.
+    static constexpr std::chrono::minutes kStallLimit{2};
+
+    /// Throws UserError, like all that follow.
+    Gpu(const DeviceRefs& device, const QueueRef& queue,
+        std::chrono::nanoseconds stall_limit = kStallLimit);
+    Gpu(const Gpu&) = delete;
+    Gpu& operator=(const Gpu&) = delete;
+
+    VkDevice device() const { return device_; }
+    const Functions& vk() const { return vk_; }
+    const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    VkFormat depth_format() const { return depth_format_; }
+
+    VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags required,
+                            VkMemoryPropertyFlags preferred) const;
+
+    /// Submits what `record` records and waits until it is done. Gives the device up where that
+    /// takes longer than the stall limit: then each call fails.
+    void run(const std::function<void(VkCommandBuffer)>& record) const;
+    bool is_given_up() const { return is_given_up_; }
+
+  private:
+    void wait(VkFence fence) const;
+
+    Functions vk_;
+    VkDevice device_;
+    QueueRef queue_;
+    VkPhysicalDeviceLimits limits_{};
+    VkFormat depth_format_ = VK_FORMAT_X8_D24_UNORM_PACK32;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    std::chrono::nanoseconds stall_limit_;
+    Handle<VkCommandPool, &Functions::vkDestroyCommandPool> pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    Handle<VkFence, &Functions::vkDestroyFence> fence_;
+    mutable bool is_given_up_ = false;
+};
+
+template <class T, auto kDestroy>
+Handle<T, kDestroy>::~Handle() {
+    if (value_ != VK_NULL_HANDLE && !gpu_->is_given_up()) {
+        (gpu_->vk().*kDestroy)(gpu_->device(), value_, nullptr);
+    }
+}
 
 using Memory = Handle<VkDeviceMemory, &Functions::vkFreeMemory>;
 
