@@ -85,7 +85,7 @@ TEST_CASE("a difference of the detectable size is found nine times of ten") {
     CHECK(detectable < 0.3);
     int found = 0;
     for (int run = 0; run < kRuns; ++run) {
-        const auto seed = static_cast<std::uint64_t>(1000 + run);
+        const auto seed = std::uint64_t{1000} + static_cast<std::uint64_t>(run);
         const SurfaceSpectrum spectrum = make_spectrum(
             seed, [&](std::size_t harmonic) { return changed_rings(harmonic, detectable); });
         found += compare(spectrum, seed).radial_mean.p < 0.05 ? 1 : 0;
