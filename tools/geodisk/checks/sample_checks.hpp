@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
 std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
                                       const MeshInput& mesh,
                                       const std::optional<Length>& min_distance);
+
+/// The disk of each row, of this radius in mesh units, or of the row's own where that is 0.
+std::vector<SurfaceDisk> disks_of(std::span<const SampleRow> rows, double radius);
 
 /// How far `stray` is off, as the end of a sentence.
 std::string offset_text(const StrayRow& stray);
