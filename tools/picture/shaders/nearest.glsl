@@ -43,7 +43,8 @@ Nearest look_up(uint face_index, vec2 in_face, out float density) {
     density = 0.0;
     uint index = ~0u;
     float distance = kFar;
-    for (uint i = cell_start(cell); i < cell_start(cell + 1u); ++i) {
+    uint end = cell_start(cell + 1u);
+    for (uint i = cell_start(cell); i < end; ++i) {
         WindowRec window = window_at(i);
         if (window.sample_index != index) {
             if (distance < kFar) {
