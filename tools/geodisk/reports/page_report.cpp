@@ -1,5 +1,6 @@
 #include "geodisk/reports/page_report.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "geodisk/commit.hpp"
@@ -7,6 +8,8 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr double kSteepest = 89.9; // Degrees.
 
 Json vector_json(const glm::dvec3& vector) {
     return {vector.x, vector.y, vector.z};
@@ -16,7 +19,9 @@ Json vector_json(const glm::dvec3& vector) {
 Json view_json(const PageResult& result) {
     const PageContent& content = result.content;
     Json from = Json::array();
-    for (const picture::View& view : result.views) {
+    for (picture::View view : result.views) {
+        // From right above there would be no telling what is up.
+        view.elevation = std::clamp(view.elevation, -kSteepest, kSteepest);
         from.push_back(vector_json(picture::direction_of(view, content.up)));
     }
     Json json{{"surface", content.has_surface},

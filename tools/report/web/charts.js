@@ -1,6 +1,8 @@
 // Small charts as inline SVG.
 
-const chartWidth = 640, chartHeight = 300;
+// Text keeps its size on narrow screens.
+const chartWidth = Math.max(300, Math.min(640, document.documentElement.clientWidth - 40));
+const chartHeight = chartWidth < 500 ? 250 : 300;
 const chartMargin = { left: 62, right: 14, top: 12, bottom: 44 };
 
 function svgElement(name, attributes, text) {
@@ -37,7 +39,7 @@ function makeChart(title, xRange, yRange, xName, yName) {
     svg.append(svgElement("path", { class: "axis", d: `M${left} ${y(tick)}H${chartWidth - right}` }));
     svg.append(svgElement("text", { x: left - 8, y: y(tick) + 4, "text-anchor": "end" }, tick.toLocaleString("en-US")));
   }
-  for (const tick of ticks(...xRange, 8)) {
+  for (const tick of ticks(...xRange, chartWidth / 80)) {
     svg.append(svgElement("path", { class: "axis", d: `M${x(tick)} ${y(yRange[0])}v5` }));
     svg.append(svgElement("text", { x: x(tick), y: chartHeight - bottom + 19, "text-anchor": "middle" }, String(tick)));
   }

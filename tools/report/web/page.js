@@ -5,21 +5,24 @@ const byId = id => document.getElementById(id);
 // What there is to tell.
 
 const analysis = facts.analysis, meshFacts = facts.mesh;
+/** What distances of samples are told in. */
+const unit = facts.sample_radii ? "sums of radii" : "D";
 const meshName = meshFacts.path.replace(/^.*[/\\](?=.)/, "");
 
 function fillFigures() {
   document.title = `${meshName}: ${counted(samples.count, "sample", "samples")}`;
   byId("title").textContent = meshName;
-  byId("subtitle").textContent =
-    `${counted(samples.count, "sample", "samples")}, no two closer than ${rounded(facts.min_distance, 6)} ` +
-    (facts.sample_radii ? "and less where radii are smaller, " : "") +
-    (facts.metric === "geodesic" ? "along the surface" : `by metric ${facts.metric}`);
+  const radii = facts.sample_radii;
+  byId("subtitle").textContent = `${counted(samples.count, "sample", "samples")}, no two closer than ` +
+    (radii ? `their radii together, of ${rounded(radii.least, 4)} to ${rounded(radii.most, 4)} each, `
+      : `${rounded(facts.min_distance, 6)} `) +
+    (facts.metric === "geodesic" ? "along the surface" : `by the metric ${facts.metric}`);
   const cards = [
     [grouped(samples.count), "samples"],
-    [rounded(facts.min_distance, 5), "minimum distance D, in mesh units"],
+    [rounded(facts.min_distance, 5), radii ? "largest minimum distance, in mesh units" : "minimum distance D, in mesh units"],
     [rounded(facts.rho, 4), "packing density ρ"],
-    [analysis.smallest === null ? "–" : analysis.smallest.toFixed(5), "smallest distance, in D"],
-    [analysis.mean_nearest === null ? "–" : analysis.mean_nearest.toFixed(3), "nearest on average, in D"],
+    [analysis.smallest === null ? "–" : analysis.smallest.toFixed(5), `smallest distance, in ${unit}`],
+    [analysis.mean_nearest === null ? "–" : analysis.mean_nearest.toFixed(3), `nearest on average, in ${unit}`],
     [`${rounded(100 * analysis.uncovered, 2)} %`, "of the area has room for more"],
     [secondsText(facts.seconds.sample), `sampling on ${facts.device.name}`],
   ];
@@ -28,17 +31,16 @@ function fillFigures() {
     card.append(element("b", value), element("span", name));
     byId("cards").append(card);
   }
-  const radii = facts.sample_radii;
   fillTable(byId("sample-figures"), [
     ["Samples", grouped(samples.count)],
-    ["Minimum distance D", rounded(facts.min_distance, 8)],
+    ["Minimum distance D", radii ? null : rounded(facts.min_distance, 8)],
     ["Radius of a disk", radii ? `${rounded(radii.least, 6)} to ${rounded(radii.most, 6)}` : rounded(facts.radius, 8)],
-    ["Smallest distance", analysis.smallest === null ? null : `${analysis.smallest.toFixed(6)} D`],
-    ["Distance of the nearest, on average", analysis.mean_nearest === null ? null : `${analysis.mean_nearest.toFixed(4)} D`],
+    ["Smallest distance", analysis.smallest === null ? null : `${analysis.smallest.toFixed(6)} ${unit}`],
+    ["Distance of the nearest, on average", analysis.mean_nearest === null ? null : `${analysis.mean_nearest.toFixed(4)} ${unit}`],
     ["Without another one in reach", analysis.without_neighbor > 0 ? grouped(analysis.without_neighbor) : null],
     ["Packing density ρ", rounded(facts.rho, 6)],
     ["Room for more", `${rounded(100 * analysis.uncovered, 3)} ± ${rounded(100 * analysis.uncovered_error, 1)} % of the area`],
-    ["Largest gap", `${analysis.largest_gap < analysis.reach ? "" : "at least "}${analysis.largest_gap.toFixed(3)} D`],
+    ["Largest gap", `${analysis.largest_gap < analysis.reach ? "" : "at least "}${analysis.largest_gap.toFixed(3)} ${unit}`],
     ["Looked at", `${grouped(analysis.probes)} random places`],
   ]);
   fillTable(byId("surface-figures"), [
@@ -80,7 +82,7 @@ function fillFigures() {
 function fillCharts() {
   byId("nearest-chart").append(analysis.nearest
     ? histogramChart("Histogram of nearest distances", analysis.nearest.bin_width, analysis.nearest.counts,
-      "distance of the nearest sample, in D", "samples")
+      `distance of the nearest sample, in ${unit}`, "samples")
     : element("p", "No sample has another one in reach."));
   const pairs = analysis.pair_correlation;
   if (pairs) {
@@ -128,6 +130,7 @@ function describe(view) {
     view.mark(sample);
   }
   if (sample < 0) {
+    list.append(element("dt", view ? "Point at a disk, or give its number." : "Give the number of one."));
     return;
   }
   const other = samples.neighbors[sample], relative = samples.relativeDistance(sample);
@@ -135,9 +138,9 @@ function describe(view) {
     ["Sample", String(sample)],
     [meshFacts.polygons === null ? "Face" : "Triangle", String(samples.faces[sample])],
     ["Radius", rounded(samples.radius(sample), 6)],
-    ["Nearest", relative === null ? `none within ${analysis.reach} D` : `sample ${other}`],
+    ["Nearest", relative === null ? `none within ${analysis.reach} ${unit}` : `sample ${other}`],
     ["Its distance", relative === null ? null : rounded(samples.distances[sample], 6)],
-    [facts.sample_radii ? "In sums of radii" : "In D", relative === null ? null : relative.toFixed(4)],
+    [`In ${unit}`, relative === null ? null : relative.toFixed(4)],
   ];
   for (const [name, value] of entries) {
     if (value !== null) {
@@ -232,7 +235,7 @@ const colorings = {
     partOf: i => i / Math.max(1, samples.count - 1), low: "first", high: "last",
   },
   distance: {
-    partOf: i => (samples.relativeDistance(i) || 2) * 2 - 2, low: "D", high: "1.5 D and more",
+    partOf: i => (samples.relativeDistance(i) || 2) * 2 - 2, low: `1 ${unit}`, high: "1.5 and more",
   },
 };
 
@@ -306,12 +309,13 @@ function showMessage(text) {
 function withoutView(text) {
   showMessage(text);
   byId("view").hidden = true;
-  for (const control of byId("panel").querySelectorAll("#layers, #coloring, #shown, #play, #reset")) {
-    control.disabled = true;
+  for (const control of document.querySelectorAll(".view-control")) {
+    control.hidden = true;
   }
 }
 
 function connectRest(view) {
+  describe(view);
   byId("number").max = samples.count - 1;
   byId("number").addEventListener("input", event => {
     const number = Number(event.target.value);

@@ -9,6 +9,7 @@ uniform float most;    // Width of a point, in pixels.
 uniform int marked;
 
 in vec3 position;
+in vec3 normal;
 
 flat out uint number;
 flat out int is_marked;
@@ -18,8 +19,11 @@ void main() {
     is_marked = gl_VertexID == marked ? 1 : 0;
     vec4 at = modelViewMatrix * vec4(position, 1);
     float own_pixel = pixel * -at.z;
-    gl_PointSize = is_marked == 1 ? 2.5 * most : clamp(0.3 * spacing / own_pixel, 1.0, most);
+    // Small beside its disk, and where the surface turns away.
+    float facing = abs(dot(mat3(modelViewMatrix) * normal, normalize(at.xyz)));
+    float width = clamp(0.22 * spacing / own_pixel, 1.0, most) * mix(0.4, 1.0, facing);
+    gl_PointSize = is_marked == 1 ? 2.5 * most : max(width, 1.0);
     // Not half within the surface.
-    at.xyz *= 1.0 - 2.0 * own_pixel / length(at.xyz);
+    at.xyz *= 1.0 - own_pixel / length(at.xyz);
     gl_Position = projectionMatrix * at;
 }

@@ -1,9 +1,13 @@
 // The colour of a surface by the exact geodesic distances of the samples that reach the place, and by the
 // same which sample a pixel shows.
-#include "head.glsl"
+precision highp float;
+precision highp int;
+precision highp sampler2D;
 #include "records.h"
 #include "colors.glsl"
 
+// Textures have 2^kRowBits texels to a row (view.js).
+uniform sampler2D faces;   // Two texels each: longest, apex_x, apex_y, base; columns, rows, first_cell.
 uniform sampler2D cells;   // Where the windows of each cell begin.
 uniform sampler2D windows; // Two texels each: x, y, sigma, sample; the normals left and right.
 uniform sampler2D samples; // Radius in units, and a part from 0 to 1 for its colour.
@@ -31,6 +35,12 @@ const int kArea = 2;
 const vec3 kChosen = vec3(0.79, 0.34, 0.0); // #e69f00
 const float kDot = 0.13; // As in disk_color().
 const float kRim = 0.93;
+
+const uint kRowBits = 12u;
+
+ivec2 texel(uint index) {
+    return ivec2(index & ((1u << kRowBits) - 1u), index >> kRowBits);
+}
 
 #define kSeam seam
 FaceRec face_at(uint index) {
@@ -102,7 +112,7 @@ void main() {
     }
     // Of a pixel, in units.
     float width = 0.5 * (length(dFdx(in_face)) + length(dFdy(in_face)));
-    vec3 lines = weights / fwidth(weights);
+    vec3 change = fwidth(weights);
     Nearest nearest = Nearest(1e30, 1e30, ~0u);
     if (has_disks && shows_disks) {
         float density;
@@ -122,12 +132,15 @@ void main() {
         matte = nearest.second < 1.0 ? kOverlap
                                      : mean_in_disk(nearest.first, width / radius_of(index), index);
         if (int(index) == marked) {
-            matte = mix(matte, kChosen, 0.75);
+            matte = mix(matte, kChosen, 0.85);
         }
     }
     if (shows_triangles) {
+        vec3 lines = weights / change;
         float line = min(lines.x, min(lines.y, lines.z));
-        matte *= mix(0.62, 1.0, smoothstep(0.4, 1.2, line));
+        // Hardly to be seen where they would be closer than some pixels.
+        float extent = 1.0 / max(change.x, max(change.y, change.z));
+        matte *= mix(1.0, mix(0.55, 1.0, smoothstep(0.4, 1.2, line)), clamp(extent / 8.0, 0.25, 1.0));
     }
     color = vec4(to_srgb(shade(matte, up, to_eye, light)), 1);
 }

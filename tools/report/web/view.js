@@ -1,9 +1,12 @@
 // The surface in three dimensions, by three.js.
 
 const tasks = { picture: 0, pick: 1, area: 2 }; // As in surface.frag.
-const texelsPerRow = 4096; // As in head.glsl.
+const texelsPerRow = 4096; // As in surface.frag.
 const fieldOfView = 24; // Degrees, as in pictures.
 const pickWidth = 9, trialWidth = 96; // Pixels.
+const movingTime = 25, stillTime = 250; // Milliseconds that a picture may take.
+const coarsest = 0.4; // Least pixels to each of the screen's, along each side.
+const mostTried = 1.5e6; // Triangles to draw before the first picture.
 const pointWidth = 3.2; // Most pixels of a point.
 
 /** Numbers as a texture, `parts` to a texel: 1 or 4. */
@@ -17,6 +20,25 @@ function dataTexture(numbers, parts) {
   return texture;
 }
 
+/** Where each corner of the faces lies in the frame of its face, which begins at corner `base`. */
+function inFrames(faces) {
+  const at = new Float32Array(faces.length / 8 * 6);
+  for (let f = 0; 8 * f < faces.length; ++f) {
+    const [longest, x, y, base] = faces.subarray(8 * f, 8 * f + 4);
+    at[6 * f + 2 * ((base + 1) % 3)] = longest;
+    at[6 * f + 2 * ((base + 2) % 3)] = x;
+    at[6 * f + 2 * ((base + 2) % 3) + 1] = y;
+  }
+  return at;
+}
+
+/** The normal of the face whose corners begin at `c`, twice as long as its area is large. */
+function crossOfFace(places, c) {
+  const corner = k => new THREE.Vector3().fromArray(places, c + 3 * k);
+  const first = corner(0);
+  return corner(1).sub(first).cross(corner(2).sub(first));
+}
+
 /** Why the view cannot be shown; anything else that is thrown is a fault of the page. */
 class NoView extends Error {}
 
@@ -27,13 +49,13 @@ class View {
     this.surface = surface;
     this.changed = changed;
     this.marked = -1;
-    const context = canvas.getContext("webgl2", { alpha: true, antialias: true });
+    const context = canvas.getContext("webgl2", { alpha: true, antialias: false });
     if (!context) {
       throw new NoView("This browser shows no WebGL 2, which the view needs. Everything else is below.");
     }
     this.renderer = new THREE.WebGLRenderer({ canvas, context, alpha: true });
     this.renderer.setClearColor(0x000000, 0);
-    this.ratio = { moving: window.devicePixelRatio, still: window.devicePixelRatio };
+    this.ratio = { moving: 1, still: 1 };
     this.checkSizes(disks);
     this.makeScene(surface, disks);
     this.camera = new THREE.PerspectiveCamera(fieldOfView, 1, 0.01, 10);
@@ -49,6 +71,7 @@ class View {
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
     this.draw(tasks.picture); // Now, so that faults show.
+    this.chooseRatios();
     for (const mesh of [this.mesh, this.points]) {
       if (mesh.material.program && mesh.material.program.diagnostics) {
         throw new NoView("This browser's WebGL does not compile the shaders of the view. Everything else is below.");
@@ -76,6 +99,7 @@ class View {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(facing, 4, true));
+    geometry.setAttribute("in_frame", new THREE.BufferAttribute(disks ? inFrames(disks.faces) : new Float32Array(2 * corners.length), 2));
     const none = dataTexture(new Float32Array(4), 4);
     const scale = disks ? facts.view.disks : { unit: 1, cells_per_unit: 1, seam: 0 };
     this.parts = new Float32Array(4 * samples.count);
@@ -136,13 +160,17 @@ class View {
     }
     let area = 0;
     for (let c = 0; c < places.length; c += 9) {
-      const [ux, uy, uz, vx, vy, vz] = [3, 4, 5, 6, 7, 8].map(k => places[c + k] - places[c + k % 3]);
-      area += Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+      area += crossOfFace(places, c).length() / 2;
     }
     this.spacing = Math.sqrt(area / samples.count);
     this.uniforms.spacing.value = this.spacing;
     const geometry = new THREE.BufferGeometry();
+    const normals = new Float32Array(3 * samples.count);
+    for (let i = 0; i < samples.count; ++i) {
+      crossOfFace(places, 9 * samples.faces[i]).normalize().toArray(normals, 3 * i);
+    }
     geometry.setAttribute("position", new THREE.BufferAttribute(at, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
     return geometry;
   }
 
@@ -196,11 +224,7 @@ class View {
   /** From a direction, so near that everything just fits. */
   lookFrom(direction) {
     const front = new THREE.Vector3(...direction);
-    const right = new THREE.Vector3().crossVectors(this.camera.up, front);
-    if (right.length() < 1e-6) { // From the top or the bottom.
-      right.set(this.camera.up.y, this.camera.up.z, this.camera.up.x);
-    }
-    right.normalize();
+    const right = new THREE.Vector3().crossVectors(this.camera.up, front).normalize();
     const up = new THREE.Vector3().crossVectors(front, right);
     const t = 0.95 * Math.tan(fieldOfView / 360 * Math.PI);
     const across = this.fit(right, front, t * this.camera.aspect);
@@ -226,7 +250,8 @@ class View {
 
   /** Of the directions to choose from, the one that most of the surface is seen from. */
   bestDirection() {
-    const { from } = facts.view;
+    const step = Math.ceil(facts.view.from.length * this.surface.corners.length / 3 / mostTried);
+    const from = facts.view.from.filter((_, i) => i % step === 0); // Fewer of large surfaces.
     if (from.length === 1) {
       return from[0];
     }
@@ -282,22 +307,33 @@ class View {
     }
   }
 
+  /** By how long a picture takes. Edges are smooth with two pixels to each of the screen's, or where those are small. */
+  chooseRatios() {
+    const full = window.devicePixelRatio, fine = Math.max(full, 2);
+    const context = this.renderer.getContext(), pixel = new Uint8Array(4);
+    const take = ratio => {
+      this.setRatio(ratio);
+      const begin = performance.now();
+      this.draw(tasks.picture);
+      context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, pixel); // Waits for it.
+      return performance.now() - begin;
+    };
+    take(full); // The first one takes longer.
+    const took = take(full);
+    const expected = took * (fine / full) ** 2;
+    this.ratio.still = expected < stillTime ? fine : full;
+    this.ratio.moving = expected < movingTime ? fine
+      : full * Math.min(1, Math.max(coarsest, Math.sqrt(movingTime / took)));
+  }
+
+  /** Fewer pixels after several late frames: one is chance. */
   noteTime(now) {
     const took = now - this.lastFrame;
     this.lastFrame = now;
-    const full = window.devicePixelRatio;
-    if (!(took < 1000) || this.movedAt === undefined) {
-      return;
-    }
-    // One late frame is chance.
-    this.late = took > 45 ? (this.late || 0) + 1 : 0;
-    this.early = took < 20 ? (this.early || 0) + 1 : 0;
+    this.late = took > 2 * movingTime && took < 1000 ? (this.late || 0) + 1 : 0;
     if (this.late >= 3) {
       this.late = 0;
-      this.ratio.moving = Math.max(0.4 * full, 0.75 * this.ratio.moving);
-      this.ratio.still = full;
-    } else if (this.early >= 20 && this.ratio.moving >= full) {
-      this.ratio.still = Math.max(full, 2);
+      this.ratio.moving = Math.max(coarsest * window.devicePixelRatio, 0.75 * this.ratio.moving);
     }
   }
 
