@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -27,6 +26,7 @@
 #include "report/surface_data.hpp"
 #include "shapes/builtin_shapes.hpp"
 #include "support/base64.hpp"
+#include "support/typed_array.hpp"
 #include "unit/test_files.hpp"
 
 namespace geodisk::tools {
@@ -36,20 +36,7 @@ using report::PageArray;
 
 /// As the page reads them.
 std::vector<double> numbers_of(const PageArray& array) {
-    const std::size_t width = array.type == "Uint8Array" ? 1 : array.type == "Uint16Array" ? 2 : 4;
-    REQUIRE(array.bytes.size() == width * array.count);
-    std::vector<double> numbers;
-    for (std::size_t at = 0; at < array.bytes.size(); at += width) {
-        std::uint32_t bits = 0;
-        for (std::size_t i = 0; i < width; ++i) {
-            bits |= std::uint32_t{static_cast<unsigned char>(array.bytes[at + i])} << 8 * i;
-        }
-        numbers.push_back(array.type == "Float32Array" ? std::bit_cast<float>(bits)
-                          : array.low < array.high
-                              ? array.low + bits / 65535.0 * (array.high - array.low)
-                              : bits);
-    }
-    return numbers;
+    return test::typed_numbers(array.type, array.bytes, array.count, array.low, array.high);
 }
 
 std::vector<double> numbers_of(const std::vector<PageArray>& arrays, const std::string& name) {
