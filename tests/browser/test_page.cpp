@@ -22,8 +22,7 @@ constexpr double kLeastFrames = 2;
 constexpr double kLongestLoad = 20000; // Milliseconds.
 
 void make_page(const TemporaryFolder& folder, const Arguments& arguments) {
-    const Outcome outcome =
-        run(folder, joined({"report", "-o", "p.html", "-q"}, arguments));
+    const Outcome outcome = run(folder, joined({"report", "-o", "p.html", "-q"}, arguments));
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
 }
@@ -36,12 +35,13 @@ void check_console(Browser& browser) {
 
 /// Waits until the view has not been drawn for longer than it waits for the last picture.
 void wait_until_still(Browser& browser) {
-    browser.eval_later("let drawn = -1;"
-                       "const look = () => {"
-                       "  const now = document.documentElement.dataset.drawn;"
-                       "  if (now === drawn) { done(); } else { drawn = now; setTimeout(look, 700); }"
-                       "};"
-                       "look();");
+    browser.eval_later(
+        "let drawn = -1;"
+        "const look = () => {"
+        "  const now = document.documentElement.dataset.drawn;"
+        "  if (now === drawn) { done(); } else { drawn = now; setTimeout(look, 700); }"
+        "};"
+        "look();");
 }
 
 PngImage picture_of(Browser& browser, const TemporaryFolder& folder) {
@@ -78,10 +78,11 @@ double difference(const PngImage& a, const PngImage& b) {
 
 /// What the page tells of the sample that is chosen or pointed at; "" for what it does not.
 std::string told(Browser& browser, const std::string& name) {
-    const Json value = browser.eval(
-        "const names = [...document.querySelectorAll('#sample dt')];"
-        "const found = names.find(dt => dt.textContent === '" + name + "');"
-        "return found ? found.nextSibling.textContent : '';");
+    const Json value = browser.eval("const names = [...document.querySelectorAll('#sample dt')];"
+                                    "const found = names.find(dt => dt.textContent === '" +
+                                    name +
+                                    "');"
+                                    "return found ? found.nextSibling.textContent : '';");
     return value.get<std::string>();
 }
 
@@ -126,12 +127,14 @@ TEST_CASE("layers and the slider show what they say") {
     make_page(folder, {kMesh, "-n", "400"});
     Browser browser;
     browser.open(folder / "p.html");
-    const auto count = browser.eval("return Number(document.getElementById('shown').max);")
-                           .get<std::size_t>();
-    CHECK(count == tools::read_samples([&] {
-                       REQUIRE(run(folder, {"sample", kMesh, "-n", "400", "-o", "a.ply"}).status == 0);
-                       return folder / "a.ply";
-                   }()).rows.size());
+    const auto count =
+        browser.eval("return Number(document.getElementById('shown').max);").get<std::size_t>();
+    CHECK(count ==
+          tools::read_samples([&] {
+              REQUIRE(run(folder, {"sample", kMesh, "-n", "400", "-o", "a.ply"}).status == 0);
+              return folder / "a.ply";
+          }())
+              .rows.size());
     const double all = part_of(picture_of(browser, folder), is_blue);
     slide_to(browser, count / 2);
     CHECK(contains(browser.eval("return document.getElementById('shown-text').textContent;")
@@ -244,17 +247,17 @@ TEST_CASE("ten thousand samples on seventy thousand triangles open at once and t
     browser.open(folder / "p.html");
     const auto load = browser.eval("return performance.now();").get<double>();
     CHECK(load < kLongestLoad);
-    const Json frames = browser.eval_later(
-        "const view = document.getElementById('view');"
-        "const drawn = () => Number(document.documentElement.dataset.drawn);"
-        "const begin = performance.now(), before = drawn();"
-        "const turn = () => {"
-        "  view.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft'}));"
-        "  const seconds = (performance.now() - begin) / 1000;"
-        "  if (seconds < 4) { requestAnimationFrame(turn); }"
-        "  else { done((drawn() - before) / seconds); }"
-        "};"
-        "turn();");
+    const Json frames =
+        browser.eval_later("const view = document.getElementById('view');"
+                           "const drawn = () => Number(document.documentElement.dataset.drawn);"
+                           "const begin = performance.now(), before = drawn();"
+                           "const turn = () => {"
+                           "  view.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft'}));"
+                           "  const seconds = (performance.now() - begin) / 1000;"
+                           "  if (seconds < 4) { requestAnimationFrame(turn); }"
+                           "  else { done((drawn() - before) / seconds); }"
+                           "};"
+                           "turn();");
     CHECK(frames.get<double>() > kLeastFrames);
     MESSAGE("opened in " << load << " ms, turned at " << frames.get<double>()
                          << " frames per second");

@@ -44,11 +44,12 @@ class Descriptor {
     Descriptor& operator=(const Descriptor&) = delete;
     int number() const { return number_; }
 
-    /// Reads on until the end, or until there is `mark` in what was read, which is returned.
-    std::string read_until(std::string_view mark = {}) const {
+    /// Reads on until `is_enough(text)` is true of what was read, or until the end.
+    template <class IsEnough>
+    std::string read_until(const IsEnough& is_enough) const {
         std::string text;
-        char bytes[4096];
-        while (mark.empty() || text.find(mark) == std::string::npos) {
+        char bytes[65536];
+        while (!is_enough(text)) {
             const ssize_t count = read(number_, bytes, sizeof bytes);
             if (count <= 0) {
                 break;
@@ -61,6 +62,15 @@ class Descriptor {
   private:
     int number_;
 };
+
+/// Whether an HTTP response has as many bytes as it says.
+bool is_whole(const std::string& response) {
+    const std::string name = "Content-Length:";
+    const std::size_t end = response.find("\r\n\r\n");
+    const std::size_t length = response.find(name);
+    return end != std::string::npos && length < end &&
+           response.size() >= end + 4 + std::stoul(response.substr(length + name.size()));
+}
 
 /// Of an HTTP response that is complete.
 Json body_of(const std::string& response) {
@@ -111,13 +121,13 @@ class Browser::Driver {
         close(ends[1]);
         out_ = std::make_unique<Descriptor>(ends[0]);
         const std::string mark = "successfully on port ";
-        std::string told = out_->read_until(mark);
+        const std::string told = out_->read_until([&](const std::string& text) {
+            const std::size_t begin = text.find(mark); // The number ends with a dot.
+            return begin != std::string::npos && text.find('.', begin) != std::string::npos;
+        });
         const std::size_t at = told.find(mark);
         if (at == std::string::npos) {
             fail("chromedriver did not start: " + told);
-        }
-        if (told.find('.', at) == std::string::npos) { // Where the number ends.
-            told += out_->read_until(".");
         }
         port_ = static_cast<std::uint16_t>(std::stoul(told.substr(at + mark.size())));
     }
@@ -128,8 +138,11 @@ class Browser::Driver {
     Driver(const Driver&) = delete;
     Driver& operator=(const Driver&) = delete;
 
-    Json request(const std::string& method, const std::string& path, const std::string& body) const {
+    Json request(const std::string& method, const std::string& path,
+                 const std::string& body) const {
         const Descriptor connection(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+        const timeval patience{kPatience.count(), 0};
+        setsockopt(connection.number(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
         sockaddr_in address{};
         address.sin_family = AF_INET;
         address.sin_port = htons(port_);
@@ -148,7 +161,7 @@ class Browser::Driver {
             }
             rest.remove_prefix(static_cast<std::size_t>(count));
         }
-        return body_of(connection.read_until());
+        return body_of(connection.read_until(is_whole));
     }
 
   private:
@@ -171,9 +184,8 @@ Browser::Browser(const std::vector<std::string>& switches) : driver_(std::make_u
     const Json capabilities = {
         {"goog:chromeOptions", {{"binary", std::string(kBrowser)}, {"args", given}}},
         {"goog:loggingPrefs", {{"browser", "ALL"}}}};
-    const Json session =
-        driver_->request("POST", "/session",
-                         Json{{"capabilities", {{"alwaysMatch", capabilities}}}}.dump());
+    const Json session = driver_->request(
+        "POST", "/session", Json{{"capabilities", {{"alwaysMatch", capabilities}}}}.dump());
     session_ = session.at("sessionId").get<std::string>();
 }
 
@@ -199,8 +211,8 @@ Json Browser::eval(const std::string& script) {
 }
 
 Json Browser::eval_later(const std::string& script) {
-    return command("execute/async", {{"script", "const done = arguments[0];" + script},
-                                     {"args", Json::array()}});
+    return command("execute/async",
+                   {{"script", "const done = arguments[0];" + script}, {"args", Json::array()}});
 }
 
 void Browser::wait_for(const std::string& condition) {
@@ -226,7 +238,11 @@ void Browser::move_to(const std::string& element_id, int x, int y) {
           {"id", "mouse"},
           {"parameters", {{"pointerType", "mouse"}}},
           {"actions",
-           {{{"type", "pointerMove"}, {"duration", 50}, {"origin", find(element_id)}, {"x", x}, {"y", y}}}}}});
+           {{{"type", "pointerMove"},
+             {"duration", 50},
+             {"origin", find(element_id)},
+             {"x", x},
+             {"y", y}}}}}});
 }
 
 void Browser::drag(const std::string& element_id, int x, int y, int button) {
@@ -235,7 +251,11 @@ void Browser::drag(const std::string& element_id, int x, int y, int button) {
           {"parameters", {{"pointerType", "mouse"}}},
           {"actions",
            {{{"type", "pointerDown"}, {"button", button}},
-            {{"type", "pointerMove"}, {"duration", 200}, {"origin", find(element_id)}, {"x", x}, {"y", y}},
+            {{"type", "pointerMove"},
+             {"duration", 200},
+             {"origin", find(element_id)},
+             {"x", x},
+             {"y", y}},
             {{"type", "pointerUp"}, {"button", button}}}}}});
 }
 
@@ -243,19 +263,25 @@ void Browser::scroll(const std::string& element_id, int y) {
     act({{{"type", "wheel"},
           {"id", "wheel"},
           {"actions",
-           {{{"type", "scroll"}, {"origin", find(element_id)}, {"x", 0}, {"y", 0}, {"deltaX", 0}, {"deltaY", y}}}}}});
+           {{{"type", "scroll"},
+             {"origin", find(element_id)},
+             {"x", 0},
+             {"y", 0},
+             {"deltaX", 0},
+             {"deltaY", y}}}}}});
 }
 
 void Browser::press(const std::string& key) {
     act({{{"type", "key"},
           {"id", "keys"},
-          {"actions", {{{"type", "keyDown"}, {"value", key}}, {{"type", "keyUp"}, {"value", key}}}}}});
+          {"actions",
+           {{{"type", "keyDown"}, {"value", key}}, {{"type", "keyUp"}, {"value", key}}}}}});
 }
 
 void Browser::take_picture(const std::string& element_id, const std::filesystem::path& path) {
     const std::string element = find(element_id).at(kElement).get<std::string>();
-    const Json base64 = driver_->request(
-        "GET", "/session/" + session_ + "/element/" + element + "/screenshot", "");
+    const Json base64 =
+        driver_->request("GET", "/session/" + session_ + "/element/" + element + "/screenshot", "");
     const std::string bytes = bytes_of_base64(base64.get<std::string>());
     std::ofstream(path, std::ios::binary).write(bytes.data(), std::ssize(bytes));
 }

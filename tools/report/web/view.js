@@ -5,6 +5,7 @@ const texelsPerRow = 4096; // As in surface.frag.
 const fieldOfView = 24; // Degrees, as in pictures.
 const pickWidth = 9, trialWidth = 96; // Pixels.
 const movingTime = 25, stillTime = 250; // Milliseconds that a picture may take.
+const glideTime = 120; // Milliseconds, on slow machines as well.
 const coarsest = 0.4; // Least pixels to each of the screen's, along each side.
 const mostTried = 1.5e6; // Triangles to draw before the first picture.
 const pointWidth = 3.2; // Most pixels of a point.
@@ -62,7 +63,7 @@ class View {
     this.camera.up.fromArray(facts.view.up);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     Object.assign(this.controls, {
-      enableDamping: true, dampingFactor: 0.12, enableKeys: false, screenSpacePanning: true,
+      enableDamping: true, enableKeys: false, screenSpacePanning: true,
       minDistance: 4 * this.spacing, maxDistance: 40, rotateSpeed: 0.8,
     });
     this.controls.addEventListener("change", () => this.move());
@@ -216,6 +217,9 @@ class View {
   // Where it is looked at from.
 
   reset() {
+    this.controls.enableDamping = false;
+    this.controls.update(); // Nothing is left of what was turned.
+    this.controls.enableDamping = true;
     this.lookFrom(this.direction);
     this.controls.update();
     this.requestFrame();
@@ -297,8 +301,8 @@ class View {
     if (!this.frame) {
       this.frame = requestAnimationFrame(now => {
         this.frame = 0;
-        this.controls.update(); // Asks for the next frame while it glides.
         this.noteTime(now);
+        this.controls.update(); // Asks for the next frame while it glides.
         const isMoving = performance.now() - this.movedAt < 200;
         this.setRatio(isMoving ? this.ratio.moving : this.ratio.still);
         this.draw(tasks.picture);
@@ -330,6 +334,7 @@ class View {
   noteTime(now) {
     const took = now - this.lastFrame;
     this.lastFrame = now;
+    this.controls.dampingFactor = 1 - Math.exp(-Math.min(took || 0, 1000) / glideTime);
     this.late = took > 2 * movingTime && took < 1000 ? (this.late || 0) + 1 : 0;
     if (this.late >= 3) {
       this.late = 0;
