@@ -23,7 +23,8 @@ void main() {
     float facing = abs(dot(mat3(modelViewMatrix) * normal, normalize(at.xyz)));
     float width = clamp(0.22 * spacing / own_pixel, 1.0, most) * mix(0.4, 1.0, facing);
     gl_PointSize = is_marked == 1 ? 2.5 * most : max(width, 1.0);
-    // Not half within the surface.
-    at.xyz *= 1.0 - own_pixel / length(at.xyz);
+    // Not half within the surface, nor in sight from behind it.
+    float before = is_marked == 1 ? gl_PointSize : 1.0;
+    at.xyz *= 1.0 - before * own_pixel / length(at.xyz);
     gl_Position = projectionMatrix * at;
 }
