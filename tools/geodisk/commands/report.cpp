@@ -44,7 +44,6 @@ void run_report(const ReportOptions& options) {
         disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2);
     Stopwatch watch;
     page.set = analyze_disks(mesh, disks, options.probes, 0, progress);
-    page.set.path = job.out.output;
     page.measure_seconds = watch.seconds();
     watch = Stopwatch();
     page.content = make_page_content(mesh, disks, page.set.found.neighbors, up, progress);
@@ -61,8 +60,7 @@ void run_report(const ReportOptions& options) {
 
 void add_report_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "report",
-        "Sample a mesh and write a page to look at, with all that is known of the samples");
+        "report", "Sample a mesh and write a page that shows and measures the samples");
     const auto options = std::make_shared<ReportOptions>();
     add_report_options(*command, *options);
     command->callback([options] { run_report(*options); });

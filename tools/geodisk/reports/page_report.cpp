@@ -82,6 +82,7 @@ Json PageReport::document(const SecondsByStage& after) const {
     document["commit_is_dirty"] = kCommitIsDirty;
     document["command"] = result_.command;
     document["analysis"] = set_json(result_.set);
+    document["analysis"].erase("samples_file"); // There is none.
     document["spectrum"] = nullptr;
     document["view"] = view_json(result_);
     return document;

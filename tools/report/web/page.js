@@ -53,8 +53,8 @@ function fillFigures() {
     ["Boundary edges", grouped(meshFacts.boundary_edges)],
     ["Area", rounded(meshFacts.area, 8)],
     ["Diagonal", meshFacts.diagonal === null ? null : rounded(meshFacts.diagonal, 6)],
-    ...["lift", "weld", "coordinates", "edge_lengths", "density"].flatMap(
-      name => meshFacts[name] === undefined ? [] : [[name, [meshFacts[name]].flat().join(", ")]]),
+    ...Object.entries(meshFacts).filter(([name]) => /^(coordinates|edge_lengths|lift|weld|density_.*)$/.test(name))
+      .map(([name, value]) => [`--${name.replace(/_/g, "-")}`, [value].flat().join(", ")]),
     ["Warnings", facts.warnings.length === 0 ? null : facts.warnings.map(warning => warning.message).join("; ")],
   ]);
   fillTable(byId("run-figures"), [
