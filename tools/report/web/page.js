@@ -82,14 +82,15 @@ function fillFigures() {
 function fillCharts() {
   byId("nearest-chart").append(analysis.nearest
     ? histogramChart("Histogram of nearest distances", analysis.nearest.bin_width, analysis.nearest.counts,
-      `distance of the nearest sample, in ${unit}`, "samples")
+      `nearest sample, in ${unit}`, "samples")
     : element("p", "No sample has another one in reach."));
   const pairs = analysis.pair_correlation;
   if (pairs) {
     byId("pairs-chart").append(curveChart("Geodesic pair correlation",
       pairs.g.map((_, i) => (i + 0.5) * pairs.bin_width), pairs.g, 1, "geodesic distance, in D", "g"));
   } else {
-    byId("pairs-chart").append(element("p", "Not told where radii vary, as there samples are not equally dense."));
+    byId("pairs").querySelector("figcaption").textContent =
+      "There is no pair correlation where radii vary, as there samples are not equally dense.";
   }
   const stages = Object.entries(facts.seconds);
   const names = {
