@@ -3,6 +3,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "support/base64.hpp"
 #include "support/typed_array.hpp"
@@ -43,22 +44,22 @@ std::vector<double> numbers_of(std::string_view tag, std::string_view base64) {
 } // namespace
 
 PageFile read_page(const std::filesystem::path& path) {
-    PageFile page;
-    page.text = tools::bytes_of(path);
+    std::string text = tools::bytes_of(path);
     std::size_t at = 0;
     const auto facts =
-        between(page.text, at, "<script type=\"application/json\" id=\"facts\">", "</script>");
+        between(text, at, "<script type=\"application/json\" id=\"facts\">", "</script>");
     if (!facts) {
         throw std::runtime_error("the page has no facts");
     }
-    page.facts = nlohmann::json::parse(*facts);
-    while (const auto tag = between(page.text, at, "<script type=\"text/plain\" id=", ">")) {
-        const auto content = between(page.text, at, "", "</script>");
+    nlohmann::ordered_json parsed = nlohmann::ordered_json::parse(*facts);
+    std::map<std::string, std::vector<double>> arrays;
+    while (const auto tag = between(text, at, "<script type=\"text/plain\" id=", ">")) {
+        const auto content = between(text, at, "", "</script>");
         if (content && tag->find("data-type") != std::string_view::npos) {
-            page.arrays[attribute("id=" + std::string(*tag), "id")] = numbers_of(*tag, *content);
+            arrays[attribute("id=" + std::string(*tag), "id")] = numbers_of(*tag, *content);
         }
     }
-    return page;
+    return {std::move(text), std::move(parsed), std::move(arrays)};
 }
 
 } // namespace geodisk::test

@@ -13,7 +13,7 @@ namespace geodisk::test {
 
 struct PageFile {
     std::string text;
-    nlohmann::json facts;
+    nlohmann::ordered_json facts;
     std::map<std::string, std::vector<double>> arrays; ///< Numbers as the page's script reads them.
 };
 

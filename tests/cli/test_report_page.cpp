@@ -17,7 +17,7 @@
 namespace geodisk::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kMesh = "builtin:torus-knot:8";
 

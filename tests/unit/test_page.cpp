@@ -190,10 +190,11 @@ TEST_CASE("distances by what a page carries are those of the table, to a thousan
                 CHECK(start == first);
                 CHECK(end == table.starts[face.first_cell + cell + 1]);
                 first = end;
-                const double corner_x = cell % face.columns / data.scale.cells_per_unit;
-                const double corner_y = cell / face.columns / data.scale.cells_per_unit;
-                const double in_x = (uniform() + cell % face.columns) / data.scale.cells_per_unit;
-                const double in_y = (uniform() + cell / face.columns) / data.scale.cells_per_unit;
+                const std::uint32_t column = cell % face.columns, row = cell / face.columns;
+                const double corner_x = column / data.scale.cells_per_unit;
+                const double corner_y = row / data.scale.cells_per_unit;
+                const double in_x = (uniform() + column) / data.scale.cells_per_unit;
+                const double in_y = (uniform() + row) / data.scale.cells_per_unit;
                 for (std::size_t w = start; w < end; ++w) {
                     const picture::WindowRec& window = table.windows[w];
                     CHECK(owners[w] == window.sample_index);
