@@ -55,10 +55,17 @@ std::vector<Point> draw_places(const PreparedMesh& mesh, std::uint32_t count,
     return places;
 }
 
+/// A sample and another one that it was found from.
+struct Pair {
+    std::uint32_t sample, other;
+    double distance;
+};
+
 /// What the disks of a batch of samples found.
 struct Found {
-    /// By sample or place, of those that were found: the least distance.
-    std::vector<std::pair<std::uint32_t, double>> sample_distances, place_distances;
+    std::vector<Pair> sample_distances; ///< Each pair both ways.
+    /// By place, of those that were found: the least distance from a sample.
+    std::vector<std::pair<std::uint32_t, double>> place_distances;
     std::vector<double> sample_pairs, place_pairs; ///< By bin.
 };
 
@@ -128,8 +135,9 @@ class Worker {
             const bool is_sample = other < layout_.samples;
             const double relative = distance / (own + (is_sample ? samples_[other].radius : own));
             if (is_sample) {
-                found.sample_distances.emplace_back(static_cast<std::uint32_t>(i), relative);
-                found.sample_distances.emplace_back(other, relative);
+                const auto self = static_cast<std::uint32_t>(i);
+                found.sample_distances.push_back({self, other, relative});
+                found.sample_distances.push_back({other, self, relative});
             } else {
                 found.place_distances.emplace_back(
                     other - static_cast<std::uint32_t>(layout_.samples), relative);
@@ -152,13 +160,13 @@ class Worker {
     std::vector<std::uint32_t> near_; ///< Places with one.
 };
 
-void note_nearest(const std::vector<double>& nearest, SurfaceStatistics& result) {
+void note_nearest(SurfaceStatistics& result) {
     result.nearest = {1.0 / kBinsPerDistance, {}};
     result.nearest.counts.assign(static_cast<std::size_t>(result.reach) * kBinsPerDistance, 0);
     result.smallest = result.reach;
     double sum = 0;
-    for (const double distance : nearest) {
-        if (!(distance < result.reach)) {
+    for (const auto& [sample, distance] : result.neighbors) {
+        if (sample == Neighbor::kNone) {
             ++result.lonely;
             continue;
         }
@@ -166,7 +174,7 @@ void note_nearest(const std::vector<double>& nearest, SurfaceStatistics& result)
         result.smallest = std::min(result.smallest, distance);
         result.nearest.counts[static_cast<std::size_t>(distance * kBinsPerDistance)] += 1;
     }
-    const std::size_t others = nearest.size() - result.lonely;
+    const std::size_t others = result.neighbors.size() - result.lonely;
     result.mean_nearest = others > 0 ? sum / static_cast<double>(others) : 0;
 }
 
@@ -223,16 +231,20 @@ SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfaceDisk>
     } catch (const ref::EndlessDisk& error) {
         throw UserError(ExitCode::bad_input, error.what());
     }
-    std::vector<double> nearest(samples.size(), kNone), gaps(probes, kNone);
+    result.neighbors.resize(samples.size());
+    std::vector<double> gaps(probes, kNone);
     for (const Found& batch : found) {
-        for (const auto& [sample, distance] : batch.sample_distances) {
-            nearest[sample] = std::min(nearest[sample], distance);
+        for (const auto& [sample, other, distance] : batch.sample_distances) {
+            Neighbor& nearest = result.neighbors[sample];
+            if (distance < (nearest.sample == Neighbor::kNone ? result.reach : nearest.distance)) {
+                nearest = {other, distance};
+            }
         }
         for (const auto& [place, distance] : batch.place_distances) {
             gaps[place] = std::min(gaps[place], distance);
         }
     }
-    note_nearest(nearest, result);
+    note_nearest(result);
     note_gaps(gaps, result);
     if (!vary) {
         note_pairs(found, samples.size(), result);

@@ -18,6 +18,14 @@ struct Histogram {
     std::vector<double> counts;
 };
 
+/// The sample nearest to another one, in terms of the sum of their radii.
+struct Neighbor {
+    static constexpr std::uint32_t kNone = ~0u;
+
+    std::uint32_t sample = kNone; ///< kNone where there is none in reach.
+    double distance = 0;          ///< In sums of two radii.
+};
+
 /// Distances of two samples are in terms of the sum of their radii, and those of other places in
 /// twice the sample's radius: of minimum distances, where radii do not vary.
 struct SurfaceStatistics {
@@ -25,14 +33,15 @@ struct SurfaceStatistics {
     static constexpr double kReachVarying = 2; ///< and not these, where radii vary.
 
     double reach = kReach;
-    double smallest = 0;      ///< Distance of any two; the reach, if all are farther apart.
-    double mean_nearest = 0;  ///< Of each sample's nearest, of those that have one in reach.
-    std::uint64_t lonely = 0; ///< Samples without another one in reach.
-    Histogram nearest;        ///< Of each sample's nearest.
-    std::uint32_t probes = 0; ///< Random places, uniform by area.
-    double uncovered = 0;     ///< Part of them that is not within 1 of a sample, where another
-                              ///< one would have room.
-    double largest_gap = 0;   ///< Of a probe to the nearest sample; the reach, if beyond it.
+    double smallest = 0;             ///< Distance of any two; the reach, if all are farther apart.
+    double mean_nearest = 0;         ///< Of each sample's nearest, of those that have one in reach.
+    std::uint64_t lonely = 0;        ///< Samples without another one in reach.
+    Histogram nearest;               ///< Of each sample's nearest.
+    std::vector<Neighbor> neighbors; ///< Of each sample: the nearest.
+    std::uint32_t probes = 0;        ///< Random places, uniform by area.
+    double uncovered = 0;   ///< Part of them that is not within 1 of a sample, where another
+                            ///< one would have room.
+    double largest_gap = 0; ///< Of a probe to the nearest sample; the reach, if beyond it.
     /// Pairs at a distance, over those of samples and random places there: 1 where samples know
     /// nothing of each other. As the surface is the same for both, its bends and borders cancel.
     /// Empty where radii vary, as there samples are not equally dense.

@@ -15,6 +15,7 @@ constexpr const char* kFooter = R"(Examples:
   geodisk verify bunny.obj points.csv
   geodisk analyze bunny.obj points.csv
   geodisk render bunny.obj points.ply -o picture.png
+  geodisk report bunny.obj -o bunny.html --count 10000
   geodisk sample bunny.obj -o points.ply --count 10000 --lift normals:0.05
   geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv
   geodisk sample bunny.obj -o points.ply --count 10000 --density-curvature
@@ -42,6 +43,7 @@ void set_up(CLI::App& app) {
     geodisk::tools::add_analyze_command(app);
     geodisk::tools::add_spectrum_command(app);
     geodisk::tools::add_render_command(app);
+    geodisk::tools::add_report_command(app);
     geodisk::tools::add_transfer_command(app);
     geodisk::tools::add_box_command(app);
     geodisk::tools::add_shapes_command(app);

@@ -140,6 +140,14 @@ std::vector<View> views_to_try() {
     return views;
 }
 
+glm::dvec3 direction_of(Up up) {
+    return axes_of(up).up;
+}
+
+glm::dvec3 direction_of(View view, Up up) {
+    return look_from(view, up).front;
+}
+
 Camera make_camera(const Scene& scene, View view, Up up, double aspect) {
     const Axes axes = look_from(view, up);
     const double t = std::tan(glm::radians(kHalfAngle));
@@ -162,7 +170,8 @@ Camera make_camera(const Scene& scene, View view, Up up, double aspect) {
     const glm::dvec3 eye = middle + distance * axes.front;
     const glm::dmat4 to_eye = glm::lookAtRH(eye, middle, axes.up);
     return {glm::mat4(clip * to_eye), glm::vec3(eye),
-            glm::vec3(glm::normalize(-0.45 * axes.right + 0.65 * axes.up + 0.75 * axes.front))};
+            glm::vec3(glm::normalize(kLight.x * axes.right + kLight.y * axes.up +
+                                     kLight.z * axes.front))};
 }
 
 glm::mat4 crop(const glm::mat4& to_clip, double x, double y, double width, double height) {

@@ -34,6 +34,15 @@ Up likely_up(const Scene& scene);
 /// Views to choose from: from the front and a little above, as most things are shown.
 std::vector<View> views_to_try();
 
+/// The direction that the axis points in.
+glm::dvec3 direction_of(Up up);
+
+/// Where the eye is, seen from the middle of the scene; of length 1.
+glm::dvec3 direction_of(View view, Up up);
+
+/// Where light comes from: so far to the right, up, and towards the eye.
+inline constexpr glm::dvec3 kLight{-0.45, 0.65, 0.75};
+
 struct Camera {
     glm::mat4 to_clip; ///< y goes down, depth from 0 to 1.
     glm::vec3 eye;

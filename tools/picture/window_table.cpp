@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"
@@ -20,6 +21,9 @@ constexpr double kMostCells = 0x1p24;
 constexpr std::size_t kBatch = 64;
 
 using Point = ref::Position<double>;
+
+/// Ends the work of all threads.
+struct TooManyWindows {};
 
 /// A window and the cell it lights.
 struct Placed {
@@ -169,6 +173,19 @@ void sort_by_cell(std::vector<std::vector<Placed>>& batches, std::size_t cells,
 
 WindowTable make_window_table(const PreparedMesh& mesh, std::span<const SurfaceDisk> disks,
                               double spacing, const PartDone& tell, std::size_t most) {
+    std::optional<WindowTable> table = try_window_table(mesh, disks, spacing, tell, most);
+    if (!table) {
+        throw UserError(ExitCode::out_of_memory,
+                        "the disks light more than " + grouped(most) +
+                            " places of the surface, too many for a picture; disks, points or a "
+                            "smaller radius light fewer");
+    }
+    return std::move(*table);
+}
+
+std::optional<WindowTable> try_window_table(const PreparedMesh& mesh,
+                                            std::span<const SurfaceDisk> disks, double spacing,
+                                            const PartDone& tell, std::size_t most) {
     const ref::Surface<double> surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells));
     WindowTable table;
     table.unit = surface.unit;
@@ -188,16 +205,15 @@ WindowTable make_window_table(const PreparedMesh& mesh, std::span<const SurfaceD
                 maker.make(static_cast<std::uint32_t>(i), {disk.face, disk.weight1, disk.weight2},
                            disk.radius / surface.unit, placed);
                 if ((windows += placed.size() - before) > most) {
-                    throw UserError(ExitCode::out_of_memory,
-                                    "the disks light more than " + grouped(most) +
-                                        " places of the surface, too many for a picture; disks, "
-                                        "points or a smaller radius light fewer");
+                    throw TooManyWindows();
                 }
             }
         };
     };
     try {
         in_batches(disks.size(), kBatch, make_worker, tell);
+    } catch (const TooManyWindows&) {
+        return std::nullopt;
     } catch (const ref::EndlessDisk& error) {
         throw UserError(ExitCode::bad_input, error.what());
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,5 +34,10 @@ inline constexpr std::size_t kMostWindows = std::size_t{1} << 25; ///< A gigabyt
 WindowTable make_window_table(const PreparedMesh& mesh, std::span<const SurfaceDisk> disks,
                               double spacing, const PartDone& tell,
                               std::size_t most = kMostWindows);
+
+/// The same, but nothing for more windows than `most`.
+std::optional<WindowTable> try_window_table(const PreparedMesh& mesh,
+                                            std::span<const SurfaceDisk> disks, double spacing,
+                                            const PartDone& tell, std::size_t most);
 
 } // namespace geodisk::tools::picture

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "program/command_text.hpp"
 #include "program/crash.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
@@ -15,6 +16,8 @@
 
 namespace geodisk::tools {
 namespace {
+
+std::string noted_command;
 
 int fail(const char* program, ExitCode code, const std::string& message) {
     std::cout.flush();
@@ -58,6 +61,7 @@ int parse(CLI::App& app, int argc, char** argv) {
     const char* const name = app.get_name().c_str();
     try {
         std::vector<std::string> arguments = utf8_arguments(argc, argv);
+        noted_command = command_text(name, arguments);
         check_values(arguments);
         std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
         app.parse(arguments);
@@ -90,6 +94,10 @@ int run(const char* name, const char* description, SetUp set_up, int argc, char*
 }
 
 } // namespace
+
+const std::string& given_command() {
+    return noted_command;
+}
 
 std::string fault_of_value(const std::string& given) {
     if (given.empty()) {

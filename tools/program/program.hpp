@@ -34,4 +34,7 @@ using SetUp = void (*)(CLI::App&);
 /// for any exception, signal and crash.
 int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv);
 
+/// The command that run_program() was called by, as a line for a shell.
+const std::string& given_command();
+
 } // namespace geodisk::tools

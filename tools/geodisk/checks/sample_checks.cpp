@@ -157,11 +157,15 @@ std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const Sam
     } else if (!has_own && !samples.rows.empty()) {
         radius = header_distance(samples_path, samples.header) / 2;
     }
+    return disks_of(samples.rows, has_own ? 0 : radius);
+}
+
+std::vector<SurfaceDisk> disks_of(std::span<const SampleRow> rows, double radius) {
     std::vector<SurfaceDisk> disks;
-    disks.reserve(samples.rows.size());
-    for (const SampleRow& row : samples.rows) {
+    disks.reserve(rows.size());
+    for (const SampleRow& row : rows) {
         disks.push_back({row.face, static_cast<double>(row.bary[1]),
-                         static_cast<double>(row.bary[2]), has_own ? row.radius : radius});
+                         static_cast<double>(row.bary[2]), radius > 0 ? radius : row.radius});
     }
     return disks;
 }

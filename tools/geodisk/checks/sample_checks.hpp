@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
 std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
                                       const MeshInput& mesh,
                                       const std::optional<Length>& min_distance);
+
+/// The disk of each row, of this radius in mesh units, or of the row's own where that is 0.
+std::vector<SurfaceDisk> disks_of(std::span<const SampleRow> rows, double radius);
 
 /// Throws UserError(bad_input) if samples have another distance than those of the first file, both
 /// in mesh units: what is told of all is told in minimum distances.

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <geodisk/params.hpp>
-
 #include "analysis/evenness.hpp"
 #include "analysis/surface_statistics.hpp"
 #include "files/sample_file.hpp"
@@ -17,11 +15,9 @@
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/analysis_report.hpp"
-#include "geodisk/reports/mesh_parts.hpp"
+#include "geodisk/set_analysis.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
-#include "program/human_text.hpp"
-#include "program/interrupt.hpp"
 #include "program/program.hpp"
 
 namespace geodisk::tools {
@@ -29,9 +25,6 @@ namespace {
 
 using analysis::Evenness;
 
-constexpr double kProbesPerSample = 10;
-constexpr double kFewestProbes = 20000;
-constexpr double kMostProbes = 1e7;
 /// Samples of a set that a region should hold.
 constexpr double kPerRegion = 20;
 constexpr std::uint32_t kMostRegions = 32;
@@ -43,18 +36,6 @@ struct AnalyzeOptions {
     std::string probes, seed = "0";
     OutputOptions out; ///< No samples.
 };
-
-std::uint32_t probes_for(const AnalyzeOptions& options, std::size_t samples) {
-    if (!options.probes.empty()) {
-        const double probes = parse_count("--probes", options.probes);
-        if (probes > kMostProbes) {
-            fail_usage("--probes takes at most 1e7");
-        }
-        return static_cast<std::uint32_t>(probes);
-    }
-    return static_cast<std::uint32_t>(
-        std::clamp(kProbesPerSample * static_cast<double>(samples), kFewestProbes, kMostProbes));
-}
 
 /// Regions of the mesh, and how many samples of each set they hold.
 class RegionCounts {
@@ -113,38 +94,17 @@ SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
     const std::vector<SurfaceDisk> disks =
         sample_disks(path, samples, mesh, options.distance.parsed());
 
-    SetAnalysis set;
+    SetAnalysis set =
+        analyze_disks(mesh, disks, options.probes, parse_seed("--seed", options.seed), progress);
     set.path = path;
-    set.samples = samples.rows.size();
-    const auto [least, most] = std::minmax_element(
-        disks.begin(), disks.end(),
-        [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });
-    set.min_distance = 2 * most->radius;
-    if (least->radius == most->radius) {
-        set.rho = packing_density(mesh.prepared.statistics().area, set.min_distance,
-                                  static_cast<double>(set.samples));
-    }
-    std::vector<std::uint32_t> faces;
-    faces.reserve(set.samples);
-    for (const SurfaceDisk& disk : disks) {
-        faces.push_back(disk.face);
-    }
-    set.bare_components = parts_without(mesh.file.triangles, faces);
     regions.add(mesh, samples.rows);
-    progress.begin_stage("measuring distances");
-    set.found = analysis::measure(mesh.prepared, disks, probes_for(options, set.samples),
-                                  parse_seed("--seed", options.seed), [&](double part) {
-                                      check_interrupted();
-                                      progress.update(part, grouped(set.samples) + " samples");
-                                  });
-    progress.clear();
     return set;
 }
 
 void run_analyze(const AnalyzeOptions& options) {
     options.distance.parsed(); // Before the files are read.
     parse_seed("--seed", options.seed);
-    probes_for(options, 1);
+    probes_for(options.probes, 1);
     std::vector<NamedFile> read;
     for (const std::string& samples : options.samples) {
         read.push_back({"the samples", samples});
@@ -178,9 +138,7 @@ void add_analyze_command(CLI::App& app) {
         ->type_name("")
         ->required();
     add_distance_options(*command, options->distance);
-    add_option(*command, "--probes", options->probes, "N",
-               "Random places where gaps are looked for (10 per sample,\n"
-               "20,000 at least)");
+    add_probes_option(*command, options->probes);
     add_option(*command, "--seed", options->seed, "S", "Seed of these places")
         ->capture_default_str();
     add_mesh_options(*command, options->mesh);

@@ -42,6 +42,9 @@ void add_render_command(CLI::App& app);
 /// What `render` does with samples in a box of two or three dimensions.
 void render_box(const RenderOptions& options);
 
+/// Samples a mesh on a Vulkan device and writes a page that shows the samples and tells of them.
+void add_report_command(CLI::App& app);
+
 /// Carries samples over to another mesh of the same connectivity.
 void add_transfer_command(CLI::App& app);
 

@@ -71,7 +71,11 @@ SampleJob parse_job(const SampleOptions& options) {
 void add_sample_options(CLI::App& command, SampleOptions& options) {
     add_mesh_argument(command, options.mesh, "Mesh to sample");
     add_output_argument(command, options.out);
+    add_job_options(command, options);
+    add_output_options(command, options.out);
+}
 
+void add_job_options(CLI::App& command, SampleOptions& options) {
     const char* const distance = "Distance, give one";
     add_option(command, "-d,--min-distance", options.min_distance, "D",
                "Least distance along the surface, in mesh units,\n"
@@ -95,7 +99,6 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
     add_method_options(command, options.method, "the surface");
 
     add_run_options(command, options.run);
-    add_output_options(command, options.out);
 }
 
 } // namespace geodisk::tools

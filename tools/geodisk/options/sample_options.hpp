@@ -1,4 +1,4 @@
-// The options of `geodisk sample`, and the job that they ask for.
+// The options of `geodisk sample` and of what else samples a mesh, and the job that they ask for.
 #pragma once
 
 #include <optional>
@@ -27,6 +27,9 @@ struct SampleOptions {
 
 /// Adds all options of the command; `options` must outlive the parsing.
 void add_sample_options(CLI::App& command, SampleOptions& options);
+
+/// Adds those that say what is sampled and how, all but what is written of it.
+void add_job_options(CLI::App& command, SampleOptions& options);
 
 /// What is asked for, checked as far as that is possible without the mesh.
 struct SampleJob {

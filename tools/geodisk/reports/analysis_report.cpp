@@ -59,7 +59,16 @@ Json json_of_histogram(const analysis::Histogram& histogram, const char* name) {
                ? Json(nullptr)
                : Json{{"bin_width", histogram.width}, {name, histogram.counts}};
 }
-Json json_of_set(const SetAnalysis& set) {
+} // namespace
+
+bool are_alike(const std::vector<SetAnalysis>& sets) {
+    const auto [least, most] = std::minmax_element(
+        sets.begin(), sets.end(),
+        [](const SetAnalysis& a, const SetAnalysis& b) { return a.min_distance < b.min_distance; });
+    return sets.empty() || most->min_distance <= (1 + kAlike) * least->min_distance;
+}
+
+Json set_json(const SetAnalysis& set) {
     const analysis::SurfaceStatistics& found = set.found;
     const bool has_nearest = found.lonely < set.samples;
     return {{"samples_file", set.path},
@@ -77,15 +86,6 @@ Json json_of_set(const SetAnalysis& set) {
             {"components_without_samples", set.bare_components},
             {"nearest", json_of_histogram(found.nearest, "counts")},
             {"pair_correlation", json_of_histogram(found.pair_correlation, "g")}};
-}
-
-} // namespace
-
-bool are_alike(const std::vector<SetAnalysis>& sets) {
-    const auto [least, most] = std::minmax_element(
-        sets.begin(), sets.end(),
-        [](const SetAnalysis& a, const SetAnalysis& b) { return a.min_distance < b.min_distance; });
-    return sets.empty() || most->min_distance <= (1 + kAlike) * least->min_distance;
 }
 
 std::string report_text(const Analysis& analysis) {
@@ -129,7 +129,7 @@ std::string report_json(const Analysis& analysis) {
     const bool alike = are_alike(analysis.sets);
     Json sets = Json::array();
     for (const SetAnalysis& set : analysis.sets) {
-        sets.push_back(json_of_set(set));
+        sets.push_back(set_json(set));
     }
     Json document{{"version", GEODISK_VERSION_STRING},
                   {"mesh", mesh_json(analysis.mesh_options.mesh, analysis.mesh_options.additions(),

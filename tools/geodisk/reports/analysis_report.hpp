@@ -11,6 +11,7 @@
 #include "analysis/surface_statistics.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
+#include "geodisk/reports/json.hpp"
 
 namespace geodisk::tools {
 
@@ -35,6 +36,9 @@ struct Analysis {
     const std::vector<SetAnalysis>& sets;
     std::optional<analysis::Evenness> evenness; ///< Of several sets that are alike.
 };
+
+/// What was found of one set.
+Json set_json(const SetAnalysis& set);
 
 std::string report_text(const Analysis& analysis);
 

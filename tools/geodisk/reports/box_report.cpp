@@ -89,7 +89,7 @@ std::string BoxReport::json(double write_seconds) const {
                      {"most_conflicts", run.most_conflicts},
                      {"regrown", run.regrown},
                      {"check_calls", calls_json(drawn())}});
-    document.update(run_json(done_, stage_seconds({}, done_, write_seconds)));
+    document.update(run_json(done_, stage_seconds({}, done_, {{"write", write_seconds}})));
     return text_of(document);
 }
 
@@ -100,7 +100,7 @@ std::string BoxReport::summary(double write_seconds) const {
         << "samples       " << samples_text(drawn()) << ", disks fill "
         << rounded(100 * density_, 3) << " %\n"
         << candidates_text(drawn(), job_.box.seed)
-        << run_text(done_, stage_seconds({}, done_, write_seconds), job_.out.output);
+        << run_text(done_, stage_seconds({}, done_, {{"write", write_seconds}}), job_.out.output);
     return out.str();
 }
 

@@ -89,13 +89,14 @@ std::pair<std::string, std::string> candidates_entry(const Drawn& drawn) {
     return {drawn.method.throws_darts ? "throws" : "pool_size", exact_text(drawn.run.candidates)};
 }
 
-SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done, double write_seconds) {
+SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done,
+                             const SecondsByStage& after) {
     before.insert(before.end(), {{"device", done.open_seconds},
                                  {"pipelines", done.compile_seconds},
                                  {"upload", done.run.seconds.upload},
                                  {"sample", done.run.seconds.sample},
-                                 {"readback", done.run.seconds.readback},
-                                 {"write", write_seconds}});
+                                 {"readback", done.run.seconds.readback}});
+    before.insert(before.end(), after.begin(), after.end());
     return before;
 }
 

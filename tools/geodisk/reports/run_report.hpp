@@ -35,8 +35,9 @@ std::pair<std::string, std::string> candidates_entry(const Drawn& drawn);
 /// Seconds by stage, in the order of the stages.
 using SecondsByStage = std::vector<std::pair<const char*, double>>;
 
-/// Those of `before`, then from opening the device to writing the samples.
-SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done, double write_seconds);
+/// Those of `before`, then from opening the device to reading the samples back, then `after`.
+SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done,
+                             const SecondsByStage& after);
 
 /// What the JSON of a run ends with: guard, memory, seconds, tuning, device.
 Json run_json(const DeviceRun& done, const SecondsByStage& seconds);

@@ -59,6 +59,14 @@ SampleHeader SampleReport::header() const {
 }
 
 std::string SampleReport::json(double write_seconds) const {
+    return text_of(document({{"write", write_seconds}}));
+}
+
+std::string SampleReport::summary(double write_seconds) const {
+    return summary(SecondsByStage{{"write", write_seconds}});
+}
+
+Json SampleReport::document(const SecondsByStage& after) const {
     const RunReport& run = result_.done.run;
     const SampleParams& params = result_.params;
     Json document{{"version", GEODISK_VERSION_STRING},
@@ -85,11 +93,11 @@ std::string SampleReport::json(double write_seconds) const {
                      {"longest_chain", run.longest_chain},
                      {"regrown", run.regrown},
                      {"check_calls", calls_json(drawn())}});
-    document.update(run_json(result_.done, seconds(write_seconds)));
-    return text_of(document);
+    document.update(run_json(result_.done, seconds(after)));
+    return document;
 }
 
-std::string SampleReport::summary(double write_seconds) const {
+std::string SampleReport::summary(const SecondsByStage& after) const {
     const double distance = result_.params.min_distance;
     std::ostringstream out;
     out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, bare_components_)
@@ -101,13 +109,13 @@ std::string SampleReport::summary(double write_seconds) const {
     }
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
         << candidates_text(drawn(), result_.params.seed);
-    out << run_text(result_.done, seconds(write_seconds), job_.out.output);
+    out << run_text(result_.done, seconds(after), job_.out.output);
     return out.str();
 }
 
-SecondsByStage SampleReport::seconds(double write_seconds) const {
+SecondsByStage SampleReport::seconds(const SecondsByStage& after) const {
     return stage_seconds({{"load", mesh_.load_seconds}, {"prepare", mesh_.prepare_seconds}},
-                         result_.done, write_seconds);
+                         result_.done, after);
 }
 
 Drawn SampleReport::drawn() const {

@@ -8,6 +8,7 @@
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
+#include "geodisk/reports/json.hpp"
 #include "geodisk/reports/run_report.hpp"
 
 namespace geodisk::tools {
@@ -29,11 +30,14 @@ class SampleReport {
 
     /// One JSON object and a line break. Writing the samples took `write_seconds`.
     std::string json(double write_seconds) const;
-
     std::string summary(double write_seconds) const;
 
+    /// The same with stages of another name after the samples were read back.
+    Json document(const SecondsByStage& after) const;
+    std::string summary(const SecondsByStage& after) const;
+
   private:
-    SecondsByStage seconds(double write_seconds) const;
+    SecondsByStage seconds(const SecondsByStage& after) const;
     Drawn drawn() const;
 
     const SampleJob& job_;

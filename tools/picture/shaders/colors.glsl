@@ -1,5 +1,6 @@
 // Colours, all in linear light, that people of any colour vision can tell apart: those of Okabe and
-// Ito (2008) for kinds, and one that grows in lightness for amounts.
+// Ito (2008) for kinds, and one that grows in lightness for amounts. Also for GLSL ES 3.00, where a
+// `const` is one at compile time.
 
 vec3 from_srgb(vec3 c) {
     return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
@@ -25,7 +26,7 @@ vec3 cell_color(uint number) {
                                  vec3(0.0, 0.342, 0.171), vec3(0.871, 0.776, 0.054),
                                  vec3(0.0, 0.168, 0.445), vec3(0.665, 0.112, 0.0),
                                  vec3(0.604, 0.19, 0.386));
-    const float light = 0.35 + 0.11 * float((number >> 8) % 4u);
+    float light = 0.35 + 0.11 * float((number >> 8) % 4u);
     return mix(kinds[number % 7u], vec3(0.9), light);
 }
 
@@ -35,8 +36,8 @@ vec3 scale_color(float t) {
                                  vec3(0.338, 0.360, 0.427), vec3(0.486, 0.482, 0.471),
                                  vec3(0.654, 0.615, 0.436), vec3(0.835, 0.760, 0.346),
                                  vec3(0.995, 0.910, 0.218));
-    const float at = clamp(t, 0.0, 1.0) * 6.0;
-    const uint i = min(uint(at), 5u);
+    float at = clamp(t, 0.0, 1.0) * 6.0;
+    uint i = min(uint(at), 5u);
     return from_srgb(mix(knots[i], knots[i + 1u], at - float(i)));
 }
 
@@ -49,15 +50,15 @@ vec3 distance_color(float q) {
     if (q >= 2.0) {
         return kOverlap;
     }
-    const float line = abs(fract(2.0 * q + 0.5) - 0.5);
+    float line = abs(fract(2.0 * q + 0.5) - 0.5);
     return scale_color(1.0 - 0.5 * q) * (line < 0.05 ? 0.55 : 1.0);
 }
 
 // Light from one side, from above, and a little from the eye.
 vec3 shade(vec3 matte, vec3 normal, vec3 to_eye, vec3 to_light) {
-    const float key = max(dot(normal, to_light), 0.0);
-    const float head = max(dot(normal, to_eye), 0.0);
-    const vec3 halfway = normalize(to_light + to_eye);
-    const float gloss = 0.06 * pow(max(dot(normal, halfway), 0.0), 40.0);
+    float key = max(dot(normal, to_light), 0.0);
+    float head = max(dot(normal, to_eye), 0.0);
+    vec3 halfway = normalize(to_light + to_eye);
+    float gloss = 0.06 * pow(max(dot(normal, halfway), 0.0), 40.0);
     return min(matte * (0.22 + 0.68 * key + 0.22 * head) + gloss, vec3(1));
 }

@@ -25,64 +25,13 @@ layout(location = 0) out vec4 color;
 
 // Windows light this much more than they do, in units of length, so that rounding leaves no seams.
 const float kSeam = 2e-4;
-// Of a density estimate, in radii of the sample.
-const float kKernel = 5.0;
-const float kPi = 3.14159265;
 
-// Distances from the two nearest samples, in their radii.
-struct Nearest {
-    float first; float second;
-    uint sample_index;
-};
-
-// Takes a sample whose distance is known.
-void take_sample(uint index, float distance, inout Nearest nearest, inout float density) {
-    const float radius = samples[index].radius;
-    const float relative = distance / radius;
-    if (relative < nearest.first) {
-        nearest.second = nearest.first;
-        nearest.first = relative;
-        nearest.sample_index = index;
-    } else {
-        nearest.second = min(nearest.second, relative);
-    }
-    const float part = relative / kKernel;
-    if (part < 1.0) {
-        density += 2.0 * (1.0 - part * part) / (kPi * kKernel * kKernel * radius * radius);
-    }
-}
-
-// Windows of a cell are in the order of their samples.
-Nearest look_up(out float density) {
-    const float kFar = 1e30;
-    const FaceRec face = faces[face_index];
-    const vec2 cells = clamp(in_face * face.cells_per_unit, vec2(0),
-                             vec2(face.columns, face.rows) - 0.5);
-    const uint cell = face.first_cell + uint(cells.y) * face.columns + uint(cells.x);
-    Nearest nearest = Nearest(kFar, kFar, ~0u);
-    density = 0.0;
-    uint index = ~0u;
-    float distance = kFar;
-    for (uint i = starts[cell]; i < starts[cell + 1u]; ++i) {
-        const WindowRec window = windows[i];
-        if (window.sample_index != index) {
-            if (distance < kFar) {
-                take_sample(index, distance, nearest, density);
-            }
-            index = window.sample_index;
-            distance = kFar;
-        }
-        const vec2 way = in_face - vec2(window.x, window.y);
-        if (dot(vec2(window.left_x, window.left_y), way) >= -kSeam &&
-            dot(vec2(window.right_x, window.right_y), way) >= -kSeam) {
-            distance = min(distance, window.sigma + length(way));
-        }
-    }
-    if (distance < kFar) {
-        take_sample(index, distance, nearest, density);
-    }
-    return nearest;
-}
+FaceRec face_at(uint index) { return faces[index]; }
+uint cell_start(uint cell) { return starts[cell]; }
+WindowRec window_at(uint index) { return windows[index]; }
+float radius_of(uint index) { return samples[index].radius; }
+bool is_shown(uint index) { return true; }
+#include "nearest.glsl"
 
 // What the surface itself is coloured, light apart.
 vec3 surface_color(Nearest nearest, float density) {
@@ -127,7 +76,7 @@ void main() {
         return;
     }
     float density;
-    const Nearest nearest = look_up(density);
+    const Nearest nearest = look_up(face_index, in_face, density);
     const vec3 matte = surface_color(nearest, density);
     color = vec4(shade(matte, up, to_eye, vec3(light_x, light_y, light_z)), 1);
 }

@@ -1,0 +1,69 @@
+#include <memory>
+
+#include "files/input_file.hpp"
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/report_options.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/page_content.hpp"
+#include "geodisk/reports/page_report.hpp"
+#include "geodisk/reports/sample_report.hpp"
+#include "geodisk/sample_run.hpp"
+#include "geodisk/set_analysis.hpp"
+#include "program/failure.hpp"
+#include "program/program.hpp"
+#include "program/stopwatch.hpp"
+#include "report/page.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+void check_page_path(const Path& path) {
+    const std::string extension = lower_extension(path);
+    if (extension != ".html" && extension != ".htm") {
+        fail_usage(path.string() + ": reports are written as *.html");
+    }
+    check_writable(path);
+}
+
+void run_report(const ReportOptions& options) {
+    report::require_front_end();
+    const SampleJob job = parse_job(options.sample);
+    PageResult page;
+    page.views = options.first_views();
+    page.command = given_command();
+    const auto up = options.parsed_up();
+    probes_for(options.probes, 1); // Before the files are read.
+    check_outputs(job.out, "the page", files_read(job), check_page_path);
+
+    ProgressLine progress(job.out.quiet);
+    const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
+    const SampleResult result = sample_mesh(job, mesh, progress);
+    const std::vector<SurfaceDisk> disks =
+        disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2);
+    Stopwatch watch;
+    page.set = analyze_disks(mesh, disks, options.probes, 0, progress);
+    page.measure_seconds = watch.seconds();
+    watch = Stopwatch();
+    page.content = make_page_content(mesh, disks, page.set.found.neighbors, up, progress);
+    page.disk_seconds = watch.seconds();
+
+    const SampleReport samples(job, mesh, result);
+    const PageReport told(samples, page);
+    write_outputs(job.out, "the page", progress, told, [&](AtomicFile& file) {
+        report::write_page(file, {told.facts(), page.content.arrays});
+    });
+}
+
+} // namespace
+
+void add_report_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "report", "Sample a mesh and write a page that shows and measures the samples");
+    const auto options = std::make_shared<ReportOptions>();
+    add_report_options(*command, *options);
+    command->callback([options] { run_report(*options); });
+}
+
+} // namespace geodisk::tools

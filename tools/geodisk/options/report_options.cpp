@@ -1,0 +1,33 @@
+#include "geodisk/options/report_options.hpp"
+
+#include "geodisk/set_analysis.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+
+std::vector<picture::View> ReportOptions::first_views() const {
+    const auto given = picture::parse_view("--view", view);
+    return given ? std::vector{*given} : picture::views_to_try();
+}
+
+std::optional<picture::Up> ReportOptions::parsed_up() const {
+    return up.empty() ? std::nullopt : std::optional(picture::parse_up("--up", up));
+}
+
+void add_report_options(CLI::App& command, ReportOptions& options) {
+    add_mesh_argument(command, options.sample.mesh, "Mesh to sample");
+    add_output_argument(command, options.sample.out, "Page to write: *.html");
+    add_option(command, "--view", options.view, "VIEW",
+               "Where to look from at first: front, back, left, right,\n"
+               "top, bottom, AZIMUTH,ELEVATION in degrees, or auto for\n"
+               "where most is seen from")
+        ->capture_default_str();
+    add_option(command, "--up", options.up, "AXIS",
+               "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
+    add_probes_option(command, options.probes);
+    add_job_options(command, options.sample);
+    add_json_option(command, options.sample.out);
+    command.add_flag("-q,--quiet", options.sample.out.quiet, "No progress and no summary");
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,91 @@
+#include "geodisk/reports/page_report.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "geodisk/commit.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr double kSteepest = 89.9; // Degrees.
+
+Json vector_json(const glm::dvec3& vector) {
+    return {vector.x, vector.y, vector.z};
+}
+
+/// What the page needs to know to show its arrays.
+Json view_json(const PageResult& result) {
+    const PageContent& content = result.content;
+    Json from = Json::array();
+    for (picture::View view : result.views) {
+        // From right above there would be no telling what is up.
+        view.elevation = std::clamp(view.elevation, -kSteepest, kSteepest);
+        from.push_back(vector_json(picture::direction_of(view, content.up)));
+    }
+    Json json{{"surface", content.has_surface},
+              {"disks", nullptr}, // Where they are left out.
+              {"left_out", content.left_out},
+              {"windows", content.windows},
+              {"up", vector_json(picture::direction_of(content.up))},
+              {"from", from},
+              {"light", vector_json(picture::kLight)}};
+    if (const auto& disks = content.disks) {
+        json["disks"] = {{"unit", disks->unit},
+                         {"cells_per_unit", disks->cells_per_unit},
+                         {"seam", disks->seam}};
+    }
+    return json;
+}
+
+} // namespace
+
+std::string PageReport::facts() const {
+    Json facts = document(stages());
+    facts["seed"] = facts["seed"].dump(); // JavaScript would round a number of 64 bits.
+    return text_of(facts);
+}
+
+std::string PageReport::json(double write_seconds) const {
+    return text_of(document(stages(write_seconds)));
+}
+
+std::string PageReport::summary(double write_seconds) const {
+    const analysis::SurfaceStatistics& found = result_.set.found;
+    std::ostringstream out;
+    out << samples_.summary(stages(write_seconds));
+    if (found.lonely < result_.set.samples) {
+        out << "nearest       " << fixed(found.smallest, 5) << " at least, "
+            << fixed(found.mean_nearest, 3) << " on average, in minimum distances\n";
+    }
+    out << "room for more " << fixed(100 * found.uncovered, 2) << " % of the area\n";
+    for (const std::string& sentence : result_.content.left_out) {
+        out << "left out      " << sentence << '\n';
+    }
+    return out.str();
+}
+
+SecondsByStage PageReport::stages() const {
+    return {{"measure", result_.measure_seconds}, {"disks", result_.disk_seconds}};
+}
+
+SecondsByStage PageReport::stages(double write_seconds) const {
+    SecondsByStage all = stages();
+    all.emplace_back("write", write_seconds);
+    return all;
+}
+
+Json PageReport::document(const SecondsByStage& after) const {
+    Json document = samples_.document(after);
+    document["commit"] = kCommit;
+    document["commit_is_dirty"] = kCommitIsDirty;
+    document["command"] = result_.command;
+    document["analysis"] = set_json(result_.set);
+    document["analysis"].erase("samples_file"); // There is none.
+    document["spectrum"] = nullptr;
+    document["view"] = view_json(result_);
+    return document;
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,70 @@
+#include "geodisk/set_analysis.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <geodisk/params.hpp>
+
+#include "geodisk/reports/mesh_parts.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr double kProbesPerSample = 10;
+constexpr double kFewestProbes = 20000;
+constexpr double kMostProbes = 1e7;
+
+} // namespace
+
+void add_probes_option(CLI::App& command, std::string& probes) {
+    add_option(command, "--probes", probes, "N",
+               "Random places where gaps are looked for (10 per sample,\n"
+               "20,000 at least)");
+}
+
+std::uint32_t probes_for(const std::string& probes, std::size_t samples) {
+    if (!probes.empty()) {
+        const double count = parse_count("--probes", probes);
+        if (count > kMostProbes) {
+            fail_usage("--probes takes at most 1e7");
+        }
+        return static_cast<std::uint32_t>(count);
+    }
+    return static_cast<std::uint32_t>(
+        std::clamp(kProbesPerSample * static_cast<double>(samples), kFewestProbes, kMostProbes));
+}
+
+SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+                          const std::string& probes, std::uint64_t seed, ProgressLine& progress) {
+    SetAnalysis set;
+    set.samples = disks.size();
+    const auto [least, most] = std::minmax_element(
+        disks.begin(), disks.end(),
+        [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });
+    set.min_distance = 2 * most->radius;
+    if (least->radius == most->radius) {
+        set.rho = packing_density(mesh.prepared.statistics().area, set.min_distance,
+                                  static_cast<double>(set.samples));
+    }
+    std::vector<std::uint32_t> faces;
+    faces.reserve(set.samples);
+    for (const SurfaceDisk& disk : disks) {
+        faces.push_back(disk.face);
+    }
+    set.bare_components = parts_without(mesh.file.triangles, faces);
+    progress.begin_stage("measuring distances");
+    set.found = analysis::measure(mesh.prepared, disks, probes_for(probes, set.samples), seed,
+                                  [&](double part) {
+                                      check_interrupted();
+                                      progress.update(part, grouped(set.samples) + " samples");
+                                  });
+    progress.clear();
+    return set;
+}
+
+} // namespace geodisk::tools

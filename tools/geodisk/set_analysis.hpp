@@ -1,0 +1,32 @@
+// Measuring how samples are spread, for the commands that do.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/analysis_report.hpp"
+#include "geometry/surface_disk.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace geodisk::tools {
+
+/// Adds --probes.
+void add_probes_option(CLI::App& command, std::string& probes);
+
+/// How many random places are to be looked at: as --probes says, or if that is "", what suits so
+/// many samples. Throws UserError(usage).
+std::uint32_t probes_for(const std::string& probes, std::size_t samples);
+
+/// Measures samples with these disks, not none, on `mesh`. Random places are drawn by `seed`. The
+/// path is left to the caller. Throws UserError.
+SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+                          const std::string& probes, std::uint64_t seed, ProgressLine& progress);
+
+} // namespace geodisk::tools
