@@ -150,6 +150,23 @@ TEST_CASE("names that look like parts of a page stay names") {
     }
 }
 
+TEST_CASE("a page has a spectrum where one is asked for") {
+    const TemporaryFolder folder;
+    const PageFile file = page(folder, {"builtin:icosphere:3", "-d", "0.4", "--harmonics", "60"});
+    const auto& spectrum = file.facts["spectrum"];
+    CHECK(spectrum["harmonics"] == 60);
+    CHECK(spectrum["expected"].get<double>() == doctest::Approx(3.01).epsilon(0.01));
+    CHECK(spectrum["frequency"].size() >= 3);
+    CHECK(spectrum["power"].size() == spectrum["frequency"].size());
+    CHECK(spectrum["anisotropy"].size() == spectrum["frequency"].size());
+    check_fails(folder, 2, "--harmonics",
+                {"report", "builtin:cube", "-d", "0.4", "-o", "q.html", "--harmonics", "9"});
+    check_fails(folder, 2, "do not vary",
+                {"report", "builtin:icosphere:3", "-d", "0.4", "-o", "q.html", "--harmonics", "9",
+                 "--density-curvature"});
+    CHECK_FALSE(std::filesystem::exists(folder / "q.html"));
+}
+
 TEST_CASE("ten thousand samples on a large mesh stay below 10 MB") {
     const TemporaryFolder folder;
     const PageFile found = page(folder, {"builtin:showpiece:135", "-n", "10000"});

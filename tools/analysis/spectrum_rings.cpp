@@ -1,9 +1,15 @@
 #include "analysis/spectrum_rings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace geodisk::tools::analysis {
+
+double decibels(double ratio) {
+    constexpr double kLeast = 1e-12;
+    return 10 * std::log10(std::max(ratio, kLeast));
+}
 
 RingSums::RingSums(double width, double highest)
     : width_(width), highest_(highest), sums_(static_cast<std::size_t>(highest / width) + 1) {}

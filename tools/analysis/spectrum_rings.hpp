@@ -14,6 +14,9 @@ struct SpectrumRing {
     double anisotropy; ///< Its variance over its squared mean, of the power averaged over sets.
 };
 
+/// Ten times the logarithm; of no ratio that of a very small one.
+double decibels(double ratio);
+
 /// Adds powers up, each to its ring.
 class RingSums {
   public:

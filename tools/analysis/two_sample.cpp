@@ -25,7 +25,7 @@ RingDifferences differences(const SurfaceSpectrum& spectrum, std::span<const std
     RingDifferences result;
     for (std::size_t ring = 0; ring < a.size(); ++ring) {
         result.radial_mean.push_back(std::log(a[ring].mean / b[ring].mean));
-        result.anisotropy.push_back(10 * std::log10(a[ring].anisotropy / b[ring].anisotropy));
+        result.anisotropy.push_back(decibels(a[ring].anisotropy) - decibels(b[ring].anisotropy));
     }
     return result;
 }

@@ -1,6 +1,4 @@
 // Fig. 12: boxes of two and three dimensions, and the spectrum of the former (section 5.9).
-#include <cmath>
-
 #include <geodisk/box.hpp>
 
 #include "analysis/power_spectrum.hpp"
@@ -18,6 +16,7 @@
 namespace geodisk::paper {
 namespace {
 
+using tools::analysis::decibels;
 using tools::analysis::PowerSpectrum;
 using tools::analysis::SpectrumRing;
 
@@ -86,11 +85,11 @@ void run(const Options& options) {
     double deviation = 0, frequencies = 0;
     for (const SpectrumRing& ring : spectrum.rings()) {
         const double at = ring.frequency * torus.min_distance;
-        const double decibels = 10 * std::log10(ring.anisotropy);
+        const double anisotropy_there = decibels(ring.anisotropy);
         mean.lines[0].points.push_back({at, ring.mean});
-        anisotropy.lines[0].points.push_back({at, decibels});
+        anisotropy.lines[0].points.push_back({at, anisotropy_there});
         table.add({tools::fixed(at, 4), std::to_string(ring.count), tools::fixed(ring.mean, 4),
-                   tools::fixed(decibels, 3)});
+                   tools::fixed(anisotropy_there, 3)});
         deviation += ring.anisotropy * ring.count;
         frequencies += ring.count;
     }
@@ -105,8 +104,8 @@ void run(const Options& options) {
         sizes, {"device " + device.name(), common.text(), circumstances},
         "Boxes of two and three dimensions, and the power spectrum of " +
             std::to_string(common.repeats) + " sets",
-        "Anisotropy of the whole: " + tools::fixed(10 * std::log10(deviation / frequencies), 2) +
-            " dB, and " + tools::fixed(-10 * std::log10(common.repeats), 2) +
+        "Anisotropy of the whole: " + tools::fixed(decibels(deviation / frequencies), 2) +
+            " dB, and " + tools::fixed(decibels(1.0 / common.repeats), 2) +
             " dB if all directions are alike. The paper's squares are"
             "\nopen, as here but for the spectrum, and its samples r or 2 r apart, which it"
             "\ndoes not say.");

@@ -28,6 +28,7 @@
 namespace geodisk::paper {
 namespace {
 
+using tools::analysis::decibels;
 using tools::analysis::Difference;
 using tools::analysis::PlacedSamples;
 using tools::analysis::SpectrumDifference;
@@ -133,10 +134,6 @@ std::vector<std::size_t> sets_of(std::size_t method, const CommonOptions& common
         sets.push_back(method * repeats + i);
     }
     return sets;
-}
-
-double decibels(double ratio) {
-    return 10 * std::log10(ratio);
 }
 
 struct Figure {

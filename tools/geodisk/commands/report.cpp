@@ -1,4 +1,7 @@
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "files/input_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
@@ -11,6 +14,7 @@
 #include "geodisk/reports/sample_report.hpp"
 #include "geodisk/sample_run.hpp"
 #include "geodisk/set_analysis.hpp"
+#include "geodisk/spectrum_run.hpp"
 #include "program/failure.hpp"
 #include "program/program.hpp"
 #include "program/stopwatch.hpp"
@@ -27,6 +31,18 @@ void check_page_path(const Path& path) {
     check_writable(path);
 }
 
+SpectrumRun spectrum_of(const SampleJob& job, const MeshInput& mesh,
+                        std::span<const SurfaceDisk> disks, const std::string& harmonics,
+                        ProgressLine& progress) {
+    analysis::PlacedSamples places;
+    for (const SurfaceDisk& disk : disks) {
+        places.push_back({disk.face, disk.weight1, disk.weight2});
+    }
+    std::vector<MeshWarning> warnings; // Printed; the page tells of the mesh itself.
+    return compute_spectrum_on(job.mesh.mesh, mesh, std::span(&places, 1), harmonics, warnings,
+                               progress);
+}
+
 void run_report(const ReportOptions& options) {
     report::require_front_end();
     const SampleJob job = parse_job(options.sample);
@@ -35,16 +51,23 @@ void run_report(const ReportOptions& options) {
     page.command = given_command();
     const auto up = options.parsed_up();
     probes_for(options.probes, 1); // Before the files are read.
+    parse_harmonics(options.harmonics);
     check_outputs(job.out, "the page", files_read(job), check_page_path);
 
     ProgressLine progress(job.out.quiet);
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
+    if (!options.harmonics.empty() && mesh.radii) {
+        fail_usage("--harmonics: a spectrum is of samples whose radii do not vary");
+    }
     const SampleResult result = sample_mesh(job, mesh, progress);
     const std::vector<SurfaceDisk> disks =
         disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2);
     Stopwatch watch;
     page.set = analyze_disks(mesh, disks, options.probes, 0, progress);
     page.measure_seconds = watch.seconds();
+    if (!options.harmonics.empty()) {
+        page.spectrum = spectrum_of(job, mesh, disks, options.harmonics, progress);
+    }
     watch = Stopwatch();
     page.content = make_page_content(mesh, disks, page.set.found.neighbors, up, progress);
     page.disk_seconds = watch.seconds();

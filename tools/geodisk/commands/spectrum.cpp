@@ -19,23 +19,17 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "geodisk/reports/spectrum_report.hpp"
-#include "program/arguments.hpp"
+#include "geodisk/spectrum_run.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/interrupt.hpp"
 #include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
 
-using analysis::Laplacian;
-using analysis::ManifoldHarmonics;
 using analysis::PlacedSamples;
 using analysis::SurfaceSpectrum;
 
-constexpr std::size_t kHarmonics = 1000;
-/// Of the vertices: shorter waves than of so many harmonics have hardly three vertices each.
-constexpr double kMostOfVertices = 0.1;
 /// Where the power of blue noise has gone up and down once.
 constexpr double kWantedReach = 2;
 
@@ -65,8 +59,7 @@ struct SurfaceSets {
 };
 
 SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
-                      const Laplacian& laplacian, std::vector<MeshWarning>& warnings,
-                      ProgressLine& progress) {
+                      std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     SurfaceSets result;
     for (const std::string& path : options.samples) {
         progress.begin_stage("reading the samples");
@@ -83,45 +76,12 @@ SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
                 result.min_distance = min_distance;
             }
             check_same_distance(path, min_distance, options.samples.front(), result.min_distance);
-            if (laplacian.nodes[std::size_t{3} * disk.face] == Laplacian::kNoNode) {
-                fail_input(path, "sample " + std::to_string(places.size()) + " lies on triangle " +
-                                     std::to_string(disk.face) + ", which is a single point");
-            }
             places.push_back({disk.face, disk.weight1, disk.weight2});
         }
         result.samples += static_cast<double>(places.size());
     }
     result.samples /= static_cast<double>(result.sets.size());
     return result;
-}
-
-std::size_t parse_harmonics(const std::string& text) {
-    return text.empty() ? kHarmonics : static_cast<std::size_t>(parse_count("--harmonics", text));
-}
-
-/// As many as are asked for; all, if there are fewer than those that are taken by themselves.
-std::size_t harmonics_to_compute(const SpectrumOptions& options, const Laplacian& laplacian,
-                                 const ManifoldHarmonics& harmonics,
-                                 std::vector<MeshWarning>& warnings) {
-    std::size_t count = parse_harmonics(options.harmonics);
-    if (options.harmonics.empty()) {
-        count = std::min(count, harmonics.count());
-    }
-    if (count > harmonics.count()) {
-        fail_usage("--harmonics: " + options.mesh.mesh + " has " +
-                   counted(laplacian.size(), "vertex", "vertices") + ", so only " +
-                   counted(harmonics.count(), "harmonic", "harmonics"));
-    }
-    if (static_cast<double>(count) > kMostOfVertices * laplacian.size()) {
-        warnings.push_back({"coarse_mesh", count, "",
-                            grouped(count) + " harmonics of " +
-                                counted(laplacian.size(), "vertex", "vertices") +
-                                ": the shortest waves are those of the triangles rather than of "
-                                "the surface; subdivide the mesh before sampling",
-                            ""});
-        print_warning(options.mesh.mesh + ": " + warnings.back().message);
-    }
-    return count;
 }
 
 std::string harmonics_line(const SurfaceSpectrum& spectrum, double min_distance, double seconds) {
@@ -154,40 +114,27 @@ void spectrum_of_surface(const SpectrumOptions& options) {
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
     std::vector<MeshWarning> warnings = mesh.warnings;
-    const Stopwatch watch;
-    const Laplacian laplacian = analysis::make_laplacian(mesh.prepared, mesh.file.triangles);
-    const SurfaceSets sets = read_sets(options, mesh, laplacian, warnings, progress);
-    progress.begin_stage("preparing the waves of the surface");
-    const ManifoldHarmonics harmonics(laplacian);
-    progress.clear();
-    const std::size_t count = harmonics_to_compute(options, laplacian, harmonics, warnings);
-    const auto [expected_seconds, bytes] = harmonics.cost(count);
-    const std::string detail = "about " + seconds_text(expected_seconds) + " and " +
-                               size_text(static_cast<std::uint64_t>(bytes));
-    progress.begin_stage("computing " + counted(count, "harmonic", "harmonics"));
-    const SurfaceSpectrum spectrum =
-        compute_spectrum(laplacian, harmonics, count, sets.sets, [&](double part) {
-            check_interrupted();
-            progress.update(part, detail);
-        });
-    progress.clear();
-    const double seconds = watch.seconds();
+    const SurfaceSets sets = read_sets(options, mesh, warnings, progress);
+    const std::string& path = options.mesh.mesh;
+    const SpectrumRun run =
+        compute_spectrum_on(path, mesh, sets.sets, options.harmonics, warnings, progress);
+    const SurfaceSpectrum& spectrum = run.spectrum;
 
     const SpectrumReport report{options.samples, sets.samples, sets.min_distance, spectrum.rings(),
                                 2.0 / static_cast<double>(sets.sets.size())};
-    const std::string& path = options.mesh.mesh;
     Json json{{"version", GEODISK_VERSION_STRING},
               {"mesh", mesh_json(path, options.mesh.additions(), mesh)},
               {"warnings", warnings_json(warnings)},
               {"harmonics",
-               {{"count", count},
+               {{"count", spectrum.frequencies.size()},
                 {"highest_frequency", spectrum.frequencies.back() * sets.min_distance},
-                {"seconds", seconds},
-                {"expected_seconds", expected_seconds},
-                {"expected_bytes", bytes}}}};
+                {"seconds", run.seconds},
+                {"expected_seconds", run.expected_seconds},
+                {"expected_bytes", run.expected_bytes}}}};
     report.add_to(json);
     const std::string text = mesh_lines("mesh", path, options.mesh.additions(), mesh) +
-                             harmonics_line(spectrum, sets.min_distance, seconds) + report.text();
+                             harmonics_line(spectrum, sets.min_distance, run.seconds) +
+                             report.text();
     if (options.out.output.empty()) {
         publish(options.out, text_of(json), text);
         return;
@@ -201,9 +148,8 @@ void spectrum_of_surface(const SpectrumOptions& options) {
 } // namespace
 
 void add_spectrum_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("spectrum", "Compute the power spectrum of samples on a mesh or in a "
-                                       "box of 2 dimensions");
+    CLI::App* command = app.add_subcommand(
+        "spectrum", "Compute the power spectrum of samples on a mesh or in a box");
     const auto options = std::make_shared<SpectrumOptions>();
     const auto files = std::make_shared<std::vector<std::string>>();
     add_spectrum_options(*command, *options, *files);

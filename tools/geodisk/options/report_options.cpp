@@ -25,6 +25,9 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
     add_option(command, "--up", options.up, "AXIS",
                "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
     add_probes_option(command, options.probes);
+    add_option(command, "--harmonics", options.harmonics, "K",
+               "Show the power spectrum, by K waves of the surface (none);\n"
+               "blue noise takes some five per sample");
     add_job_options(command, options.sample);
     add_json_option(command, options.sample.out);
     command.add_flag("-q,--quiet", options.sample.out.quiet, "No progress and no summary");

@@ -14,6 +14,7 @@ namespace geodisk::tools {
 struct ReportOptions {
     SampleOptions sample; ///< Its output is the page.
     std::string probes, view = "auto", up;
+    std::string harmonics; ///< Of the spectrum; "" for none.
 
     /// The views to choose the first one from. Throws UserError(usage).
     std::vector<picture::View> first_views() const;

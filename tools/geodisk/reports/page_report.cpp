@@ -39,6 +39,28 @@ Json view_json(const PageResult& result) {
     return json;
 }
 
+/// Ring by ring.
+Json spectrum_json(const SpectrumRun& run, double min_distance) {
+    Json frequency = Json::array(), power = Json::array(), anisotropy = Json::array();
+    for (const analysis::SpectrumRing& ring : run.spectrum.rings()) {
+        frequency.push_back(ring.frequency * min_distance);
+        power.push_back(ring.mean);
+        anisotropy.push_back(analysis::decibels(ring.anisotropy));
+    }
+    // Of one set, whose waves are real ones.
+    constexpr double kExpected = 2;
+    return {{"unit", "waves per minimum distance"},
+            {"harmonics", run.spectrum.frequencies.size()},
+            {"seconds", run.seconds},
+            {"expected", analysis::decibels(kExpected)},
+            {"caption", "By " + grouped(run.spectrum.frequencies.size()) +
+                            " waves of the surface. Independent points have power 1; blue noise "
+                            "has little up to half a wave per minimum distance."},
+            {"frequency", std::move(frequency)},
+            {"power", std::move(power)},
+            {"anisotropy", std::move(anisotropy)}};
+}
+
 } // namespace
 
 std::string PageReport::facts() const {
@@ -83,7 +105,9 @@ Json PageReport::document(const SecondsByStage& after) const {
     document["command"] = result_.command;
     document["analysis"] = set_json(result_.set);
     document["analysis"].erase("samples_file"); // There is none.
-    document["spectrum"] = nullptr;
+    document["spectrum"] = result_.spectrum
+                               ? spectrum_json(*result_.spectrum, result_.set.min_distance)
+                               : Json(nullptr);
     document["view"] = view_json(result_);
     return document;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "geodisk/reports/analysis_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/sample_report.hpp"
+#include "geodisk/spectrum_run.hpp"
 #include "picture/view.hpp"
 
 namespace geodisk::tools {
@@ -19,6 +21,7 @@ struct PageResult {
     PageContent content;
     std::vector<picture::View> views; ///< To choose the first one from.
     std::string command;              ///< As a line for a shell.
+    std::optional<SpectrumRun> spectrum;
     double measure_seconds = 0, disk_seconds = 0;
 };
 

@@ -11,16 +11,11 @@
 namespace geodisk::tools {
 namespace {
 
+using analysis::decibels;
 using analysis::SpectrumRing;
 
 /// Up to this part of a wave per minimum distance, blue noise has hardly any power.
 constexpr double kLow = 0.5;
-constexpr double kLeastAnisotropy = 1e-12;
-
-double decibels(double ratio) {
-    return 10 * std::log10(std::max(ratio, kLeastAnisotropy));
-}
-
 /// What people look for first.
 struct Findings {
     double peak = 0, peak_at = 0; ///< Of the radial mean, at a frequency in minimum distances.

@@ -102,7 +102,8 @@ function fillCharts() {
   fillSpectrum();
 }
 
-/** facts.spectrum: { frequency, power, anisotropy, unit, caption? }, arrays of one length; anisotropy in dB. */
+/** facts.spectrum: { frequency, power, anisotropy, expected, unit, caption }, the first three arrays of one length;
+ * anisotropy in dB, expected is where no direction is another than the others. */
 function fillSpectrum() {
   const spectrum = facts.spectrum;
   if (!spectrum) {
@@ -111,7 +112,7 @@ function fillSpectrum() {
   byId("spectrum").hidden = false;
   byId("power-chart").append(curveChart("Radial mean of the power", spectrum.frequency, spectrum.power, 1,
     `frequency, ${spectrum.unit}`, "power"));
-  byId("anisotropy-chart").append(curveChart("Anisotropy", spectrum.frequency, spectrum.anisotropy, 0,
+  byId("anisotropy-chart").append(curveChart("Anisotropy", spectrum.frequency, spectrum.anisotropy, spectrum.expected,
     `frequency, ${spectrum.unit}`, "dB"));
   if (spectrum.caption) {
     byId("power-caption").textContent = spectrum.caption;

@@ -1,0 +1,33 @@
+// Spectra of samples on a surface, for the commands that tell of them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/surface_spectrum.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geometry/mesh_warning.hpp"
+
+namespace geodisk::tools {
+
+struct SpectrumRun {
+    analysis::SurfaceSpectrum spectrum;
+    double seconds = 0;
+    double expected_seconds = 0, expected_bytes = 0; ///< As told before.
+};
+
+/// "" for what is usual. Throws UserError(usage).
+std::size_t parse_harmonics(const std::string& text);
+
+/// Of sets on the mesh that is called `mesh_path`, by as many harmonics as --harmonics says; by
+/// all, where that is "" and there are fewer than usual. Warns where the mesh is coarse for them.
+/// Throws UserError.
+SpectrumRun compute_spectrum_on(const std::string& mesh_path, const MeshInput& mesh,
+                                std::span<const analysis::PlacedSamples> sets,
+                                const std::string& harmonics, std::vector<MeshWarning>& warnings,
+                                ProgressLine& progress);
+
+} // namespace geodisk::tools
