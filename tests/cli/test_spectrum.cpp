@@ -124,7 +124,12 @@ TEST_CASE("what has no spectrum is told") {
     check_fails(folder, 2, "--reach", {"spectrum", "a.csv", "--reach", "0"});
     check_fails(folder, 2, "s.txt", {"spectrum", "a.csv", "-o", "s.txt"});
     check_fails(folder, 2, "would replace", {"spectrum", "a.csv", "-o", "a.csv"});
-    check_fails(folder, 3, "3 dimensions", {"spectrum", "b.csv"});
+    check_fails(folder, 2, "two dimensions", {"spectrum", "b.csv", "-o", "s.png"});
+    const Outcome space = run(folder, {"spectrum", "b.csv", "--reach", "2", "-o", "b-s.csv"});
+    CHECK(space.status == 0);
+    CHECK(contains(space.out, "1 x 1 x 1"));
+    REQUIRE(run(folder, {"box", "--dim", "1", "-d", "0.1", "-o", "line.csv"}).status == 0);
+    check_fails(folder, 3, "one dimension", {"spectrum", "line.csv"});
     check_fails(folder, 3, "c.csv: has a box of 1 x 2", {"spectrum", "a.csv", "c.csv"});
     check_fails(folder, 3, "no.csv", {"spectrum", "no.csv"});
     folder.write("none.csv", "# box: 1 x 1\n# sides: open\n# min_distance: 0.1\nx,y\n");

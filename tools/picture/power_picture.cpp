@@ -1,6 +1,7 @@
 #include "picture/power_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,12 +10,13 @@ namespace geodisk::tools::picture {
 
 Pixels power_picture(const analysis::PowerSpectrum& spectrum) {
     constexpr double kWhite = 2;
-    Pixels pixels{2 * spectrum.columns() + 1, 2 * spectrum.rows() + 1, {}};
+    const std::int64_t columns = spectrum.most(0), rows = spectrum.most(1);
+    Pixels pixels{
+        static_cast<std::uint32_t>(2 * columns + 1), static_cast<std::uint32_t>(2 * rows + 1), {}};
     pixels.rgba.reserve(std::size_t{4} * pixels.width * pixels.height);
-    const std::int64_t columns = spectrum.columns(), rows = spectrum.rows();
     for (std::int64_t row = rows; row >= -rows; --row) {
         for (std::int64_t column = -columns; column <= columns; ++column) {
-            const double part = std::min(1.0, spectrum.power(column, row) / kWhite);
+            const double part = std::min(1.0, spectrum.power(std::array{column, row}) / kWhite);
             const auto grey = static_cast<std::uint8_t>(std::lround(255 * part));
             pixels.rgba.insert(pixels.rgba.end(), {grey, grey, grey, 255});
         }

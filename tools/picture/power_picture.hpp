@@ -6,8 +6,8 @@
 
 namespace geodisk::tools::picture {
 
-/// A pixel per frequency, with 0 in the middle: black for no power, white for twice as much as
-/// white noise has.
+/// Of a box of two dimensions: a pixel per frequency, with 0 in the middle: black for no power,
+/// white for twice as much as white noise has.
 Pixels power_picture(const analysis::PowerSpectrum& spectrum);
 
 } // namespace geodisk::tools::picture

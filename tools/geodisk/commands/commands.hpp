@@ -33,7 +33,7 @@ void add_analyze_command(CLI::App& app);
 /// device.
 void add_spectrum_command(CLI::App& app);
 
-/// What `spectrum` does with samples in boxes of two dimensions.
+/// What `spectrum` does with samples in boxes.
 void spectrum_of_boxes(const SpectrumOptions& options);
 
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.

@@ -29,7 +29,7 @@ namespace {
 
 using analysis::PowerSpectrum;
 
-constexpr double kMostFrequencies = 0x1p24;
+constexpr double kMostFrequencies = 0x1p25; ///< 8 bytes each, and as many again.
 constexpr double kReach = 4, kLeastReach = 0.5, kMostReach = 100;
 
 /// Spectrum of all files, and what they have in common.
@@ -50,9 +50,8 @@ void check_box_spectrum_path(const Path& path) {
 
 BoxParams read_box(const std::string& path, const SampleFile& samples) {
     BoxParams box = box_of(path, "", samples);
-    if (box.extents.size() != 2) {
-        fail_input(path, "its box has " + counted(box.extents.size(), "dimension", "dimensions") +
-                             "; spectra are of those with 2");
+    if (box.extents.size() < 2) {
+        fail_input(path, "its box has one dimension; spectra are of those with more");
     }
     if (samples.rows.empty()) {
         fail_input(path, "has no samples");
@@ -62,12 +61,12 @@ BoxParams read_box(const std::string& path, const SampleFile& samples) {
 
 PowerSpectrum make_spectrum(const std::string& path, const BoxParams& box, double reach) {
     const double highest = reach / box.min_distance;
-    if (2 * highest * box.extents[0] * highest * box.extents[1] > kMostFrequencies) {
+    if (PowerSpectrum::count(box, highest) > kMostFrequencies) {
         throw UserError(ExitCode::out_of_memory,
                         path + ": there are too many frequencies up to " + rounded(reach, 3) +
                             " waves per minimum distance; give less with --reach");
     }
-    if (highest * std::min(box.extents[0], box.extents[1]) < 2) {
+    if (highest * *std::min_element(box.extents.begin(), box.extents.end()) < 2) {
         fail_input(path, "its box is too small for its minimum distance: there are no two waves "
                          "along its sides up to the frequency of --reach");
     }
@@ -82,6 +81,10 @@ BoxSpectrum compute(const SpectrumOptions& options, double reach, ProgressLine& 
         const SampleFile samples = read_box_samples(path);
         const BoxParams box = read_box(path, samples);
         if (!result) {
+            if (box.extents.size() != 2 && lower_extension(options.out.output) == ".png") {
+                fail_usage(options.out.output + ": pictures are of spectra in two dimensions; " +
+                           "write *.csv, the radial mean and anisotropy");
+            }
             result = BoxSpectrum{box, make_spectrum(path, box, reach), {}};
         } else if (box.extents != result->box.extents) {
             fail_input(path, "has a box of " + box_text(box) + ", " + options.samples.front() +
@@ -90,9 +93,9 @@ BoxSpectrum compute(const SpectrumOptions& options, double reach, ProgressLine& 
         check_same_distance(path, box.min_distance, options.samples.front(),
                             result->box.min_distance);
         std::vector<double> points;
-        points.reserve(2 * samples.rows.size());
+        points.reserve(box.extents.size() * samples.rows.size());
         for (const SampleRow& row : samples.rows) {
-            points.insert(points.end(), {row.position[0], row.position[1]});
+            points.insert(points.end(), row.position, row.position + box.extents.size());
         }
         progress.begin_stage("computing the spectrum");
         result->spectrum.add(points, [&](double part) {

@@ -9,12 +9,12 @@ void add_spectrum_options(CLI::App& command, SpectrumOptions& options,
     command
         .add_option("MESH SAMPLES", files,
                     "Samples, *.ply or *.csv, of one mesh, and before them the mesh;\n"
-                    "or of boxes of 2 dimensions. Of several the mean is taken")
+                    "or of boxes. Of several the mean is taken")
         ->type_name("")
         ->required();
     add_option(command, "-o,--output", options.out.output, "OUT",
                "Spectrum to write: *.csv, radial mean and anisotropy, or of\n"
-               "boxes *.png, a picture with frequency 0 in the middle");
+               "boxes of 2 dimensions *.png, a picture with 0 in the middle");
     add_option(command, "--harmonics", options.harmonics, "K",
                "Waves of the surface, from the longest on (1000)");
     add_option(command, "--reach", options.reach, "F",
