@@ -98,9 +98,6 @@ void slide_to(Browser& browser, std::size_t count) {
 } // namespace
 
 TEST_CASE("a page shows disks on a surface, and neither fetches nor complains") {
-    if (!has_browser()) {
-        return;
-    }
     const TemporaryFolder folder;
     make_page(folder, {kMesh, "-n", "400"});
     Browser browser;
@@ -120,9 +117,6 @@ TEST_CASE("a page shows disks on a surface, and neither fetches nor complains") 
 }
 
 TEST_CASE("layers and the slider show what they say") {
-    if (!has_browser()) {
-        return;
-    }
     const TemporaryFolder folder;
     make_page(folder, {kMesh, "-n", "400"});
     Browser browser;
@@ -156,9 +150,6 @@ TEST_CASE("layers and the slider show what they say") {
 }
 
 TEST_CASE("what is told of the sample pointed at is what the file has") {
-    if (!has_browser()) {
-        return;
-    }
     const TemporaryFolder folder;
     make_page(folder, {kMesh, "-n", "400"});
     REQUIRE(run(folder, {"sample", kMesh, "-n", "400", "-o", "a.ply"}).status == 0);
@@ -194,9 +185,6 @@ TEST_CASE("what is told of the sample pointed at is what the file has") {
 }
 
 TEST_CASE("the view turns by mouse and by keys, and comes back") {
-    if (!has_browser()) {
-        return;
-    }
     const TemporaryFolder folder;
     make_page(folder, {kMesh, "-n", "400", "--view", "20,30"});
     Browser browser;
@@ -222,9 +210,6 @@ TEST_CASE("the view turns by mouse and by keys, and comes back") {
 }
 
 TEST_CASE("without WebGL the page says so and tells the rest") {
-    if (!has_browser()) {
-        return;
-    }
     const TemporaryFolder folder;
     make_page(folder, {"builtin:cube", "-n", "100"});
     Browser browser({"--disable-3d-apis"});
@@ -238,9 +223,6 @@ TEST_CASE("without WebGL the page says so and tells the rest") {
 }
 
 TEST_CASE("ten thousand samples on seventy thousand triangles open at once and turn") {
-    if (!has_browser()) {
-        return;
-    }
     const TemporaryFolder folder;
     make_page(folder, {"builtin:showpiece:135", "-n", "10000"});
     Browser browser;

@@ -89,21 +89,6 @@ Json body_of(const std::string& response) {
 
 } // namespace
 
-bool has_browser() {
-    if (!kBrowser.empty() && !kDriver.empty()) {
-        return true;
-    }
-    const std::string reason = "there is no Chromium with chromedriver; packages-browser.txt names "
-                               "them, and CMake has to be run again";
-    const char* const value = std::getenv("CI");
-    if (value != nullptr && std::string_view(value) == "true") {
-        FAIL_CHECK(reason);
-    } else {
-        MESSAGE("skipped: " << reason);
-    }
-    return false;
-}
-
 /// The process of chromedriver, which ends with the object.
 class Browser::Driver {
   public:

@@ -12,10 +12,6 @@ namespace geodisk::test {
 
 using Json = nlohmann::json;
 
-/// Whether a browser and its driver are there. Where not, tells so, and fails where the environment
-/// has CI=true.
-bool has_browser();
-
 /// A headless Chromium of its own, which draws WebGL on the CPU. All members throw
 /// std::runtime_error for what the driver refuses.
 class Browser {
