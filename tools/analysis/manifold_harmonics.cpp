@@ -35,6 +35,7 @@ constexpr std::size_t kLargestBand = 180;
 constexpr double kNarrowest = 1e-7;
 /// By which a shift moves that hits an eigenvalue.
 constexpr double kNudge = 1e-9;
+constexpr int kMostNudges = 100;
 constexpr double kTolerance = 1e-10; ///< Of an eigenvalue of the inverse.
 constexpr Index kMostRestarts = 300;
 /// Of the Krylov space, beyond twice the eigenvalues looked for.
@@ -53,12 +54,13 @@ class Factors {
 
     /// Moves the shift a little where it is an eigenvalue. Returns it.
     double factorize(double shift) {
-        for (;; shift *= 1 + kNudge) {
+        for (int nudge = 0; nudge < kMostNudges; ++nudge, shift *= 1 + kNudge) {
             solver_.factorize(laplacian_.stiffness - shift * laplacian_.mass);
             if (solver_.info() == Eigen::Success && solver_.vectorD().allFinite()) {
                 return shift;
             }
         }
+        throw UserError(ExitCode::bad_input, "the waves of the mesh are beyond double precision");
     }
     /// How many eigenvalues are below the shift.
     std::size_t below() const {
@@ -114,32 +116,54 @@ class Inverse {
 };
 
 /// What a slice's Lanczos runs have found.
-struct Found {
-    std::vector<double> eigenvalues;
-    Eigen::MatrixXd functions;
+class Found {
+  public:
+    Found(const Laplacian& laplacian, const Slice& slice)
+        : laplacian_(laplacian), slice_(slice),
+          functions_(laplacian.mass.rows(), static_cast<Index>(slice.count)) {}
 
-    void add(double eigenvalue, const Eigen::VectorXd& function, const Laplacian& laplacian) {
-        eigenvalues.push_back(eigenvalue);
-        functions.conservativeResize(function.size(), functions.cols() + 1);
-        functions.rightCols(1) = function / std::sqrt(function.dot(laplacian.mass * function));
+    std::size_t count() const { return eigenvalues_.size(); }
+    Eigen::Ref<const Eigen::MatrixXd> functions() const {
+        return functions_.leftCols(static_cast<Index>(count()));
+    }
+    /// Takes those of the slice that there is room for; tells whether there was for all.
+    bool add(const Eigen::VectorXd& eigenvalues, const Eigen::MatrixXd& functions) {
+        for (Index i = 0; i < eigenvalues.size(); ++i) {
+            if (eigenvalues[i] < slice_.low || eigenvalues[i] >= slice_.high) {
+                continue;
+            }
+            if (count() == slice_.count) {
+                return false;
+            }
+            const double square = functions.col(i).dot(laplacian_.mass * functions.col(i));
+            functions_.col(static_cast<Index>(count())) = functions.col(i) / std::sqrt(square);
+            eigenvalues_.push_back(eigenvalues[i]);
+        }
+        return true;
     }
 
-    HarmonicBand sorted(std::size_t first) const {
-        std::vector<Index> order(eigenvalues.size());
+    HarmonicBand sorted() const {
+        std::vector<Index> order(count());
         std::iota(order.begin(), order.end(), Index{0});
-        const auto value = [&](Index i) { return eigenvalues[static_cast<std::size_t>(i)]; };
+        const auto value = [&](Index i) { return eigenvalues_[static_cast<std::size_t>(i)]; };
         std::sort(order.begin(), order.end(),
                   [&](Index a, Index b) { return value(a) < value(b); });
         HarmonicBand band;
-        band.first = first;
+        band.first = slice_.first;
         band.eigenvalues.resize(static_cast<Index>(order.size()));
-        band.functions.resize(functions.rows(), static_cast<Index>(order.size()));
+        band.functions.resize(functions_.rows(), static_cast<Index>(order.size()));
         for (std::size_t i = 0; i < order.size(); ++i) {
             band.eigenvalues[static_cast<Index>(i)] = value(order[i]);
-            band.functions.col(static_cast<Index>(i)) = functions.col(order[i]);
+            band.functions.col(static_cast<Index>(i)) = functions_.col(order[i]);
         }
         return band;
     }
+
+  private:
+    const Laplacian& laplacian_;
+    Slice slice_;
+    std::vector<double> eigenvalues_;
+    Eigen::MatrixXd functions_; ///< With room for those of the whole slice.
 };
 
 [[noreturn]] void fail_slice(const Slice& slice, std::size_t found) {
@@ -160,30 +184,22 @@ HarmonicBand solve_slice(const Laplacian& laplacian, Factors& factors, const Sli
     const double shift = factors.factorize((slice.low + slice.high) / 2);
     Spectra::SparseSymMatProd<double> mass(laplacian.mass);
     Inverse inverse(factors, laplacian, watch);
-    Found found;
-    while (found.eigenvalues.size() < slice.count) {
-        const std::size_t wanted = slice.count - found.eigenvalues.size();
-        const std::size_t known = found.eigenvalues.size();
+    Found found(laplacian, slice);
+    while (found.count() < slice.count) {
+        const std::size_t known = found.count(), wanted = slice.count - known;
         const std::size_t krylov = std::min<std::size_t>(krylov_size(wanted), laplacian.size());
+        inverse.leave_out(found.functions());
         Spectra::SymGEigsShiftSolver<Inverse, Spectra::SparseSymMatProd<double>,
                                      Spectra::GEigsMode::ShiftInvert>
             solver(inverse, mass, static_cast<Index>(std::min(wanted, krylov - 1)),
                    static_cast<Index>(krylov), shift);
         solver.init();
         solver.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kTolerance);
-        const Eigen::VectorXd eigenvalues = solver.eigenvalues();
-        const Eigen::MatrixXd functions = solver.eigenvectors();
-        for (Index i = 0; i < eigenvalues.size(); ++i) {
-            if (eigenvalues[i] >= slice.low && eigenvalues[i] < slice.high) {
-                found.add(eigenvalues[i], functions.col(i), laplacian);
-            }
-        }
-        if (found.eigenvalues.size() == known || found.eigenvalues.size() > slice.count) {
+        if (!found.add(solver.eigenvalues(), solver.eigenvectors()) || found.count() == known) {
             fail_slice(slice, known);
         }
-        inverse.leave_out(found.functions);
     }
-    return found.sorted(slice.first);
+    return found.sorted();
 }
 
 } // namespace
@@ -244,7 +260,7 @@ ManifoldHarmonics::ManifoldHarmonics(ManifoldHarmonics&&) noexcept = default;
 HarmonicCost ManifoldHarmonics::cost(std::size_t harmonics) const {
     // As measured: Lanczos solves 2.5 times for each harmonic of a full band, and each vector is
     // multiplied with those of the Krylov space some four times.
-    constexpr double kSolves = 2.5, kProducts = 4, kPerSecond = 1e9;
+    constexpr double kSolves = 2.5, kProducts = 4, kPerSecond = 3e9;
     const double size = laplacian_.size(), krylov = static_cast<double>(krylov_size(kBandSize));
     const auto bands = static_cast<double>(batch_count(harmonics, kBandSize));
     const double band_seconds =

@@ -37,8 +37,8 @@ BoxParams box_of(const std::string& path, const std::string& min_distance,
                  const SampleFile& samples) {
     const std::string* const sides = samples.header.find("box");
     if (sides == nullptr) {
-        fail_input(path, "its header tells of no box; samples on a mesh are verified "
-                         "with it: geodisk verify MESH SAMPLES");
+        fail_input(path, "its header tells of no box; samples on a mesh are given "
+                         "after it: MESH SAMPLES");
     }
     BoxParams box;
     box.extents = parse_sides(*sides);
