@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -103,7 +102,7 @@ class Inverse {
             result -= known_ * (weighted_.transpose() * result);
         }
     }
-    void leave_out(const Eigen::MatrixXd& functions) {
+    void leave_out(const Eigen::Ref<const Eigen::MatrixXd>& functions) {
         known_ = functions;
         weighted_ = laplacian_.mass * functions;
     }

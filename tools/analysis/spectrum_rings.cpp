@@ -6,6 +6,15 @@
 
 namespace geodisk::tools::analysis {
 
+double mean_anisotropy(std::span<const SpectrumRing> rings) {
+    double sum = 0, count = 0;
+    for (const SpectrumRing& ring : rings) {
+        sum += ring.anisotropy * ring.count;
+        count += ring.count;
+    }
+    return sum / count;
+}
+
 double decibels(double ratio) {
     constexpr double kLeast = 1e-12;
     return 10 * std::log10(std::max(ratio, kLeast));

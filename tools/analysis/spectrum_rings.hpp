@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace geodisk::tools::analysis {
@@ -13,6 +14,9 @@ struct SpectrumRing {
     double mean;       ///< Of the power, the radial mean.
     double anisotropy; ///< Its variance over its squared mean, of the power averaged over sets.
 };
+
+/// Over all frequencies of the rings.
+double mean_anisotropy(std::span<const SpectrumRing> rings);
 
 /// Ten times the logarithm; of no ratio that of a very small one.
 double decibels(double ratio);

@@ -26,22 +26,10 @@ constexpr const char* kSurfaces[] = {"builtin:clifford-torus:96", "builtin:klein
 constexpr std::pair<const char*, const char*> kPoses{"builtin:swiss-roll:96",
                                                      "builtin:unrolled-sheet:96"};
 
-/// The same faces and weights on another surface.
-std::size_t pairs_too_close(const PaperMesh& mesh, const SampleSet& set, double min_distance) {
-    Pool pool{{min_distance}, {}, {}};
-    std::vector<std::uint32_t> ranks;
-    for (const Sample& sample : set.samples) {
-        ranks.push_back(static_cast<std::uint32_t>(ranks.size()));
-        pool.by_rank.push_back({sample.face, sample.weights[1], sample.weights[2]});
-    }
-    return find_violations(mesh, pool, ranks).pairs;
-}
-
 void run(const Options& options) {
     Outputs outputs(options.common.out, "fig10", /* has_plots */ false);
     const double count = tools::parse_count("--count", options.count);
-    PictureParams panel;
-    panel.width = panel.height = options.size.pixels();
+    const PictureParams panel = square_panel(options.size);
     Device device(options.device, /* graphics */ true);
     const Painter painter(device.context());
     Table table({"surface", "coordinates", "samples of", "samples", "pairs too close"});
@@ -50,8 +38,8 @@ void run(const Options& options) {
                           double min_distance) {
         table.add({mesh.name, std::to_string(mesh.file.dimension), sampled.name,
                    std::to_string(set.samples.size()),
-                   std::to_string(pairs_too_close(mesh, set, min_distance))});
-        panels.push_back(painter.surface(mesh, disks_of(set, min_distance), panel));
+                   std::to_string(find_violations(mesh, places_of(set), min_distance).pairs)});
+        panels.push_back(painter.surface(mesh, disks_of(places_of(set), min_distance), panel));
     };
     for (const char* const name : kSurfaces) {
         const PaperMesh mesh = load_mesh(name);

@@ -55,8 +55,7 @@ void run(const Options& options) {
     Outputs outputs(options.common.out, "fig11", /* has_plots */ false);
     const double count = tools::parse_count("--count", options.count);
     const double least = tools::parse_ratio("--least", options.least, RadiusField::kLeastFactor, 1);
-    PictureParams panel;
-    panel.width = panel.height = options.size.pixels();
+    PictureParams panel = square_panel(options.size);
     const std::vector<PaperMesh> meshes = load_meshes(options.meshes);
     Device device(options.device, /* graphics */ true);
     const Painter painter(device.context());
@@ -68,7 +67,7 @@ void run(const Options& options) {
                             kDefaultPoolRatio};
         params.radii = &radii;
         const SampleSet set = device.sample(mesh, params);
-        std::vector<tools::SurfaceDisk> disks = disks_of(set, params.min_distance);
+        std::vector<tools::SurfaceDisk> disks = disks_of(places_of(set), params.min_distance);
         for (std::size_t k = 0; k < disks.size(); ++k) {
             disks[k].radius *= radii.factor_at(disks[k].face, set.samples[k].weights);
         }
@@ -82,8 +81,7 @@ void run(const Options& options) {
             panel.style = style;
             panels.push_back(painter.surface(mesh, disks, panel));
         }
-        outputs.add_picture(meshes.size() > 1 ? "-" + std::to_string(i + 1) : "",
-                            side_by_side(panels));
+        outputs.add_picture(numbered(i, meshes.size()), side_by_side(panels));
     }
     outputs.add_table(table,
                       {"device " + device.name(), "seed " + std::to_string(options.common.seed),

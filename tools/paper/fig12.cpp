@@ -17,6 +17,7 @@ namespace geodisk::paper {
 namespace {
 
 using tools::analysis::decibels;
+using tools::analysis::mean_anisotropy;
 using tools::analysis::PowerSpectrum;
 using tools::analysis::SpectrumRing;
 
@@ -56,8 +57,7 @@ void run(const Options& options) {
     const double square = tools::parse_ratio("--square", options.square, kLeast, kMost);
     const double cube = tools::parse_ratio("--cube", options.cube, 0.002, kMost);
     const double radius = tools::parse_ratio("--spectrum", options.spectrum, 0.001, kMost);
-    PictureParams panel;
-    panel.width = panel.height = options.size.pixels();
+    PictureParams panel = square_panel(options.size);
     Device device(options.device, /* graphics */ true);
     const Painter painter(device.context());
 
@@ -82,16 +82,14 @@ void run(const Options& options) {
     bench::LinePlot mean = spectrum_plot("Radial mean of the power", "power", "");
     bench::LinePlot anisotropy = spectrum_plot("Anisotropy", "anisotropy", "dB");
     Table table({"waves per D", "frequencies", "radial mean", "anisotropy dB"});
-    double deviation = 0, frequencies = 0;
-    for (const SpectrumRing& ring : spectrum.rings()) {
+    const std::vector<SpectrumRing> rings = spectrum.rings();
+    for (const SpectrumRing& ring : rings) {
         const double at = ring.frequency * torus.min_distance;
         const double anisotropy_there = decibels(ring.anisotropy);
         mean.lines[0].points.push_back({at, ring.mean});
         anisotropy.lines[0].points.push_back({at, anisotropy_there});
         table.add({tools::fixed(at, 4), std::to_string(ring.count), tools::fixed(ring.mean, 4),
                    tools::fixed(anisotropy_there, 3)});
-        deviation += ring.anisotropy * ring.count;
-        frequencies += ring.count;
     }
     const std::string circumstances = "square r = " + options.square +
                                       ", cube r = " + options.cube +
@@ -104,7 +102,7 @@ void run(const Options& options) {
         sizes, {"device " + device.name(), common.text(), circumstances},
         "Boxes of two and three dimensions, and the power spectrum of " +
             std::to_string(common.repeats) + " sets",
-        "Anisotropy of the whole: " + tools::fixed(decibels(deviation / frequencies), 2) +
+        "Anisotropy of the whole: " + tools::fixed(decibels(mean_anisotropy(rings)), 2) +
             " dB, and " + tools::fixed(decibels(1.0 / common.repeats), 2) +
             " dB if all directions are alike. The paper's squares are"
             "\nopen, as here but for the spectrum, and its samples r or 2 r apart, which it"

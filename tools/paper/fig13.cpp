@@ -65,7 +65,8 @@ Comparison compare(const PaperMesh& mesh, const Pool& pool, std::uint32_t slots,
     result.samples = static_cast<double>(batches.ranks.size());
     result.disks = static_cast<double>(batches.disks);
     result.phase_samples = static_cast<double>(phases.size());
-    result.close_samples = static_cast<double>(find_violations(mesh, pool, batches.ranks).samples);
+    result.close_samples = static_cast<double>(
+        find_violations(mesh, places_of(pool, batches.ranks), distance).samples);
     return result;
 }
 

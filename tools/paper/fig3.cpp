@@ -21,8 +21,7 @@ struct Options {
 void run(const Options& options) {
     Outputs outputs(options.common.out, "fig3", /* has_plots */ false);
     const std::vector<double> counts = options.counts.counts();
-    PictureParams panel;
-    panel.width = panel.height = options.size.pixels();
+    const PictureParams panel = square_panel(options.size);
     const std::vector<PaperMesh> meshes = load_meshes(options.meshes);
     Device device(options.device, /* graphics */ true);
     const Painter painter(device.context());
@@ -39,10 +38,10 @@ void run(const Options& options) {
                 {mesh.name, std::to_string(mesh.prepared.statistics().triangles),
                  tools::rounded(params.min_distance, 6), tools::fixed(samples, 0),
                  tools::fixed(packing_density(mesh.area(), params.min_distance, samples), 3)});
-            panels.push_back(painter.surface(mesh, disks_of(set, params.min_distance), panel));
+            panels.push_back(
+                painter.surface(mesh, disks_of(places_of(set), params.min_distance), panel));
         }
-        outputs.add_picture(meshes.size() > 1 ? "-" + std::to_string(i + 1) : "",
-                            side_by_side(panels));
+        outputs.add_picture(numbered(i, meshes.size()), side_by_side(panels));
     }
     outputs.add_table(table,
                       {"device " + device.name(), "seed " + std::to_string(options.common.seed)},

@@ -30,6 +30,7 @@ namespace {
 
 using tools::analysis::decibels;
 using tools::analysis::Difference;
+using tools::analysis::mean_anisotropy;
 using tools::analysis::PlacedSamples;
 using tools::analysis::SpectrumDifference;
 using tools::analysis::SpectrumRing;
@@ -58,24 +59,6 @@ constexpr std::array<Method, 6> kMethods{{{"dart throwing", 0, false},
 /// Rings of fewer say little, and are not drawn.
 constexpr std::uint32_t kDrawnRing = 10;
 
-PlacedSamples placed(const Pool& pool, const std::vector<std::uint32_t>& ranks) {
-    PlacedSamples samples;
-    samples.reserve(ranks.size());
-    for (const std::uint32_t rank : ranks) {
-        samples.push_back(pool.by_rank[rank]);
-    }
-    return samples;
-}
-
-PlacedSamples placed(const SampleSet& set) {
-    PlacedSamples samples;
-    samples.reserve(set.samples.size());
-    for (const Sample& sample : set.samples) {
-        samples.push_back({sample.face, sample.weights[1], sample.weights[2]});
-    }
-    return samples;
-}
-
 PlacedSamples throw_in_groups(const PaperMesh& mesh, const Pool& pool, Metric metric,
                               std::uint32_t trials) {
     tools::check_interrupted();
@@ -88,10 +71,10 @@ PlacedSamples throw_in_groups(const PaperMesh& mesh, const Pool& pool, Metric me
     const ref::PhaseGroups groups(positions, distance);
     if (metric == Metric::curve) {
         ref::SpaceDisks disks(points, distance, ref::curve_length);
-        return placed(pool, groups.throw_darts(disks, trials));
+        return places_of(pool, groups.throw_darts(disks, trials));
     }
     ref::GeodesicDisks disks(mesh.prepared, distance, pool.by_rank, pool.tolerances);
-    return placed(pool, groups.throw_darts(disks, trials));
+    return places_of(pool, groups.throw_darts(disks, trials));
 }
 
 /// By method, then repetition.
@@ -106,7 +89,7 @@ std::vector<PlacedSamples> sample(const PaperMesh& mesh, const Options& options,
     };
     const auto throw_independent = [&](SampleParams params) {
         const Pool pool = draw_independent_pool(mesh, params);
-        return placed(pool, throw_darts(mesh, pool, Metric::exact));
+        return places_of(pool, throw_darts(mesh, pool, Metric::exact));
     };
     const auto draw = [&](const SampleParams& params) { return draw_pool(mesh, params); };
     repeat(throw_independent);
@@ -114,10 +97,10 @@ std::vector<PlacedSamples> sample(const PaperMesh& mesh, const Options& options,
         params.seed = common.seed_of(common.repeats) + params.seed;
         return throw_independent(params);
     });
-    repeat([&](const SampleParams& params) { return placed(device.sample(mesh, params)); });
+    repeat([&](const SampleParams& params) { return places_of(device.sample(mesh, params)); });
     repeat([&](const SampleParams& params) {
         const Pool pool = draw(params);
-        return placed(pool, throw_darts(mesh, pool, Metric::curve));
+        return places_of(pool, throw_darts(mesh, pool, Metric::curve));
     });
     for (const Metric metric : {Metric::exact, Metric::curve}) {
         repeat([&](const SampleParams& params) {
@@ -175,13 +158,8 @@ struct Figure {
 
     void add_row(const std::string& mesh, std::size_t method, double samples,
                  const std::vector<SpectrumRing>& rings, const SpectrumDifference* difference) {
-        double anisotropy = 0, harmonics = 0;
-        for (const SpectrumRing& ring : rings) {
-            anisotropy += ring.anisotropy * ring.count;
-            harmonics += ring.count;
-        }
         std::vector<std::string> row{mesh, kMethods[method].name, tools::fixed(samples, 1),
-                                     tools::fixed(decibels(anisotropy / harmonics), 2)};
+                                     tools::fixed(decibels(mean_anisotropy(rings)), 2)};
         const auto add = [&](const Difference& found, double scale) {
             row.push_back(tools::fixed(scale * found.size, 2));
             row.push_back(tools::fixed(found.p, 3));
@@ -268,7 +246,7 @@ void run(const Options& options) {
             "\nclosed form of Bowers et al.; the anisotropy of phase groups deviates.");
     outputs.add_data("-curves", figure.curves);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const std::string number = meshes.size() > 1 ? "-" + std::to_string(i + 1) : "";
+        const std::string number = numbered(i, meshes.size());
         outputs.add_plot(number + "a", figure.radial_means[i]);
         outputs.add_plot(number + "b", figure.anisotropies[i]);
     }

@@ -53,7 +53,7 @@ Comparison compare(const PaperMesh& mesh, const std::optional<PaperMesh>& flat, 
         for (const Metric metric : kMetrics) {
             const std::vector<std::uint32_t> samples = throw_darts(mesh, pool, metric);
             result.tallies[static_cast<std::size_t>(metric)].add(
-                samples.size(), find_violations(mesh, pool, samples));
+                samples.size(), find_violations(mesh, places_of(pool, samples), distance));
             if (metric == Metric::exact && flat) {
                 result.equals_flat =
                     result.equals_flat &&
@@ -99,14 +99,15 @@ struct Figure {
 
 /// The sheet that crosses itself: through space, by the closed form and by exact distances.
 Pixels show_crossing(const Painter& painter, double distance, const Options& options) {
-    PictureParams panel;
-    panel.width = panel.height = options.size.pixels();
+    const PictureParams panel = square_panel(options.size);
     const PaperMesh mesh = load_mesh(kCrossing);
     const Pool pool = draw_pool(mesh, {distance, options.common.seed, kDefaultPoolRatio});
     std::vector<Pixels> panels;
     for (const Metric metric : {Metric::straight, Metric::curve, Metric::exact}) {
-        panels.push_back(
-            painter.surface(mesh, disks_of(pool, throw_darts(mesh, pool, metric)), panel));
+        panels.push_back(painter.surface(
+            mesh,
+            disks_of(places_of(pool, throw_darts(mesh, pool, metric)), pool.params.min_distance),
+            panel));
     }
     return side_by_side(panels);
 }

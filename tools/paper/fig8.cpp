@@ -23,8 +23,7 @@ void run(const Options& options) {
     Outputs outputs(options.common.out, "fig8");
     const double count = tools::parse_count("--count", options.count);
     const std::vector<PaperMesh> meshes = load_meshes(options.meshes);
-    PictureParams panel;
-    panel.width = panel.height = options.size.pixels();
+    const PictureParams panel = square_panel(options.size);
     Device device(options.device, /* graphics */ true);
     const Painter painter(device.context());
     std::vector<Pixels> panels;
@@ -43,7 +42,7 @@ void run(const Options& options) {
         const SampleParams params = params_for(mesh, count, kDefaultPoolRatio, options.common.seed);
         const DeviceRun result = device.measure(mesh, params, options.common.repeats);
         panels.push_back(painter.surface(
-            mesh, disks_of(device.sample(mesh, params), params.min_distance), panel));
+            mesh, disks_of(places_of(device.sample(mesh, params)), params.min_distance), panel));
         const auto triangles = static_cast<double>(mesh.prepared.statistics().triangles);
         table.add({mesh.name, tools::fixed(triangles, 0), tools::rounded(mesh.area(), 6),
                    tools::rounded(params.min_distance / 2, 6), tools::fixed(result.samples, 1),

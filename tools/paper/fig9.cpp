@@ -27,7 +27,8 @@ Tally measure(const PaperMesh& mesh, double count, Metric metric, const CommonOp
         const Pool pool =
             draw_pool(mesh, params_for(mesh, count, kDefaultPoolRatio, common.seed_of(i)));
         const std::vector<std::uint32_t> samples = throw_darts(mesh, pool, metric);
-        tally.add(samples.size(), find_violations(mesh, pool, samples));
+        tally.add(samples.size(),
+                  find_violations(mesh, places_of(pool, samples), pool.params.min_distance));
     }
     return tally;
 }
@@ -35,14 +36,15 @@ Tally measure(const PaperMesh& mesh, double count, Metric metric, const CommonOp
 /// The same candidates by the closed form and by exact distances.
 Pixels compare(const Painter& painter, const PaperMesh& mesh, double count,
                const Options& options) {
-    PictureParams panel;
-    panel.width = panel.height = options.size.pixels();
+    const PictureParams panel = square_panel(options.size);
     const Pool pool =
         draw_pool(mesh, params_for(mesh, count, kDefaultPoolRatio, options.common.seed));
     std::vector<Pixels> panels;
     for (const Metric metric : {Metric::curve, Metric::exact}) {
-        panels.push_back(
-            painter.surface(mesh, disks_of(pool, throw_darts(mesh, pool, metric)), panel));
+        panels.push_back(painter.surface(
+            mesh,
+            disks_of(places_of(pool, throw_darts(mesh, pool, metric)), pool.params.min_distance),
+            panel));
     }
     return side_by_side(panels);
 }
@@ -63,7 +65,7 @@ void run(const Options& options) {
     const double repeats = options.common.repeats;
     for (const PaperMesh& mesh : meshes) {
         plot.lines.push_back({mesh.name, plot.lines.size(), false, {}});
-        outputs.add_picture(meshes.size() > 1 ? "-" + std::to_string(plot.lines.size()) : "",
+        outputs.add_picture(numbered(plot.lines.size() - 1, meshes.size()),
                             compare(painter, mesh, counts.front(), options));
         for (const double count : counts) {
             for (const Metric metric : kMetrics) {

@@ -28,21 +28,17 @@ std::vector<std::uint32_t> throw_darts(const PaperMesh& mesh, const Pool& pool, 
     return ref::throw_in_order(disks);
 }
 
-Violations find_violations(const PaperMesh& mesh, const Pool& pool,
-                           const std::vector<std::uint32_t>& samples) {
+Violations find_violations(const PaperMesh& mesh,
+                           const std::vector<ref::FacePoint<double>>& samples,
+                           double min_distance) {
     constexpr double kRounding = 1e-9;
-    std::vector<ref::FacePoint<double>> points;
-    points.reserve(samples.size());
-    for (const std::uint32_t rank : samples) {
-        points.push_back(pool.by_rank[rank]);
-    }
-    ref::GeodesicDisks disks(mesh.prepared, pool.params.min_distance * (1 - kRounding), points,
+    ref::GeodesicDisks disks(mesh.prepared, min_distance * (1 - kRounding), samples,
                              ref::double_tolerances());
-    const std::vector<std::uint8_t> all(points.size(), 1);
-    std::vector<std::uint8_t> is_close(points.size(), 0);
+    const std::vector<std::uint8_t> all(samples.size(), 1);
+    std::vector<std::uint8_t> is_close(samples.size(), 0);
     std::vector<std::uint32_t> disk;
     Violations violations;
-    for (std::uint32_t sample = 0; sample < points.size(); ++sample) {
+    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
         tools::check_interrupted();
         disks.find(sample, all, disk);
         for (const std::uint32_t other : disk) {

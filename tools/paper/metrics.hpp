@@ -43,9 +43,8 @@ struct Tally {
     double close_percent() const { return 100 * close / samples; }
 };
 
-/// Compares the exact distances of `samples`, ranks of the pool, with its minimum distance, to a
-/// billionth.
-Violations find_violations(const PaperMesh& mesh, const Pool& pool,
-                           const std::vector<std::uint32_t>& samples);
+/// Compares the exact distances of samples with `min_distance`, to a billionth.
+Violations find_violations(const PaperMesh& mesh,
+                           const std::vector<ref::FacePoint<double>>& samples, double min_distance);
 
 } // namespace geodisk::paper

@@ -16,6 +16,10 @@
 
 namespace geodisk::paper {
 
+std::string numbered(std::size_t i, std::size_t count) {
+    return count > 1 ? "-" + std::to_string(i + 1) : "";
+}
+
 Outputs::Outputs(const std::string& folder, const std::string& name, bool has_plots)
     : prefix_((std::filesystem::path(folder) / name).string()) {
     tools::check_writable(prefix_ + ".csv");

@@ -1,6 +1,7 @@
 // The files of a figure: a table, plots and pictures.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,6 +13,9 @@
 namespace geodisk::paper {
 
 using tools::Table;
+
+/// What ends the name of picture or plot `i` of so many, counted from 1; "" for the only one.
+std::string numbered(std::size_t i, std::size_t count);
 
 /// Files that appear together, NAME.csv, plots and pictures.
 class Outputs {

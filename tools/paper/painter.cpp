@@ -60,23 +60,20 @@ Pixels Painter::samples(const BoxParams& box, const SampleSet& set, PictureParam
         .pixels;
 }
 
-std::vector<SurfaceDisk> disks_of(const SampleSet& set, double min_distance) {
+std::vector<SurfaceDisk> disks_of(const std::vector<ref::FacePoint<double>>& samples,
+                                  double min_distance) {
     std::vector<SurfaceDisk> disks;
-    disks.reserve(set.samples.size());
-    for (const Sample& sample : set.samples) {
-        disks.push_back({sample.face, sample.weights[1], sample.weights[2], min_distance / 2});
+    disks.reserve(samples.size());
+    for (const auto& [face, weight1, weight2] : samples) {
+        disks.push_back({face, weight1, weight2, min_distance / 2});
     }
     return disks;
 }
 
-std::vector<SurfaceDisk> disks_of(const Pool& pool, const std::vector<std::uint32_t>& ranks) {
-    std::vector<SurfaceDisk> disks;
-    disks.reserve(ranks.size());
-    for (const std::uint32_t rank : ranks) {
-        const auto& [face, weight1, weight2] = pool.by_rank[rank];
-        disks.push_back({face, weight1, weight2, pool.params.min_distance / 2});
-    }
-    return disks;
+PictureParams square_panel(const PanelSize& size) {
+    PictureParams panel;
+    panel.width = panel.height = size.pixels();
+    return panel;
 }
 
 Pixels side_by_side(const std::vector<Pixels>& pictures) {

@@ -9,6 +9,7 @@
 #include <geodisk/runner.hpp>
 
 #include "geometry/surface_disk.hpp"
+#include "paper/options.hpp"
 #include "paper/pool.hpp"
 #include "picture/gpu.hpp"
 #include "picture/picture.hpp"
@@ -35,9 +36,12 @@ class Painter {
     tools::picture::Gpu gpu_;
 };
 
-/// The disks of a set, with half of `min_distance` as radius.
-std::vector<tools::SurfaceDisk> disks_of(const SampleSet& set, double min_distance);
-std::vector<tools::SurfaceDisk> disks_of(const Pool& pool, const std::vector<std::uint32_t>& ranks);
+/// The disks of samples, with half of `min_distance` as radius.
+std::vector<tools::SurfaceDisk> disks_of(const std::vector<ref::FacePoint<double>>& samples,
+                                         double min_distance);
+
+/// A square picture of the given size.
+PictureParams square_panel(const PanelSize& size);
 
 /// Pictures side by side, aligned at the top, with white between.
 Pixels side_by_side(const std::vector<Pixels>& pictures);

@@ -44,6 +44,25 @@ Pool draw_pool(const PaperMesh& mesh, const SampleParams& params) {
             ref::draw_pool(surface, mesh.prepared, params).by_rank()};
 }
 
+std::vector<ref::FacePoint<double>> places_of(const Pool& pool,
+                                              const std::vector<std::uint32_t>& ranks) {
+    std::vector<ref::FacePoint<double>> places;
+    places.reserve(ranks.size());
+    for (const std::uint32_t rank : ranks) {
+        places.push_back(pool.by_rank[rank]);
+    }
+    return places;
+}
+
+std::vector<ref::FacePoint<double>> places_of(const SampleSet& set) {
+    std::vector<ref::FacePoint<double>> places;
+    places.reserve(set.samples.size());
+    for (const Sample& sample : set.samples) {
+        places.push_back({sample.face, sample.weights[1], sample.weights[2]});
+    }
+    return places;
+}
+
 Pool draw_independent_pool(const PaperMesh& mesh, const SampleParams& params) {
     tools::check_interrupted();
     const auto size = tools::take(pool_size(mesh.prepared, params), mesh.name);

@@ -7,6 +7,7 @@
 
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
+#include <geodisk/runner.hpp>
 
 #include "engine/tolerances.hpp"
 #include "geometry/mesh.hpp"
@@ -37,6 +38,11 @@ struct Pool {
 SampleParams params_for(const PaperMesh& mesh, double count, double ratio, std::uint64_t seed);
 
 Pool draw_pool(const PaperMesh& mesh, const SampleParams& params);
+
+/// Samples by their places; those of a pool by their ranks.
+std::vector<ref::FacePoint<double>> places_of(const Pool& pool,
+                                              const std::vector<std::uint32_t>& ranks);
+std::vector<ref::FacePoint<double>> places_of(const SampleSet& set);
 
 /// As many candidates as draw_pool() has on average, drawn otherwise: one after the other, each
 /// uniform by area over the whole surface and independent of the others.
