@@ -4,7 +4,7 @@
 #include <iostream>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "program/command.hpp"
 
 #include <geodisk/context.hpp>
 #include <geodisk/runner.hpp>
@@ -94,9 +94,9 @@ void run(const bench::Options& options) {
     }
 }
 
-void set_up(CLI::App& app) {
-    app.set_version_flag("--version", "geodisk_bench " GEODISK_VERSION_STRING);
-    app.footer(kFooter);
+void set_up(tools::Command app) {
+    app.has_version("geodisk_bench " GEODISK_VERSION_STRING);
+    app.has_footer(kFooter);
     bench::add_options(app, run);
 }
 

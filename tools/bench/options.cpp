@@ -1,18 +1,20 @@
 #include "bench/options.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "files/tuning_file.hpp"
 #include "program/arguments.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::bench {
 namespace {
 
-using tools::add_option;
+using tools::Command;
+using tools::Option;
 
 /// As given: counts like 1e5 are read later.
 struct RawOptions {
@@ -22,7 +24,8 @@ struct RawOptions {
                                             "30000", "100000", "300000", "1000000"};
     std::string scaling_samples = "10000";
     std::string scaling_faces = "1000000";
-    bool has_counts = false, has_sweep = false;
+    Option counts_option;
+    std::vector<Option> sweep_options;
 };
 
 std::vector<double> parse_counts(const std::string& option, const std::vector<std::string>& texts) {
@@ -37,11 +40,12 @@ std::vector<double> parse_counts(const std::string& option, const std::vector<st
 Options checked(const RawOptions& raw) {
     Options options = raw.options;
     options.runner.sampler.count_trips = options.runner.time_stages;
-    if (options.scaling && raw.has_counts) {
+    if (options.scaling && raw.counts_option.is_given()) {
         tools::fail_usage("--count and --scaling contradict each other; a sweep "
                           "takes its counts from --scaling-counts");
     }
-    if (!options.scaling && raw.has_sweep) {
+    if (!options.scaling && std::any_of(raw.sweep_options.begin(), raw.sweep_options.end(),
+                                        [](Option option) { return option.is_given(); })) {
         tools::fail_usage("options that begin with --scaling- need --scaling as well");
     }
     if (options.tune && (options.scaling || !options.json.empty() || !options.csv.empty())) {
@@ -64,46 +68,46 @@ Options checked(const RawOptions& raw) {
     return options;
 }
 
-void add_scaling(CLI::App& app, RawOptions& raw) {
+void add_scaling(Command app, RawOptions& raw) {
     const char* const group = "Scaling";
     app.add_flag("--scaling", raw.options.scaling,
                  "Vary samples, then triangles, on each mesh, and fit\n"
-                 "the exponents of time by least squares")
-        ->group(group);
-    add_option(app, "--scaling-counts", raw.scaling_counts, "N,...",
-               "Sample counts of the first sweep", group)
-        ->delimiter(',')
-        ->capture_default_str();
-    add_option(app, "--scaling-samples", raw.scaling_samples, "N",
-               "Sample count of the second sweep, which cuts each\n"
-               "triangle into 1, 4, 9, ... of the same surface",
-               group)
-        ->capture_default_str();
-    add_option(app, "--scaling-faces", raw.scaling_faces, "F", "Most triangles of the second sweep",
-               group)
-        ->capture_default_str();
-    add_option(app, "--plot", raw.options.plot, "PREFIX",
-               "Draw the sweeps: PREFIX-time-n.svg,\n"
-               "PREFIX-time-faces.svg and PREFIX-memory-n.svg",
-               group);
+                 "the exponents of time by least squares",
+                 group);
+    raw.sweep_options.push_back(app.add_option("--scaling-counts", raw.scaling_counts, "N,...",
+                                               "Sample counts of the first sweep", group)
+                                    .takes_commas()
+                                    .shows_default());
+    raw.sweep_options.push_back(app.add_option("--scaling-samples", raw.scaling_samples, "N",
+                                               "Sample count of the second sweep, which cuts each\n"
+                                               "triangle into 1, 4, 9, ... of the same surface",
+                                               group)
+                                    .shows_default());
+    raw.sweep_options.push_back(app.add_option("--scaling-faces", raw.scaling_faces, "F",
+                                               "Most triangles of the second sweep", group)
+                                    .shows_default());
+    app.add_option("--plot", raw.options.plot, "PREFIX",
+                   "Draw the sweeps: PREFIX-time-n.svg,\n"
+                   "PREFIX-time-faces.svg and PREFIX-memory-n.svg",
+                   group);
 }
 
 Reads reads_from(const std::string& name) {
     if (const auto reads = tools::reads_named(name)) {
         return *reads;
     }
-    throw CLI::ValidationError("--reads", "\"" + name + "\" is not auto, storage or texels");
+    tools::fail_usage("--reads: \"" + name + "\" is not auto, storage or texels");
 }
 
-void add_tuning(CLI::App& app, RunnerOptions& runner, bool& tune) {
+void add_tuning(Command app, RunnerOptions& runner, bool& tune) {
     constexpr const char* kGroup = "Tuning, does not change the samples";
     const auto add = [&app](const char* name, std::uint32_t& value, const char* what) {
-        add_option(app, name, value, "K", what, kGroup);
+        app.add_option(name, value, "K", what, kGroup);
     };
     app.add_flag("--tune", tune,
                  "Find out what suits the device and keep it for\n"
-                 "geodisk sample and later runs")
-        ->group(kGroup);
+                 "geodisk sample and later runs",
+                 kGroup);
     add("--slots", runner.plan.slots, "Candidates active at a time");
     add("--lanes", runner.plan.lanes, "Invocations that share the work on them");
     add("--passes", runner.plan.detect_passes, "Dispatches of detect per round");
@@ -113,49 +117,42 @@ void add_tuning(CLI::App& app, RunnerOptions& runner, bool& tune) {
     add("--local-size", tuning.local_size, "Invocations per work group, a power of two");
     add("--slot-local-size", tuning.slot_local_size, "The same for kernels per slot and lane");
     add("--pool-block", tuning.pool_block, "Lanes whose memory alternates, a power of two");
-    app.add_option_function<std::string>(
-           "--reads", [&tuning](const std::string& name) { tuning.reads = reads_from(name); },
-           "Through which buffers: auto, storage or texels")
-        ->type_name("KIND")
-        ->group(kGroup);
+    app.add_reader(
+        "--reads", [&tuning](const std::string& name) { tuning.reads = reads_from(name); }, "KIND",
+        "Through which buffers: auto, storage or texels", kGroup);
 }
 
 } // namespace
 
-void add_options(CLI::App& app, void (*run)(const Options&)) {
+void add_options(Command app, void (*run)(const Options&)) {
     const auto raw = std::make_shared<RawOptions>();
     Options& options = raw->options;
-    add_option(app, "MESH", options.meshes, "", "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
-        ->required();
-    add_option(app, "-n,--count", raw->counts, "N,...", "Sample counts to aim at")
-        ->delimiter(',')
-        ->capture_default_str();
-    add_option(app, "--repeats", options.repeats, "K", "Runs to take the median of, 1 to 1000")
-        ->check(CLI::Range(1, 1000).description(""))
-        ->capture_default_str();
-    add_option(app, "--warm-ups", options.warm_ups, "K", "Runs before those, 0 to 1000")
-        ->check(CLI::Range(0, 1000).description(""))
-        ->capture_default_str();
-    add_option(app, "--copies", options.copies, "K",
-               "Time K copies of each mesh instead: sampled one by one,\n"
-               "as one job and as one mesh; counts are those of a copy")
-        ->check(CLI::Range(1, 100000).description(""));
-    add_option(app, "--device", options.device, "NAME|INDEX",
-               "Device by name, index or UUID (geodisk info)");
+    app.add_option("MESH", options.meshes, "", "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
+        .required();
+    raw->counts_option =
+        app.add_option("-n,--count", raw->counts, "N,...", "Sample counts to aim at")
+            .takes_commas()
+            .shows_default();
+    app.add_option("--repeats", options.repeats, "K", "Runs to take the median of, 1 to 1000")
+        .takes_range(1, 1000)
+        .shows_default();
+    app.add_option("--warm-ups", options.warm_ups, "K", "Runs before those, 0 to 1000")
+        .takes_range(0, 1000)
+        .shows_default();
+    app.add_option("--copies", options.copies, "K",
+                   "Time K copies of each mesh instead: sampled one by one,\n"
+                   "as one job and as one mesh; counts are those of a copy")
+        .takes_range(1, 100000);
+    app.add_option("--device", options.device, "NAME|INDEX",
+                   "Device by name, index or UUID (geodisk info)");
     app.add_flag("--stages", options.runner.time_stages,
                  "Time each stage on the device and count how long lanes wait\n"
                  "for others; takes a little time itself");
-    add_option(app, "--json", options.json, "FILE", "Write rows, fits and circumstances as JSON");
-    add_option(app, "--csv", options.csv, "FILE", "Write rows and circumstances as CSV");
+    app.add_option("--json", options.json, "FILE", "Write rows, fits and circumstances as JSON");
+    app.add_option("--csv", options.csv, "FILE", "Write rows and circumstances as CSV");
     add_scaling(app, *raw);
     add_tuning(app, options.runner, options.tune);
-    app.callback([&app, raw, run] {
-        raw->has_counts = app.count("--count") > 0;
-        raw->has_sweep = app.count("--scaling-counts") + app.count("--scaling-samples") +
-                             app.count("--scaling-faces") >
-                         0;
-        run(checked(*raw));
-    });
+    app.calls([raw, run] { run(checked(*raw)); });
 }
 
 } // namespace geodisk::bench

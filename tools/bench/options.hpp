@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "program/command.hpp"
 
 #include <geodisk/runner.hpp>
 
@@ -32,6 +32,6 @@ struct Options {
 
 /// Adds all options to `app`, and `run` as what to do with them once parsed. Values out of range
 /// and contradictions throw UserError(usage) before `run` is called.
-void add_options(CLI::App& app, void (*run)(const Options&));
+void add_options(tools::Command app, void (*run)(const Options&));
 
 } // namespace geodisk::bench

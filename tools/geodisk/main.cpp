@@ -1,6 +1,4 @@
 // The command `geodisk`: picks the subcommand.
-#include <CLI/CLI.hpp>
-
 #include <geodisk/version.hpp>
 
 #include "geodisk/commands/commands.hpp"
@@ -34,10 +32,10 @@ Exit status:
   143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
 Whenever the status is 2 or more, no output file is written or replaced.)";
 
-void set_up(CLI::App& app) {
-    app.set_version_flag("--version", "geodisk " GEODISK_VERSION_STRING);
-    app.require_subcommand(1);
-    app.footer(kFooter);
+void set_up(geodisk::tools::Command app) {
+    app.has_version("geodisk " GEODISK_VERSION_STRING);
+    app.needs_command();
+    app.has_footer(kFooter);
     geodisk::tools::add_sample_command(app);
     geodisk::tools::add_verify_command(app);
     geodisk::tools::add_analyze_command(app);

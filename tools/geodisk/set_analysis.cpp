@@ -7,10 +7,10 @@
 
 #include "geodisk/reports/mesh_parts.hpp"
 #include "program/arguments.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -21,10 +21,10 @@ constexpr double kMostProbes = 1e7;
 
 } // namespace
 
-void add_probes_option(CLI::App& command, std::string& probes) {
-    add_option(command, "--probes", probes, "N",
-               "Random places where gaps are looked for (10 per sample,\n"
-               "20,000 at least)");
+void add_probes_option(Command command, std::string& probes) {
+    command.add_option("--probes", probes, "N",
+                       "Random places where gaps are looked for (10 per sample,\n"
+                       "20,000 at least)");
 }
 
 std::uint32_t probes_for(const std::string& probes, std::size_t samples) {

@@ -11,14 +11,12 @@
 #include "geodisk/reports/analysis_report.hpp"
 #include "geometry/surface_disk.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace geodisk::tools {
 
+class Command;
+
 /// Adds --probes.
-void add_probes_option(CLI::App& command, std::string& probes);
+void add_probes_option(Command command, std::string& probes);
 
 /// How many random places are to be looked at: as --probes says, or if that is "", what suits so
 /// many samples. Throws UserError(usage).

@@ -122,17 +122,18 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_boxes(CLI::App& app) {
+void add_boxes(tools::Command app) {
     add_figure<Options>(
         app, "boxes", "Sections 5.9 and 6: speed in boxes of R^n, on a device and sequentially", 5,
-        run, [](CLI::App& command, Options& options) {
-            tools::add_option(command, "-n,--count", options.count, "N", "Samples to aim at")
-                ->capture_default_str();
+        run, [](tools::Command command, Options& options) {
+            command.add_option("-n,--count", options.count, "N", "Samples to aim at")
+                .shows_default();
             add_list(command, options.dimensions, "--dims", "Dimensions, 1 to 6");
             command.add_flag("--open", options.is_open, "Boxes that are not periodic");
-            tools::add_option(command, "--trials", options.trials, "K",
-                              "Darts around a sample before it retires, 1 to 1000")
-                ->capture_default_str();
+            command
+                .add_option("--trials", options.trials, "K",
+                            "Darts around a sample before it retires, 1 to 1000")
+                .shows_default();
             add_device(command, options.device);
         });
 }

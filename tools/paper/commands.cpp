@@ -2,8 +2,8 @@
 
 namespace geodisk::paper {
 
-void add_commands(CLI::App& app) {
-    app.require_subcommand(1);
+void add_commands(tools::Command app) {
+    app.needs_command();
     add_table1(app);
     add_fig3(app);
     add_fig4(app);

@@ -1,28 +1,28 @@
 // The subcommands, each of which draws a figure or table of the paper.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/command.hpp"
 
 namespace geodisk::paper {
 
 /// All that follow, up to add_figures().
-void add_commands(CLI::App& app);
+void add_commands(tools::Command app);
 
-void add_table1(CLI::App& app);
-void add_boxes(CLI::App& app);
-void add_fig3(CLI::App& app);
-void add_fig4(CLI::App& app);
-void add_fig5(CLI::App& app);
-void add_fig7(CLI::App& app);
-void add_fig8(CLI::App& app);
-void add_fig9(CLI::App& app);
-void add_fig10(CLI::App& app);
-void add_fig11(CLI::App& app);
-void add_fig12(CLI::App& app);
-void add_fig13(CLI::App& app);
-void add_fig14(CLI::App& app);
+void add_table1(tools::Command app);
+void add_boxes(tools::Command app);
+void add_fig3(tools::Command app);
+void add_fig4(tools::Command app);
+void add_fig5(tools::Command app);
+void add_fig7(tools::Command app);
+void add_fig8(tools::Command app);
+void add_fig9(tools::Command app);
+void add_fig10(tools::Command app);
+void add_fig11(tools::Command app);
+void add_fig12(tools::Command app);
+void add_fig13(tools::Command app);
+void add_fig14(tools::Command app);
 
 /// Runs the others.
-void add_figures(CLI::App& app);
+void add_figures(tools::Command app);
 
 } // namespace geodisk::paper

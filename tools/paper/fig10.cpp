@@ -64,12 +64,12 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig10(CLI::App& app) {
+void add_fig10(tools::Command app) {
     add_figure<Options>(
         app, "fig10", "Fig. 10: pictures of surfaces in R^4 and of another pose, on a device", 1,
-        run, [](CLI::App& command, Options& options) {
-            tools::add_option(command, "-n,--count", options.count, "N", "Samples of each surface")
-                ->capture_default_str();
+        run, [](tools::Command command, Options& options) {
+            command.add_option("-n,--count", options.count, "N", "Samples of each surface")
+                .shows_default();
             add_panel_size(command, options.size);
             add_device(command, options.device);
         });

@@ -95,19 +95,19 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig11(CLI::App& app) {
-    add_figure<Options>(app, "fig11", "Fig. 11: pictures of samples whose radii vary, on a device",
-                        1, run, [](CLI::App& command, Options& options) {
-                            add_meshes(command, options.meshes);
-                            tools::add_option(command, "-n,--count", options.count, "N",
-                                              "Samples, about")
-                                ->capture_default_str();
-                            tools::add_option(command, "--least", options.least, "G",
-                                              "The least radius over the largest, 0.001 to 1")
-                                ->capture_default_str();
-                            add_panel_size(command, options.size);
-                            add_device(command, options.device);
-                        });
+void add_fig11(tools::Command app) {
+    add_figure<Options>(
+        app, "fig11", "Fig. 11: pictures of samples whose radii vary, on a device", 1, run,
+        [](tools::Command command, Options& options) {
+            add_meshes(command, options.meshes);
+            command.add_option("-n,--count", options.count, "N", "Samples, about").shows_default();
+            command
+                .add_option("--least", options.least, "G",
+                            "The least radius over the largest, 0.001 to 1")
+                .shows_default();
+            add_panel_size(command, options.size);
+            add_device(command, options.device);
+        });
 }
 
 } // namespace geodisk::paper

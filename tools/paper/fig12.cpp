@@ -116,17 +116,17 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig12(CLI::App& app) {
+void add_fig12(tools::Command app) {
     add_figure<Options>(
         app, "fig12", "Fig. 12: pictures of boxes and spectra of a square, on a device", 10, run,
-        [](CLI::App& command, Options& options) {
-            tools::add_option(command, "--square", options.square, "R", "Radius in the square")
-                ->capture_default_str();
-            tools::add_option(command, "--cube", options.cube, "R", "Radius in the cube")
-                ->capture_default_str();
-            tools::add_option(command, "--spectrum", options.spectrum, "R",
-                              "Radius in the periodic square whose spectrum is taken")
-                ->capture_default_str();
+        [](tools::Command command, Options& options) {
+            command.add_option("--square", options.square, "R", "Radius in the square")
+                .shows_default();
+            command.add_option("--cube", options.cube, "R", "Radius in the cube").shows_default();
+            command
+                .add_option("--spectrum", options.spectrum, "R",
+                            "Radius in the periodic square whose spectrum is taken")
+                .shows_default();
             add_panel_size(command, options.size);
             add_device(command, options.device);
         });

@@ -165,17 +165,16 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig13(CLI::App& app) {
+void add_fig13(tools::Command app) {
     add_figure<Options>(
         app, "fig13", "Fig. 13: exact distances, the closed form, and phase groups", 3, run,
-        [](CLI::App& command, Options& options) {
+        [](tools::Command command, Options& options) {
             add_meshes(command, options.meshes);
             add_list(command, options.counts, "--counts", "Sample counts to aim at");
-            tools::add_option(command, "--ratio", options.ratio, "X",
-                              "Samples per active candidate (N/T)")
-                ->capture_default_str();
-            tools::add_option(
-                command, "--trials", options.trials, "K",
+            command.add_option("--ratio", options.ratio, "X", "Samples per active candidate (N/T)")
+                .shows_default();
+            command.add_option(
+                "--trials", options.trials, "K",
                 "Darts per cell of the phase groups; all candidates\nof the cell if not given");
         });
 }

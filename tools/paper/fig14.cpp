@@ -126,12 +126,13 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig14(CLI::App& app) {
+void add_fig14(tools::Command app) {
     add_figure<Options>(app, "fig14", "Fig. 14: rho against |P|/|S| in the unit square", 10, run,
-                        [](CLI::App& command, Options& options) {
-                            tools::add_option(command, "--radius", options.radius, "R",
-                                              "Half of the minimum distance, 0.0001 to 0.2")
-                                ->capture_default_str();
+                        [](tools::Command command, Options& options) {
+                            command
+                                .add_option("--radius", options.radius, "R",
+                                            "Half of the minimum distance, 0.0001 to 0.2")
+                                .shows_default();
                             add_list(command, options.ratios, "--ratios",
                                      "Candidates per expected sample, 1 to 10000");
                         });

@@ -54,10 +54,10 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig3(CLI::App& app) {
+void add_fig3(tools::Command app) {
     add_figure<Options>(app, "fig3",
                         "Fig. 3: pictures of samples of several densities, on a device", 1, run,
-                        [](CLI::App& command, Options& options) {
+                        [](tools::Command command, Options& options) {
                             add_meshes(command, options.meshes);
                             add_list(command, options.counts, "--counts", "Sample counts");
                             add_panel_size(command, options.size);

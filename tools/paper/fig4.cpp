@@ -255,22 +255,25 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig4(CLI::App& app) {
+void add_fig4(tools::Command app) {
     add_figure<Options>(
         app, "fig4", "Fig. 4: spectra of phase groups and dart throwing on surfaces, on a device",
-        10, run, [](CLI::App& command, Options& options) {
+        10, run, [](tools::Command command, Options& options) {
             add_meshes(command, options.meshes);
-            tools::add_option(command, "-n,--count", options.count, "N",
-                              "Samples, about; the paper has 300 to 500")
-                ->capture_default_str();
-            tools::add_option(command, "--harmonics", options.harmonics, "K",
-                              "Waves of the surface; the paper has 10,000")
-                ->capture_default_str();
-            tools::add_option(command, "--trials", options.trials, "K",
-                              "Darts that phase groups throw into each cell")
-                ->capture_default_str();
-            tools::add_option(command, "--deals", options.deals, "K", "Permutations of the tests")
-                ->capture_default_str();
+            command
+                .add_option("-n,--count", options.count, "N",
+                            "Samples, about; the paper has 300 to 500")
+                .shows_default();
+            command
+                .add_option("--harmonics", options.harmonics, "K",
+                            "Waves of the surface; the paper has 10,000")
+                .shows_default();
+            command
+                .add_option("--trials", options.trials, "K",
+                            "Darts that phase groups throw into each cell")
+                .shows_default();
+            command.add_option("--deals", options.deals, "K", "Permutations of the tests")
+                .shows_default();
             add_device(command, options.device);
         });
 }

@@ -95,17 +95,18 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig5(CLI::App& app) {
+void add_fig5(tools::Command app) {
     add_figure<Options>(app, "fig5", "Fig. 5: speed by N, speed and rho by |P|/|S|, on a device", 3,
-                        run, [](CLI::App& command, Options& options) {
+                        run, [](tools::Command command, Options& options) {
                             add_meshes(command, options.meshes);
                             add_list(command, options.counts, "--counts",
                                      "Sample counts of the first sweep");
                             add_list(command, options.ratios, "--ratios",
                                      "Candidates per sample of the second sweep, 1 to 10000");
-                            tools::add_option(command, "--ratio-count", options.ratio_count, "N",
-                                              "Sample count of the second sweep")
-                                ->capture_default_str();
+                            command
+                                .add_option("--ratio-count", options.ratio_count, "N",
+                                            "Sample count of the second sweep")
+                                .shows_default();
                             add_device(command, options.device);
                         });
 }

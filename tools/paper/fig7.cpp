@@ -149,10 +149,10 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig7(CLI::App& app) {
+void add_fig7(tools::Command app) {
     add_figure<Options>(
         app, "fig7", "Fig. 7: samples lost to false conflicts on a plate, sheets and a roll", 3,
-        run, [](CLI::App& command, Options& options) {
+        run, [](tools::Command command, Options& options) {
             add_list(command, options.distances, "--distances",
                      "Minimum distances, 0.005 to 10; the surfaces are about 1 wide");
             add_panel_size(command, options.size);

@@ -68,13 +68,13 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig8(CLI::App& app) {
+void add_fig8(tools::Command app) {
     add_figure<Options>(
         app, "fig8", "Fig. 8: as many samples on a surface at several resolutions, on a device", 10,
-        run, [](CLI::App& command, Options& options) {
+        run, [](tools::Command command, Options& options) {
             add_meshes(command, options.meshes);
-            tools::add_option(command, "-n,--count", options.count, "N", "Samples to aim at")
-                ->capture_default_str();
+            command.add_option("-n,--count", options.count, "N", "Samples to aim at")
+                .shows_default();
             add_panel_size(command, options.size);
             add_device(command, options.device);
         });

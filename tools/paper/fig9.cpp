@@ -98,10 +98,10 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_fig9(CLI::App& app) {
+void add_fig9(tools::Command app) {
     add_figure<Options>(
         app, "fig9", "Fig. 9: samples that the closed form places too close together", 3, run,
-        [](CLI::App& command, Options& options) {
+        [](tools::Command command, Options& options) {
             add_meshes(command, options.meshes);
             add_list(command, options.counts, "--counts", "Sample counts to aim at");
             add_panel_size(command, options.size);

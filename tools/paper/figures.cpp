@@ -1,5 +1,4 @@
 // All figures, one after the other, as if each had been asked for by itself.
-#include <algorithm>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -64,26 +63,25 @@ void run(const Options& options) {
             std::cout << ' ' << argument;
         }
         std::cout << "\n\n";
-        CLI::App app;
-        add_commands(app);
-        std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
-        app.parse(arguments);
+        tools::run_arguments(add_commands, std::move(arguments));
         std::cout << '\n';
     }
 }
 
 } // namespace
 
-void add_figures(CLI::App& app) {
+void add_figures(tools::Command app) {
     add_figure<Options>(app, "figures", "All figures, one after the other, on a device", 1, run,
-                        [](CLI::App& command, Options& options) {
-                            tools::add_option(command, "MESH", options.meshes, "",
-                                              "Meshes of figures 3, 4, 5, 9, 11 and 13")
-                                ->capture_default_str();
-                            tools::add_option(command, "--resolutions", options.resolutions,
-                                              "MESH,...", "Meshes of figure 8, of one surface")
-                                ->delimiter(',')
-                                ->capture_default_str();
+                        [](tools::Command command, Options& options) {
+                            command
+                                .add_option("MESH", options.meshes, "",
+                                            "Meshes of figures 3, 4, 5, 9, 11 and 13")
+                                .shows_default();
+                            command
+                                .add_option("--resolutions", options.resolutions, "MESH,...",
+                                            "Meshes of figure 8, of one surface")
+                                .takes_commas()
+                                .shows_default();
                             add_panel_size(command, options.size);
                             command.add_flag("--quick", options.is_quick,
                                              "Fewer samples and repetitions, to see what comes");

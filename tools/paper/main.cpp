@@ -1,7 +1,5 @@
 // The command `geodisk_paper`: tables and figures of the paper measured anew, beside the values it
 // gives.
-#include <CLI/CLI.hpp>
-
 #include <geodisk/version.hpp>
 
 #include "paper/commands.hpp"
@@ -22,9 +20,9 @@ Examples:
 
 The exit status is that of geodisk_bench. Whenever it is not 0, no file is written or replaced.)";
 
-void set_up(CLI::App& app) {
-    app.set_version_flag("--version", "geodisk_paper " GEODISK_VERSION_STRING);
-    app.footer(kFooter);
+void set_up(geodisk::tools::Command app) {
+    app.has_version("geodisk_paper " GEODISK_VERSION_STRING);
+    app.has_footer(kFooter);
     geodisk::paper::add_commands(app);
     geodisk::paper::add_figures(app);
 }

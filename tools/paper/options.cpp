@@ -25,42 +25,36 @@ std::string CommonOptions::text() const {
     return "repeats " + std::to_string(repeats) + " from seed " + std::to_string(seed);
 }
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
-    tools::add_option(command, "-o,--out", options.out, "DIR",
-                      "Folder for the files, which must exist")
-        ->capture_default_str();
+void add_common_options(tools::Command command, CommonOptions& options) {
+    command.add_option("-o,--out", options.out, "DIR", "Folder for the files, which must exist")
+        .shows_default();
     command
-        .add_option_function<std::string>(
+        .add_reader(
             "--seed",
             [&options](const std::string& text) {
                 options.seed = tools::parse_seed("--seed", text);
             },
-            "Of the first repetition; the next ones count up")
-        ->type_name("S")
-        ->default_str("1");
-    tools::add_option(command, "--repeats", options.repeats, "K",
-                      "Repetitions of each row, 1 to 1000")
-        ->check(CLI::Range(1, 1000).description(""))
-        ->capture_default_str();
+            "S", "Of the first repetition; the next ones count up")
+        .shows_default("1");
+    command.add_option("--repeats", options.repeats, "K", "Repetitions of each row, 1 to 1000")
+        .takes_range(1, 1000)
+        .shows_default();
 }
 
-void add_meshes(CLI::App& command, std::vector<std::string>& meshes) {
-    tools::add_option(command, "MESH", meshes, "",
-                      "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
-        ->required();
+void add_meshes(tools::Command command, std::vector<std::string>& meshes) {
+    command.add_option("MESH", meshes, "", "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
+        .required();
 }
 
-void add_list(CLI::App& command, NumberList& list, const std::string& option,
+void add_list(tools::Command command, NumberList& list, const std::string& option,
               const std::string& what) {
     list.option = option;
-    tools::add_option(command, option, list.texts, "X,...", what)
-        ->delimiter(',')
-        ->capture_default_str();
+    command.add_option(option, list.texts, "X,...", what).takes_commas().shows_default();
 }
 
-void add_device(CLI::App& command, std::string& device) {
-    tools::add_option(command, "--device", device, "NAME|INDEX",
-                      "Device by name, index or UUID (geodisk info)");
+void add_device(tools::Command command, std::string& device) {
+    command.add_option("--device", device, "NAME|INDEX",
+                       "Device by name, index or UUID (geodisk info)");
 }
 
 std::uint32_t PanelSize::pixels() const {
@@ -68,10 +62,9 @@ std::uint32_t PanelSize::pixels() const {
     return static_cast<std::uint32_t>(tools::parse_ratio("--size", text, kFewest, kMost));
 }
 
-void add_panel_size(CLI::App& command, PanelSize& size) {
-    tools::add_option(command, "--size", size.text, "W",
-                      "Pixels along each side of a picture, 16 to 4096")
-        ->capture_default_str();
+void add_panel_size(tools::Command command, PanelSize& size) {
+    command.add_option("--size", size.text, "W", "Pixels along each side of a picture, 16 to 4096")
+        .shows_default();
 }
 
 } // namespace geodisk::paper

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "program/program.hpp"
+#include "program/command.hpp"
 
 namespace geodisk::paper {
 
@@ -33,15 +33,15 @@ struct CommonOptions {
 };
 
 /// Where to write, how often to repeat, with which seed.
-void add_common_options(CLI::App& command, CommonOptions& options);
+void add_common_options(tools::Command command, CommonOptions& options);
 
-void add_meshes(CLI::App& command, std::vector<std::string>& meshes);
+void add_meshes(tools::Command command, std::vector<std::string>& meshes);
 
 /// Adds an option that takes numbers with commas between; `list.texts` are the defaults.
-void add_list(CLI::App& command, NumberList& list, const std::string& option,
+void add_list(tools::Command command, NumberList& list, const std::string& option,
               const std::string& what);
 
-void add_device(CLI::App& command, std::string& device);
+void add_device(tools::Command command, std::string& device);
 
 /// Pixels along each side of a picture.
 struct PanelSize {
@@ -51,19 +51,19 @@ struct PanelSize {
     std::uint32_t pixels() const;
 };
 
-void add_panel_size(CLI::App& command, PanelSize& size);
+void add_panel_size(tools::Command command, PanelSize& size);
 
 /// Adds a subcommand that draws a figure: its own options, with `add(command, options)`, and the
 /// common ones, with so many repetitions; when chosen, it calls `run(options)`.
 template <class Options, class Run, class Add>
-void add_figure(CLI::App& app, const std::string& name, const std::string& summary, int repeats,
-                const Run& run, const Add& add) {
+void add_figure(tools::Command app, const std::string& name, const std::string& summary,
+                int repeats, const Run& run, const Add& add) {
     const auto options = std::make_shared<Options>();
     options->common.repeats = repeats;
-    CLI::App* const command = app.add_subcommand(name, summary);
-    add(*command, *options);
-    add_common_options(*command, options->common);
-    command->callback([options, run] { run(*options); });
+    const tools::Command command = app.add_command(name, summary);
+    add(command, *options);
+    add_common_options(command, options->common);
+    command.calls([options, run] { run(*options); });
 }
 
 } // namespace geodisk::paper

@@ -5,11 +5,15 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "program/command_text.hpp"
 #include "program/crash.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/standard_streams.hpp"
 #include "program/utf8_arguments.hpp"
@@ -84,7 +88,7 @@ int parse(CLI::App& app, int argc, char** argv) {
 int run(const char* name, const char* description, SetUp set_up, int argc, char** argv) {
     try {
         CLI::App app(description, name);
-        set_up(app);
+        set_up(Command(app));
         return parse(app, argc, argv);
     } catch (const std::bad_alloc&) {
         return fail(name, ExitCode::out_of_memory, "the memory of this machine does not suffice");
@@ -99,14 +103,11 @@ const std::string& given_command() {
     return noted_command;
 }
 
-std::string fault_of_value(const std::string& given) {
-    if (given.empty()) {
-        return "needs a value";
-    }
-    const bool is_option = given.size() > 1 && given[0] == '-' &&
-                           (given[1] == '-' || (given[1] >= 'a' && given[1] <= 'z') ||
-                            (given[1] >= 'A' && given[1] <= 'Z'));
-    return is_option ? "needs a value before " + given : "";
+void run_arguments(SetUp set_up, std::vector<std::string> arguments) {
+    CLI::App app;
+    set_up(Command(app));
+    std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
+    app.parse(std::move(arguments));
 }
 
 int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv) {

@@ -17,8 +17,8 @@
 #include "geodisk/reports/analysis_report.hpp"
 #include "geodisk/set_analysis.hpp"
 #include "program/arguments.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -126,25 +126,23 @@ void run_analyze(const AnalyzeOptions& options) {
 
 } // namespace
 
-void add_analyze_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+void add_analyze_command(Command app) {
+    const Command command = app.add_command(
         "analyze", "Tell how samples are spread, by exact distances and without a device");
     const auto options = std::make_shared<AnalyzeOptions>();
-    add_mesh_argument(*command, options->mesh, "Mesh that the samples were made on");
+    add_mesh_argument(command, options->mesh, "Mesh that the samples were made on");
     command
-        ->add_option("SAMPLES", options->samples,
-                     "Samples to analyze: *.ply or *.csv; several of other seeds\n"
-                     "tell whether all places are as likely")
-        ->type_name("")
-        ->required();
-    add_distance_options(*command, options->distance);
-    add_probes_option(*command, options->probes);
-    add_option(*command, "--seed", options->seed, "S", "Seed of these places")
-        ->capture_default_str();
-    add_mesh_options(*command, options->mesh);
-    add_json_option(*command, options->out);
-    command->add_flag("-q,--quiet", options->out.quiet, "No progress and no result");
-    command->callback([options] { run_analyze(*options); });
+        .add_option("SAMPLES", options->samples, "",
+                    "Samples to analyze: *.ply or *.csv; several of other seeds\n"
+                    "tell whether all places are as likely")
+        .required();
+    add_distance_options(command, options->distance);
+    add_probes_option(command, options->probes);
+    command.add_option("--seed", options->seed, "S", "Seed of these places").shows_default();
+    add_mesh_options(command, options->mesh);
+    add_json_option(command, options->out);
+    command.add_flag("-q,--quiet", options->out.quiet, "No progress and no result");
+    command.calls([options] { run_analyze(*options); });
 }
 
 } // namespace geodisk::tools

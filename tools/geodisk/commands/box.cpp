@@ -14,10 +14,10 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/box_report.hpp"
 #include "program/arguments.hpp"
+#include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -132,34 +132,32 @@ void run_box(const BoxOptions& options) {
 
 } // namespace
 
-void add_box_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("box", "Put samples in a box of R^n, by straight-line distance");
+void add_box_command(Command app) {
+    const Command command =
+        app.add_command("box", "Put samples in a box of R^n, by straight-line distance");
     const auto options = std::make_shared<BoxOptions>();
-    add_output_argument(*command, options->out,
+    add_output_argument(command, options->out,
                         "File to write: *.csv, *.ply (binary; 0 for coordinates that a\n"
                         "box of fewer than three lacks) or *.xyz (positions only)");
     const char* const box = "Box";
-    add_option(*command, "--dim", options->dimension, "N", "Dimensions, 1 to 6; sides of 1", box);
-    add_option(*command, "--extents", options->extents, "A,...",
-               "Sides instead; the box begins at the origin", box);
-    command
-        ->add_flag("--periodic", options->is_periodic,
-                   "Glue opposite sides together: distances go around")
-        ->group(box);
+    command.add_option("--dim", options->dimension, "N", "Dimensions, 1 to 6; sides of 1", box);
+    command.add_option("--extents", options->extents, "A,...",
+                       "Sides instead; the box begins at the origin", box);
+    command.add_flag("--periodic", options->is_periodic,
+                     "Glue opposite sides together: distances go around", box);
     const char* const distance = "Distance, give one";
-    add_option(*command, "-d,--min-distance", options->min_distance, "D",
-               "Least distance, in the units of the sides, or with %\n"
-               "of the diagonal",
-               distance);
-    add_option(*command, "-n,--count", options->count, "N",
-               "Choose the distance that should give about N samples;\n"
-               "with --method pdts, stop at exactly N",
-               distance);
-    add_method_options(*command, options->method, "the box");
-    add_run_options(*command, options->run);
-    add_output_options(*command, options->out);
-    command->callback([options] { run_box(*options); });
+    command.add_option("-d,--min-distance", options->min_distance, "D",
+                       "Least distance, in the units of the sides, or with %\n"
+                       "of the diagonal",
+                       distance);
+    command.add_option("-n,--count", options->count, "N",
+                       "Choose the distance that should give about N samples;\n"
+                       "with --method pdts, stop at exactly N",
+                       distance);
+    add_method_options(command, options->method, "the box");
+    add_run_options(command, options->run);
+    add_output_options(command, options->out);
+    command.calls([options] { run_box(*options); });
 }
 
 } // namespace geodisk::tools

@@ -4,22 +4,20 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace geodisk::tools {
+
+class Command;
 
 struct OutputOptions;
 struct RenderOptions;
 struct SpectrumOptions;
 
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
-void add_sample_command(CLI::App& app);
+void add_sample_command(Command app);
 
 /// Checks a sample file against its mesh or box, without a device. UserError(violation) if samples
 /// are too close or off the mesh.
-void add_verify_command(CLI::App& app);
+void add_verify_command(Command app);
 
 /// What `verify` does with samples in a box, which their header describes; `min_distance` is that
 /// of the command line, or "".
@@ -27,35 +25,35 @@ void verify_box(const std::string& samples, const std::string& min_distance,
                 const OutputOptions& out);
 
 /// Tells how samples on a mesh are spread, without a device.
-void add_analyze_command(CLI::App& app);
+void add_analyze_command(Command app);
 
 /// Computes the power spectrum of samples on a mesh or in a box of two dimensions, without a
 /// device.
-void add_spectrum_command(CLI::App& app);
+void add_spectrum_command(Command app);
 
 /// What `spectrum` does with samples in boxes.
 void spectrum_of_boxes(const SpectrumOptions& options);
 
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
-void add_render_command(CLI::App& app);
+void add_render_command(Command app);
 
 /// What `render` does with samples in a box of two or three dimensions.
 void render_box(const RenderOptions& options);
 
 /// Samples a mesh on a Vulkan device and writes a page that shows the samples and tells of them.
-void add_report_command(CLI::App& app);
+void add_report_command(Command app);
 
 /// Carries samples over to another mesh of the same connectivity.
-void add_transfer_command(CLI::App& app);
+void add_transfer_command(Command app);
 
 /// Samples a box of R^n on a Vulkan device.
-void add_box_command(CLI::App& app);
+void add_box_command(Command app);
 
 /// Lists the built-in surfaces, which need no mesh file, or writes one of them to a PLY file.
-void add_shapes_command(CLI::App& app);
+void add_shapes_command(Command app);
 
 /// Lists the Vulkan devices and whether they can run geodisk. UserError(no_device) if none can.
-void add_info_command(CLI::App& app);
+void add_info_command(Command app);
 
 /// Which kernels `info --kernels` is about.
 struct KernelsOptions {

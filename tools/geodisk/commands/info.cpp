@@ -14,9 +14,9 @@
 
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/reports/json.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -149,30 +149,30 @@ void run_info(bool as_json) {
 
 } // namespace
 
-void add_info_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("info", "List the Vulkan devices and whether they can run geodisk");
+void add_info_command(Command app) {
+    const Command command =
+        app.add_command("info", "List the Vulkan devices and whether they can run geodisk");
     const auto options = std::make_shared<InfoOptions>();
-    command->add_flag("--json", options->as_json, "Write what is told as JSON");
-    CLI::Option* kernels =
-        command
-            ->add_flag("--kernels", options->kernels,
-                       "Instead, compile the kernels on one device and tell the registers,\n"
-                       "spills and so on that its driver reports")
-            ->group("Development");
-    add_option(*command, "--device", options->of_kernels.device, "NAME|INDEX",
-               "The device for --kernels, by name, index or UUID", "Development")
-        ->needs(kernels);
-    add_option(*command, "--reads", options->of_kernels.reads, "WAY",
-               "Kernels that read storage or texels, instead of what suits the device",
-               "Development")
-        ->needs(kernels);
+    command.add_flag("--json", options->as_json, "Write what is told as JSON");
+    const Option kernels =
+        command.add_flag("--kernels", options->kernels,
+                         "Instead, compile the kernels on one device and tell the registers,\n"
+                         "spills and so on that its driver reports",
+                         "Development");
     command
-        ->add_flag("--count-calls", options->of_kernels.count_calls,
-                   "Kernels as for sample --count-calls")
-        ->group("Development")
-        ->needs(kernels);
-    command->callback([options] { // Owns them, as the options refer to them.
+        .add_option("--device", options->of_kernels.device, "NAME|INDEX",
+                    "The device for --kernels, by name, index or UUID", "Development")
+        .needs(kernels);
+    command
+        .add_option("--reads", options->of_kernels.reads, "WAY",
+                    "Kernels that read storage or texels, instead of what suits the device",
+                    "Development")
+        .needs(kernels);
+    command
+        .add_flag("--count-calls", options->of_kernels.count_calls,
+                  "Kernels as for sample --count-calls", "Development")
+        .needs(kernels);
+    command.calls([options] { // Owns them, as the options refer to them.
         if (options->kernels)
             print_kernels(options->of_kernels, options->as_json);
         else

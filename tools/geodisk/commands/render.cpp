@@ -11,8 +11,8 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/mesh_report.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -50,12 +50,12 @@ void render_surface(const RenderOptions& options) {
 
 } // namespace
 
-void add_render_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("render", "Draw samples and their geodesic disks as a picture");
+void add_render_command(Command app) {
+    const Command command =
+        app.add_command("render", "Draw samples and their geodesic disks as a picture");
     const auto options = std::make_shared<RenderOptions>();
-    add_render_options(*command, *options);
-    command->callback([options] {
+    add_render_options(command, *options);
+    command.calls([options] {
         if (options->samples.empty()) {
             render_box(*options);
         } else {

@@ -15,6 +15,7 @@
 #include "geodisk/sample_run.hpp"
 #include "geodisk/set_analysis.hpp"
 #include "geodisk/spectrum_run.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/program.hpp"
 #include "program/stopwatch.hpp"
@@ -81,12 +82,12 @@ void run_report(const ReportOptions& options) {
 
 } // namespace
 
-void add_report_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+void add_report_command(Command app) {
+    const Command command = app.add_command(
         "report", "Sample a mesh and write a page that shows and measures the samples");
     const auto options = std::make_shared<ReportOptions>();
-    add_report_options(*command, *options);
-    command->callback([options] { run_report(*options); });
+    add_report_options(command, *options);
+    command.calls([options] { run_report(*options); });
 }
 
 } // namespace geodisk::tools

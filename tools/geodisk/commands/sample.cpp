@@ -6,7 +6,7 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/sample_report.hpp"
 #include "geodisk/sample_run.hpp"
-#include "program/program.hpp"
+#include "program/command.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -27,12 +27,12 @@ void run_sample(const SampleOptions& options) {
 
 } // namespace
 
-void add_sample_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("sample", "Put samples on a mesh and write them to a file");
+void add_sample_command(Command app) {
+    const Command command =
+        app.add_command("sample", "Put samples on a mesh and write them to a file");
     const auto options = std::make_shared<SampleOptions>();
-    add_sample_options(*command, *options);
-    command->callback([options] { run_sample(*options); });
+    add_sample_options(command, *options);
+    command.calls([options] { run_sample(*options); });
 }
 
 } // namespace geodisk::tools

@@ -6,9 +6,9 @@
 
 #include "files/mesh_file.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 #include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
@@ -62,13 +62,13 @@ void run_shapes(const ShapesOptions& options) {
 
 } // namespace
 
-void add_shapes_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+void add_shapes_command(Command app) {
+    const Command command = app.add_command(
         "shapes", "List the built-in surfaces, which need no mesh file, or write one");
     const auto options = std::make_shared<ShapesOptions>();
-    add_option(*command, "SHAPE", options->shape, "", "Surface to write: NAME or NAME:RESOLUTION");
-    add_option(*command, "-o,--output", options->output, "OUT", "File to write: *.ply");
-    command->callback([options] { run_shapes(*options); });
+    command.add_option("SHAPE", options->shape, "", "Surface to write: NAME or NAME:RESOLUTION");
+    command.add_option("-o,--output", options->output, "OUT", "File to write: *.ply");
+    command.calls([options] { run_shapes(*options); });
 }
 
 } // namespace geodisk::tools

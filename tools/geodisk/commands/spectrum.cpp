@@ -20,9 +20,9 @@
 #include "geodisk/reports/mesh_report.hpp"
 #include "geodisk/reports/spectrum_report.hpp"
 #include "geodisk/spectrum_run.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -147,13 +147,13 @@ void spectrum_of_surface(const SpectrumOptions& options) {
 
 } // namespace
 
-void add_spectrum_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "spectrum", "Compute the power spectrum of samples on a mesh or in a box");
+void add_spectrum_command(Command app) {
+    const Command command =
+        app.add_command("spectrum", "Compute the power spectrum of samples on a mesh or in a box");
     const auto options = std::make_shared<SpectrumOptions>();
     const auto files = std::make_shared<std::vector<std::string>>();
-    add_spectrum_options(*command, *options, *files);
-    command->callback([options, files] {
+    add_spectrum_options(command, *options, *files);
+    command.calls([options, files] {
         if (are_box_samples(files->front())) {
             options->samples = *files;
             spectrum_of_boxes(*options);

@@ -20,10 +20,10 @@
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "geometry/mesh.hpp"
+#include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -145,23 +145,23 @@ void run_transfer(const TransferOptions& options) {
 
 } // namespace
 
-void add_transfer_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+void add_transfer_command(Command app) {
+    const Command command = app.add_command(
         "transfer", "Carry samples over to another pose of their mesh: the same faces,\n"
                     "elsewhere; tells their smallest distance there");
     const auto options = std::make_shared<TransferOptions>();
-    add_option(*command, "SAMPLES", options->samples, "", "Samples of MESH_A: *.ply or *.csv")
-        ->required();
-    add_mesh_argument(*command, options->from, "Mesh they were made on", "MESH_A");
-    add_mesh_argument(*command, options->to, "Mesh of the same faces to put them on", "MESH_B");
-    add_output_argument(*command, options->out);
-    add_sidecar_options(*command, options->from, "MESH_A", "-a");
-    add_sidecar_options(*command, options->to, "MESH_B", "-b");
-    add_lift_option(*command, options->to, "-b");
-    add_weld_option(*command, options->from, "-a");
-    add_weld_option(*command, options->to, "-b");
-    add_output_options(*command, options->out);
-    command->callback([options] { run_transfer(*options); });
+    command.add_option("SAMPLES", options->samples, "", "Samples of MESH_A: *.ply or *.csv")
+        .required();
+    add_mesh_argument(command, options->from, "Mesh they were made on", "MESH_A");
+    add_mesh_argument(command, options->to, "Mesh of the same faces to put them on", "MESH_B");
+    add_output_argument(command, options->out);
+    add_sidecar_options(command, options->from, "MESH_A", "-a");
+    add_sidecar_options(command, options->to, "MESH_B", "-b");
+    add_lift_option(command, options->to, "-b");
+    add_weld_option(command, options->from, "-a");
+    add_weld_option(command, options->to, "-b");
+    add_output_options(command, options->out);
+    command.calls([options] { run_transfer(*options); });
 }
 
 } // namespace geodisk::tools

@@ -23,9 +23,9 @@
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/arguments.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -225,25 +225,25 @@ void run_verify(const VerifyOptions& options) {
 
 } // namespace
 
-void add_verify_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+void add_verify_command(Command app) {
+    const Command command = app.add_command(
         "verify", "Check the distances in a sample file, exactly and without a device");
     const auto options = std::make_shared<VerifyOptions>();
-    add_mesh_argument(*command, options->mesh, "Mesh they were made on");
-    add_option(*command, "SAMPLES", options->samples, "",
-               "Samples to check: *.ply or *.csv; those of geodisk box\n"
-               "stand alone, without a mesh");
-    add_option(*command, "-d,--min-distance", options->min_distance, "D",
-               "Least distance along the surface, in mesh units,\n"
-               "or with % of the bounding-box diagonal;\n"
-               "without it, the radii of the file where it has them,\n"
-               "else the distance of its header");
-    add_mesh_options(*command, options->mesh);
-    add_density_options(*command, options->density);
-    add_json_option(*command, options->out);
-    command->add_flag("-q,--quiet", options->out.quiet,
-                      "No progress and no result but the exit status");
-    command->callback([options] { run_verify(*options); });
+    add_mesh_argument(command, options->mesh, "Mesh they were made on");
+    command.add_option("SAMPLES", options->samples, "",
+                       "Samples to check: *.ply or *.csv; those of geodisk box\n"
+                       "stand alone, without a mesh");
+    command.add_option("-d,--min-distance", options->min_distance, "D",
+                       "Least distance along the surface, in mesh units,\n"
+                       "or with % of the bounding-box diagonal;\n"
+                       "without it, the radii of the file where it has them,\n"
+                       "else the distance of its header");
+    add_mesh_options(command, options->mesh);
+    add_density_options(command, options->density);
+    add_json_option(command, options->out);
+    command.add_flag("-q,--quiet", options->out.quiet,
+                     "No progress and no result but the exit status");
+    command.calls([options] { run_verify(*options); });
 }
 
 } // namespace geodisk::tools

@@ -5,8 +5,8 @@
 #include <geodisk/radius_field.hpp>
 
 #include "program/arguments.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -67,24 +67,23 @@ HeaderEntries DensityOptions::additions() const {
     return result;
 }
 
-void add_density_options(CLI::App& command, DensityOptions& options) {
+void add_density_options(Command command, DensityOptions& options) {
     const char* const density =
         "Radii that vary: the largest times g, above 0 and up to 1; give one";
-    add_option(command, "--density-attribute", options.attribute, "NAME",
-               "g is this vertex property of a PLY", density);
-    add_option(command, "--density-file", options.file, "FILE",
-               "g is in this text file, one value per line and vertex", density);
-    add_option(command, "--density-map", options.map, "FILE",
-               "g is the grey of this image, black 0 and white 1, at the\n"
-               "texture coordinates of the vertices",
-               density);
-    command
-        .add_flag("--density-curvature", options.curvature,
-                  "g is 1 where the mesh is flat, 1/2 where its mean curvature\n"
-                  "is the average, and falls to 0.1")
-        ->group(density);
-    add_option(command, "--density-floor", options.floor, "G",
-               "Raise smaller g to this; for curvature 0.1 unless given", density);
+    command.add_option("--density-attribute", options.attribute, "NAME",
+                       "g is this vertex property of a PLY", density);
+    command.add_option("--density-file", options.file, "FILE",
+                       "g is in this text file, one value per line and vertex", density);
+    command.add_option("--density-map", options.map, "FILE",
+                       "g is the grey of this image, black 0 and white 1, at the\n"
+                       "texture coordinates of the vertices",
+                       density);
+    command.add_flag("--density-curvature", options.curvature,
+                     "g is 1 where the mesh is flat, 1/2 where its mean curvature\n"
+                     "is the average, and falls to 0.1",
+                     density);
+    command.add_option("--density-floor", options.floor, "G",
+                       "Raise smaller g to this; for curvature 0.1 unless given", density);
 }
 
 } // namespace geodisk::tools

@@ -25,6 +25,6 @@ struct DensityOptions {
     HeaderEntries additions() const;
 };
 
-void add_density_options(CLI::App& command, DensityOptions& options);
+void add_density_options(Command command, DensityOptions& options);
 
 } // namespace geodisk::tools

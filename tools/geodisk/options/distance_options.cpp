@@ -1,7 +1,7 @@
 #include "geodisk/options/distance_options.hpp"
 
+#include "program/command.hpp"
 #include "program/failure.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 
@@ -20,11 +20,11 @@ std::optional<Length> DistanceOptions::parsed() const {
     return std::nullopt;
 }
 
-void add_distance_options(CLI::App& command, DistanceOptions& options) {
-    add_option(command, "-d,--min-distance", options.min_distance, "D",
-               "Minimum distance, in mesh units or with % of the diagonal;\n"
-               "without it, that of the samples' header or their own radii");
-    add_option(command, "-r,--radius", options.radius, "R", "The same as a radius, half of it");
+void add_distance_options(Command command, DistanceOptions& options) {
+    command.add_option("-d,--min-distance", options.min_distance, "D",
+                       "Minimum distance, in mesh units or with % of the diagonal;\n"
+                       "without it, that of the samples' header or their own radii");
+    command.add_option("-r,--radius", options.radius, "R", "The same as a radius, half of it");
 }
 
 } // namespace geodisk::tools

@@ -7,11 +7,9 @@
 
 #include "program/arguments.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace geodisk::tools {
+
+class Command;
 
 /// As given on the command line.
 struct DistanceOptions {
@@ -22,6 +20,6 @@ struct DistanceOptions {
 };
 
 /// Adds --min-distance and --radius.
-void add_distance_options(CLI::App& command, DistanceOptions& options);
+void add_distance_options(Command command, DistanceOptions& options);
 
 } // namespace geodisk::tools

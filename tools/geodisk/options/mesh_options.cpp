@@ -1,6 +1,6 @@
 #include "geodisk/options/mesh_options.hpp"
 
-#include "program/program.hpp"
+#include "program/command.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -45,45 +45,46 @@ HeaderEntries MeshOptions::additions() const {
     return result;
 }
 
-void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary,
+void add_mesh_argument(Command command, MeshOptions& options, const std::string& summary,
                        const std::string& name) {
-    add_option(command, name, options.mesh, "",
-               summary + ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME")
-        ->required();
-}
-
-void add_sidecar_options(CLI::App& command, MeshOptions& options, const std::string& mesh_name,
-                         const std::string& suffix) {
-    add_option(command, "--coordinates" + suffix, options.coordinates, "FILE",
-               "Text file with 3 to 8 coordinates per line and vertex,\nin place of those of " +
-                   mesh_name,
-               kSurfaceGroup);
-    add_option(command, "--edge-lengths" + suffix, options.edge_lengths, "FILE",
-               "Text file with a line VERTEX VERTEX LENGTH per edge, which\n"
-               "make the surface; vertices count from 1 in OBJ, else 0",
-               kSurfaceGroup);
-}
-
-void add_lift_option(CLI::App& command, MeshOptions& options, const std::string& suffix) {
-    add_option(command, "--lift" + suffix, options.lifts, "LIFT",
-               "normals:W or attribute:NAME:W: measure along the surface with\n"
-               "W times the vertex normal or PLY property NAME as further\n"
-               "coordinates; may be given several times",
-               kSurfaceGroup)
-        ->allow_extra_args(false);
-}
-
-void add_weld_option(CLI::App& command, MeshOptions& options, const std::string& suffix) {
-    // A flag: an option whose value may be absent would take the argument after it.
     command
-        .add_flag("--weld" + suffix, options.weld,
-                  "Join vertices that lie in one place; with --weld" + suffix +
-                      "=EPS,\nalso those no farther apart, in mesh units or % of the\n"
-                      "bounding-box diagonal")
-        ->group(kSurfaceGroup);
+        .add_option(name, options.mesh, "",
+                    summary + ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME")
+        .required();
 }
 
-void add_mesh_options(CLI::App& command, MeshOptions& options) {
+void add_sidecar_options(Command command, MeshOptions& options, const std::string& mesh_name,
+                         const std::string& suffix) {
+    command.add_option(
+        "--coordinates" + suffix, options.coordinates, "FILE",
+        "Text file with 3 to 8 coordinates per line and vertex,\nin place of those of " + mesh_name,
+        kSurfaceGroup);
+    command.add_option("--edge-lengths" + suffix, options.edge_lengths, "FILE",
+                       "Text file with a line VERTEX VERTEX LENGTH per edge, which\n"
+                       "make the surface; vertices count from 1 in OBJ, else 0",
+                       kSurfaceGroup);
+}
+
+void add_lift_option(Command command, MeshOptions& options, const std::string& suffix) {
+    command
+        .add_option("--lift" + suffix, options.lifts, "LIFT",
+                    "normals:W or attribute:NAME:W: measure along the surface with\n"
+                    "W times the vertex normal or PLY property NAME as further\n"
+                    "coordinates; may be given several times",
+                    kSurfaceGroup)
+        .takes_one_value();
+}
+
+void add_weld_option(Command command, MeshOptions& options, const std::string& suffix) {
+    // A flag: an option whose value may be absent would take the argument after it.
+    command.add_flag("--weld" + suffix, options.weld,
+                     "Join vertices that lie in one place; with --weld" + suffix +
+                         "=EPS,\nalso those no farther apart, in mesh units or % of the\n"
+                         "bounding-box diagonal",
+                     kSurfaceGroup);
+}
+
+void add_mesh_options(Command command, MeshOptions& options) {
     add_weld_option(command, options);
     add_sidecar_options(command, options, "MESH");
     add_lift_option(command, options);

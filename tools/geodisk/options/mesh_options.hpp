@@ -27,20 +27,20 @@ struct MeshOptions {
 };
 
 /// Adds the argument `name`, described by `summary`.
-void add_mesh_argument(CLI::App& command, MeshOptions& options, const std::string& summary,
+void add_mesh_argument(Command command, MeshOptions& options, const std::string& summary,
                        const std::string& name = "MESH");
 
 /// Adds the files beside the mesh `mesh_name`; `suffix` ends the options' names.
-void add_sidecar_options(CLI::App& command, MeshOptions& options, const std::string& mesh_name,
+void add_sidecar_options(Command command, MeshOptions& options, const std::string& mesh_name,
                          const std::string& suffix = "");
 
 /// Adds --lift, with `suffix`.
-void add_lift_option(CLI::App& command, MeshOptions& options, const std::string& suffix = "");
+void add_lift_option(Command command, MeshOptions& options, const std::string& suffix = "");
 
 /// Adds --weld, with `suffix`.
-void add_weld_option(CLI::App& command, MeshOptions& options, const std::string& suffix = "");
+void add_weld_option(Command command, MeshOptions& options, const std::string& suffix = "");
 
 /// Adds all options besides MESH.
-void add_mesh_options(CLI::App& command, MeshOptions& options);
+void add_mesh_options(Command command, MeshOptions& options);
 
 } // namespace geodisk::tools

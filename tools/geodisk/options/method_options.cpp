@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "program/arguments.hpp"
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -18,7 +18,7 @@ void check_method(const MethodOptions& options) {
     if (options.method != "psdp" && options.method != "pdts") {
         fail_usage("--method: " + in_quotes(options.method) + " is neither psdp nor pdts");
     }
-    if (options.throws_darts() && options.command->count("--pool-ratio") > 0) {
+    if (options.throws_darts() && options.pool_ratio_option.is_given()) {
         fail_usage("--pool-ratio is for --method psdp; with pdts, --throws "
                    "tells how many darts to throw");
     }
@@ -111,30 +111,31 @@ void check_one_distance(const MethodOptions& options,
     }
 }
 
-void add_method_options(CLI::App& command, MethodOptions& options, const std::string& domain) {
-    options.command = &command;
+void add_method_options(Command command, MethodOptions& options, const std::string& domain) {
     const char* const method = "Method";
-    add_option(command, "--method", options.method, "NAME",
-               "psdp: from a pool of candidates; pdts: throw darts until\n"
-               "there are --count samples or --throws darts were thrown",
-               method)
-        ->capture_default_str();
-    add_option(command, "--throws", options.throws, "K",
-               "Most darts of pdts, up to 4294967295; fewer samples than\n"
-               "--count are then no error. If not given, 1000 for each\n"
-               "sample that " +
-                   domain + " has room for",
-               method);
-    add_option(command, "--pool-ratio", options.pool_ratio, "Q",
-               "Candidates of psdp per expected sample, 1 to 10000; more\n"
-               "leave fewer gaps",
-               method)
-        ->capture_default_str();
     command
-        .add_flag("--count-calls", options.count_calls,
-                  "Count how often the paper's CheckStatus would call itself;\n"
-                  "takes a little time, does not change the samples")
-        ->group(method);
+        .add_option("--method", options.method, "NAME",
+                    "psdp: from a pool of candidates; pdts: throw darts until\n"
+                    "there are --count samples or --throws darts were thrown",
+                    method)
+        .shows_default();
+    command.add_option("--throws", options.throws, "K",
+                       "Most darts of pdts, up to 4294967295; fewer samples than\n"
+                       "--count are then no error. If not given, 1000 for each\n"
+                       "sample that " +
+                           domain + " has room for",
+                       method);
+    options.pool_ratio_option =
+        command
+            .add_option("--pool-ratio", options.pool_ratio, "Q",
+                        "Candidates of psdp per expected sample, 1 to 10000; more\n"
+                        "leave fewer gaps",
+                        method)
+            .shows_default();
+    command.add_flag("--count-calls", options.count_calls,
+                     "Count how often the paper's CheckStatus would call itself;\n"
+                     "takes a little time, does not change the samples",
+                     method);
 }
 
 } // namespace geodisk::tools

@@ -8,9 +8,7 @@
 
 #include <geodisk/params.hpp>
 
-namespace CLI {
-class App;
-}
+#include "program/command.hpp"
 
 namespace geodisk::tools {
 
@@ -18,14 +16,14 @@ namespace geodisk::tools {
 struct MethodOptions {
     std::string method = "psdp", pool_ratio = "20", throws;
     bool count_calls = false;
-    const CLI::App* command = nullptr; ///< Knows whether a default was given.
+    Option pool_ratio_option; ///< Knows whether it was given.
 
     bool throws_darts() const { return method == "pdts"; }
 };
 
 /// Adds --method, --throws, --pool-ratio and --count-calls; `options` must outlive the parsing.
 /// Samples have room in `domain`: "the surface".
-void add_method_options(CLI::App& command, MethodOptions& options, const std::string& domain);
+void add_method_options(Command command, MethodOptions& options, const std::string& domain);
 
 /// The options, checked.
 struct Method {

@@ -1,9 +1,9 @@
 #include "geodisk/options/render_options.hpp"
 
+#include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -21,35 +21,35 @@ std::uint32_t parse_side(const std::string& text, std::string_view side) {
 
 } // namespace
 
-void add_render_options(CLI::App& command, RenderOptions& options) {
+void add_render_options(Command command, RenderOptions& options) {
     add_mesh_argument(command, options.mesh,
                       "Mesh that the samples were made on; or, alone, the samples\n"
                       "of geodisk box, of 2 or 3 dimensions");
-    add_option(command, "SAMPLES", options.samples, "", "Samples to show: *.ply or *.csv");
+    command.add_option("SAMPLES", options.samples, "", "Samples to show: *.ply or *.csv");
     add_output_argument(command, options.out, "Picture to write: *.png");
-    add_option(command, "--size", options.size, "WxH", "Pixels of the picture")
-        ->capture_default_str();
-    add_option(command, "--style", options.style, "STYLE",
-               "disks     the geodesic disk of each sample, of its radius;\n"
-               "          where two overlap, orange\n"
-               "points    the samples\n"
-               "voronoi   the places that are nearest to each sample\n"
-               "distance  how far the nearest sample is; where another one\n"
-               "          would have room, orange\n"
-               "density   how dense they are, dark for few, light for many")
-        ->capture_default_str();
+    command.add_option("--size", options.size, "WxH", "Pixels of the picture").shows_default();
     command
-        .add_option("--view", options.views,
+        .add_option("--style", options.style, "STYLE",
+                    "disks     the geodesic disk of each sample, of its radius;\n"
+                    "          where two overlap, orange\n"
+                    "points    the samples\n"
+                    "voronoi   the places that are nearest to each sample\n"
+                    "distance  how far the nearest sample is; where another one\n"
+                    "          would have room, orange\n"
+                    "density   how dense they are, dark for few, light for many")
+        .shows_default();
+    command
+        .add_option("--view", options.views, "VIEW",
                     "Where to look from: front, back, left, right, top, bottom,\n"
                     "AZIMUTH,ELEVATION in degrees, or auto for where most is\n"
                     "seen from; several make a sheet")
-        ->type_name("VIEW")
-        ->allow_extra_args(false);
-    add_option(command, "--up", options.up, "AXIS",
-               "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
-    add_option(command, "--background", options.background, "COLOR",
-               "white, black, transparent or RRGGBB")
-        ->capture_default_str();
+        .takes_one_value();
+    command.add_option("--up", options.up, "AXIS",
+                       "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
+    command
+        .add_option("--background", options.background, "COLOR",
+                    "white, black, transparent or RRGGBB")
+        .shows_default();
     command.add_flag("--cut", options.cuts,
                      "Of a box of 3 dimensions, do not show the balls in the\n"
                      "eighth nearest to the eye");

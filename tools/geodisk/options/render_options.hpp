@@ -24,7 +24,7 @@ struct RenderOptions {
 };
 
 /// Adds all options of the command; `options` must outlive the parsing.
-void add_render_options(CLI::App& command, RenderOptions& options);
+void add_render_options(Command command, RenderOptions& options);
 
 /// The picture that is asked for. Throws UserError(usage).
 picture::PictureParams parse_picture(const RenderOptions& options);

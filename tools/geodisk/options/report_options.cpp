@@ -1,7 +1,7 @@
 #include "geodisk/options/report_options.hpp"
 
 #include "geodisk/set_analysis.hpp"
-#include "program/program.hpp"
+#include "program/command.hpp"
 
 namespace geodisk::tools {
 
@@ -14,20 +14,21 @@ std::optional<picture::Up> ReportOptions::parsed_up() const {
     return up.empty() ? std::nullopt : std::optional(picture::parse_up("--up", up));
 }
 
-void add_report_options(CLI::App& command, ReportOptions& options) {
+void add_report_options(Command command, ReportOptions& options) {
     add_mesh_argument(command, options.sample.mesh, "Mesh to sample");
     add_output_argument(command, options.sample.out, "Page to write: *.html");
-    add_option(command, "--view", options.view, "VIEW",
-               "Where to look from at first: front, back, left, right,\n"
-               "top, bottom, AZIMUTH,ELEVATION in degrees, or auto for\n"
-               "where most is seen from")
-        ->capture_default_str();
-    add_option(command, "--up", options.up, "AXIS",
-               "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
+    command
+        .add_option("--view", options.view, "VIEW",
+                    "Where to look from at first: front, back, left, right,\n"
+                    "top, bottom, AZIMUTH,ELEVATION in degrees, or auto for\n"
+                    "where most is seen from")
+        .shows_default();
+    command.add_option("--up", options.up, "AXIS",
+                       "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
     add_probes_option(command, options.probes);
-    add_option(command, "--harmonics", options.harmonics, "K",
-               "Show the power spectrum, by K waves of the surface (none);\n"
-               "blue noise takes some five per sample");
+    command.add_option("--harmonics", options.harmonics, "K",
+                       "Show the power spectrum, by K waves of the surface (none);\n"
+                       "blue noise takes some five per sample");
     add_job_options(command, options.sample);
     add_json_option(command, options.sample.out);
     command.add_flag("-q,--quiet", options.sample.out.quiet, "No progress and no summary");

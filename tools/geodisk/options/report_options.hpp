@@ -23,6 +23,6 @@ struct ReportOptions {
 };
 
 /// Adds all options of the command; `options` must outlive the parsing.
-void add_report_options(CLI::App& command, ReportOptions& options);
+void add_report_options(Command command, ReportOptions& options);
 
 } // namespace geodisk::tools

@@ -1,20 +1,20 @@
 #include "geodisk/options/run_options.hpp"
 
 #include "program/arguments.hpp"
-#include "program/program.hpp"
+#include "program/command.hpp"
 
 namespace geodisk::tools {
 
-void add_output_argument(CLI::App& command, OutputOptions& options, const std::string& summary) {
-    add_option(command, "-o,--output", options.output, "OUT", summary)->required();
+void add_output_argument(Command command, OutputOptions& options, const std::string& summary) {
+    command.add_option("-o,--output", options.output, "OUT", summary).required();
 }
 
-void add_json_option(CLI::App& command, OutputOptions& options) {
-    add_option(command, "--json", options.json, "FILE",
-               "Write a report as JSON, - for standard output");
+void add_json_option(Command command, OutputOptions& options) {
+    command.add_option("--json", options.json, "FILE",
+                       "Write a report as JSON, - for standard output");
 }
 
-void add_output_options(CLI::App& command, OutputOptions& options) {
+void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
     command.add_flag("--ascii", options.ascii, "Write PLY as text");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
@@ -33,25 +33,23 @@ double RunOptions::stall_seconds() const {
     return stall_timeout.empty() ? 0 : parse_ratio("--stall-timeout", stall_timeout, 0.1, kWeek);
 }
 
-void add_device_options(CLI::App& command, DeviceOptions& options) {
-    add_option(command, "--device", options.device, "NAME|INDEX",
-               "Device by name, index or UUID (geodisk info)");
-    command
-        .add_flag("--validate", options.validate,
-                  "Run with the Vulkan validation layer, fail on any message")
-        ->group("Development");
+void add_device_options(Command command, DeviceOptions& options) {
+    command.add_option("--device", options.device, "NAME|INDEX",
+                       "Device by name, index or UUID (geodisk info)");
+    command.add_flag("--validate", options.validate,
+                     "Run with the Vulkan validation layer, fail on any message", "Development");
 }
 
-void add_run_options(CLI::App& command, RunOptions& options) {
-    add_option(command, "--seed", options.seed, "S", "64-bit seed; equal seeds give equal samples")
-        ->capture_default_str();
+void add_run_options(Command command, RunOptions& options) {
+    command.add_option("--seed", options.seed, "S", "64-bit seed; equal seeds give equal samples")
+        .shows_default();
     add_device_options(command, options.device);
-    add_option(command, "--memory", options.memory, "BYTES",
-               "Most bytes to take on the device, with K, M or G;\n"
-               "does not change the samples");
-    add_option(command, "--stall-timeout", options.stall_timeout, "SECONDS",
-               "Give the device up when it has not answered for so long\n"
-               "(120 s, and 600 s on a CPU)");
+    command.add_option("--memory", options.memory, "BYTES",
+                       "Most bytes to take on the device, with K, M or G;\n"
+                       "does not change the samples");
+    command.add_option("--stall-timeout", options.stall_timeout, "SECONDS",
+                       "Give the device up when it has not answered for so long\n"
+                       "(120 s, and 600 s on a CPU)");
 }
 
 } // namespace geodisk::tools

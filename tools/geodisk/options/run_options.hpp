@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace geodisk::tools {
+
+class Command;
 
 /// A file of the command line, and what it is to the user: "the mesh".
 struct NamedFile {
@@ -27,14 +25,14 @@ struct OutputOptions {
 };
 
 /// Adds -o, described by `summary`.
-void add_output_argument(CLI::App& command, OutputOptions& options,
+void add_output_argument(Command command, OutputOptions& options,
                          const std::string& summary = "File to write: *.ply (binary), *.csv or "
                                                       "*.xyz (positions only)");
 
-void add_json_option(CLI::App& command, OutputOptions& options);
+void add_json_option(Command command, OutputOptions& options);
 
 /// Adds --json, --ascii and --quiet.
-void add_output_options(CLI::App& command, OutputOptions& options);
+void add_output_options(Command command, OutputOptions& options);
 
 /// Which device to work on, as given on the command line.
 struct DeviceOptions {
@@ -43,7 +41,7 @@ struct DeviceOptions {
 };
 
 /// Adds --device and --validate.
-void add_device_options(CLI::App& command, DeviceOptions& options);
+void add_device_options(Command command, DeviceOptions& options);
 
 /// How to sample on a device, as given on the command line.
 struct RunOptions {
@@ -56,6 +54,6 @@ struct RunOptions {
     double stall_seconds() const;       ///< 0 for what suits the device.
 };
 
-void add_run_options(CLI::App& command, RunOptions& options);
+void add_run_options(Command command, RunOptions& options);
 
 } // namespace geodisk::tools

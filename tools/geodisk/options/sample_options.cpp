@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/program.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -68,34 +68,35 @@ SampleJob parse_job(const SampleOptions& options) {
     return job;
 }
 
-void add_sample_options(CLI::App& command, SampleOptions& options) {
+void add_sample_options(Command command, SampleOptions& options) {
     add_mesh_argument(command, options.mesh, "Mesh to sample");
     add_output_argument(command, options.out);
     add_job_options(command, options);
     add_output_options(command, options.out);
 }
 
-void add_job_options(CLI::App& command, SampleOptions& options) {
+void add_job_options(Command command, SampleOptions& options) {
     const char* const distance = "Distance, give one";
-    add_option(command, "-d,--min-distance", options.min_distance, "D",
-               "Least distance along the surface, in mesh units,\n"
-               "or with % of the bounding-box diagonal",
-               distance);
-    add_option(command, "-r,--radius", options.radius, "R",
-               "Half the least distance; where radii vary, the largest", distance);
-    add_option(command, "-n,--count", options.count, "N",
-               "Choose the distance that should give about N samples;\n"
-               "with --method pdts, stop at exactly N",
-               distance);
+    command.add_option("-d,--min-distance", options.min_distance, "D",
+                       "Least distance along the surface, in mesh units,\n"
+                       "or with % of the bounding-box diagonal",
+                       distance);
+    command.add_option("-r,--radius", options.radius, "R",
+                       "Half the least distance; where radii vary, the largest", distance);
+    command.add_option("-n,--count", options.count, "N",
+                       "Choose the distance that should give about N samples;\n"
+                       "with --method pdts, stop at exactly N",
+                       distance);
 
     add_mesh_options(command, options.mesh);
     add_density_options(command, options.density);
 
-    add_option(command, "--metric", options.metric, "NAME",
-               "geodesic: exact, along the surface. For comparison alone,\n"
-               "euclidean: straight through space; approximate: a closed\n"
-               "form by normals (Bowers et al. 2010)")
-        ->capture_default_str();
+    command
+        .add_option("--metric", options.metric, "NAME",
+                    "geodesic: exact, along the surface. For comparison alone,\n"
+                    "euclidean: straight through space; approximate: a closed\n"
+                    "form by normals (Bowers et al. 2010)")
+        .shows_default();
     add_method_options(command, options.method, "the surface");
 
     add_run_options(command, options.run);

@@ -26,10 +26,10 @@ struct SampleOptions {
 };
 
 /// Adds all options of the command; `options` must outlive the parsing.
-void add_sample_options(CLI::App& command, SampleOptions& options);
+void add_sample_options(Command command, SampleOptions& options);
 
 /// Adds those that say what is sampled and how, all but what is written of it.
-void add_job_options(CLI::App& command, SampleOptions& options);
+void add_job_options(Command command, SampleOptions& options);
 
 /// What is asked for, checked as far as that is possible without the mesh.
 struct SampleJob {

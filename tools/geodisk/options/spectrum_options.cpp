@@ -1,24 +1,23 @@
 #include "geodisk/options/spectrum_options.hpp"
 
-#include "program/program.hpp"
+#include "program/command.hpp"
 
 namespace geodisk::tools {
 
-void add_spectrum_options(CLI::App& command, SpectrumOptions& options,
+void add_spectrum_options(Command command, SpectrumOptions& options,
                           std::vector<std::string>& files) {
     command
-        .add_option("MESH SAMPLES", files,
+        .add_option("MESH SAMPLES", files, "",
                     "Samples, *.ply or *.csv, of one mesh, and before them the mesh;\n"
                     "or of boxes. Of several the mean is taken")
-        ->type_name("")
-        ->required();
-    add_option(command, "-o,--output", options.out.output, "OUT",
-               "Spectrum to write: *.csv, radial mean and anisotropy, or of\n"
-               "boxes of 2 dimensions *.png, a picture with 0 in the middle");
-    add_option(command, "--harmonics", options.harmonics, "K",
-               "Waves of the surface, from the longest on (1000)");
-    add_option(command, "--reach", options.reach, "F",
-               "Highest frequency in boxes, in waves per minimum distance (4)");
+        .required();
+    command.add_option("-o,--output", options.out.output, "OUT",
+                       "Spectrum to write: *.csv, radial mean and anisotropy, or of\n"
+                       "boxes of 2 dimensions *.png, a picture with 0 in the middle");
+    command.add_option("--harmonics", options.harmonics, "K",
+                       "Waves of the surface, from the longest on (1000)");
+    command.add_option("--reach", options.reach, "F",
+                       "Highest frequency in boxes, in waves per minimum distance (4)");
     add_distance_options(command, options.distance);
     add_mesh_options(command, options.mesh);
     add_json_option(command, options.out);

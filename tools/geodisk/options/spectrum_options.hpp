@@ -20,7 +20,7 @@ struct SpectrumOptions {
 };
 
 /// Adds all options of the command; `files` are the mesh, if there is one, and the samples.
-void add_spectrum_options(CLI::App& command, SpectrumOptions& options,
+void add_spectrum_options(Command command, SpectrumOptions& options,
                           std::vector<std::string>& files);
 
 } // namespace geodisk::tools
