@@ -52,6 +52,24 @@ double count_if(const PngImage& image, const Is& is) {
 
 } // namespace
 
+TEST_CASE("a mesh is sampled and drawn at once") {
+    const TemporaryFolder folder;
+    make_samples(folder);
+    const Outcome outcome = run(folder, {"sample", kMesh, "-n", "400", "-o", "b.ply", "--picture",
+                                         "b.png", "--json", "b.json", "-q", "--validate"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(bytes_of(folder / "b.ply") == bytes_of(folder / "a.ply"));
+    CHECK(nlohmann::json::parse(bytes_of(folder / "b.json"))["picture"] == "b.png");
+    REQUIRE(run(folder, {"render", kMesh, "a.ply", "-o", "a.png"}).status == 0);
+    CHECK(bytes_of(folder / "b.png") == bytes_of(folder / "a.png"));
+
+    const Arguments good = {"sample", kMesh, "-n", "400", "-o", "c.ply", "--picture"};
+    check_fails(folder, 2, "*.png", joined(good, {"c.jpg"}));
+    check_fails(folder, 2, "the picture would replace the samples", joined(good, {"c.ply"}));
+    check_fails(folder, 4, "nowhere", joined(good, {"nowhere/c.png"}));
+}
+
 TEST_CASE("disks cover the area that they have") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"box", "--dim", "2", "--periodic", "-d", "0.1", "-o", "a.csv"}).status ==
@@ -228,6 +246,9 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     folder.write("one.csv", "# min_distance: 1\nface_index,bary_u,bary_v,bary_w\n0,1,0,0\n");
     check_fails(folder, 3, "without coordinates",
                 {"render", "bare.obj", "one.csv", "-o", "p.png", "--edge-lengths", "lengths.txt"});
+    check_fails(folder, 3, "without coordinates",
+                {"sample", "bare.obj", "-d", "1", "-o", "p.csv", "--picture", "p.png",
+                 "--edge-lengths", "lengths.txt"});
 }
 
 } // namespace geodisk::test

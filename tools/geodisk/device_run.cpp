@@ -64,14 +64,13 @@ SampleSet sample(Runner& runner, const Task& task, bool bounded, ProgressLine& p
 
 } // namespace
 
-std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
-                                              const RunnerOptions& runner_options,
-                                              const TaskAt& task_at, double min_distance,
-                                              double wanted, ProgressLine& progress) {
+DeviceResult run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
+                           const TaskAt& task_at, double min_distance, double wanted,
+                           ProgressLine& progress, bool graphics) {
     Task task = task_at(min_distance); // Fails before a device is needed.
     DeviceRun done;
     Stopwatch watch;
-    const Context context = open_device(options.device, false, progress);
+    Context context = open_device(options.device, graphics, progress);
     done.open_seconds = watch.seconds();
     done.device = context.report();
 
@@ -112,7 +111,7 @@ std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
     check_validation(context);
     done.run = best.report;
     done.run.seconds = seconds;
-    return {std::move(best), std::move(done)};
+    return {std::move(best), std::move(done), std::move(context)};
 }
 
 } // namespace geodisk::tools

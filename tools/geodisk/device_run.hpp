@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <utility>
 
 #include <geodisk/context.hpp>
 #include <geodisk/domain.hpp>
@@ -24,6 +23,13 @@ struct DeviceRun {
     double open_seconds = 0, compile_seconds = 0; ///< Those of the stages after are in `run`.
 };
 
+/// What came of a run, and the device it was on.
+struct DeviceResult {
+    SampleSet set;
+    DeviceRun done;
+    Context context;
+};
+
 /// What there is to sample at a distance, and about how many samples that gives.
 struct Task {
     Domain domain;
@@ -33,11 +39,10 @@ using TaskAt = std::function<Task(double min_distance)>;
 
 /// Opens the device of `options`, compiles there what the domain needs, and samples it. Where a
 /// number of samples is wanted, not 0, and another comes out, it tries other distances
-/// (CountSearch) and takes the nearest. Returns the samples and how they came about; throws
-/// UserError.
-std::pair<SampleSet, DeviceRun> run_on_device(const RunOptions& options,
-                                              const RunnerOptions& runner_options,
-                                              const TaskAt& task_at, double min_distance,
-                                              double wanted, ProgressLine& progress);
+/// (CountSearch) and takes the nearest. The device can draw as well, where `graphics` is set.
+/// Throws UserError.
+DeviceResult run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
+                           const TaskAt& task_at, double min_distance, double wanted,
+                           ProgressLine& progress, bool graphics = false);
 
 } // namespace geodisk::tools

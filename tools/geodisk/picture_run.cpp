@@ -17,22 +17,12 @@
 namespace geodisk::tools {
 namespace {
 
-using picture::Picture;
-
-/// What was drawn, and how long that took.
-struct Drawn {
-    Picture picture;
-    std::size_t samples = 0;
-    std::size_t windows = 0;
-    std::string device;
-    double window_seconds = 0, draw_seconds = 0;
-};
-
 /// Tells what was drawn.
 class RenderReport {
   public:
-    RenderReport(const RenderOptions& options, const Subject& subject, const Drawn& drawn)
-        : options_(options), subject_(subject), drawn_(drawn) {}
+    RenderReport(const RenderOptions& options, const Subject& subject, const std::string& device,
+                 const DrawnPicture& drawn)
+        : options_(options), subject_(subject), device_(device), drawn_(drawn) {}
 
     std::string json(double write_seconds) const {
         Json views = Json::array();
@@ -50,7 +40,7 @@ class RenderReport {
                          {"up", up_name()},
                          {"views", views},
                          {"windows", drawn_.windows},
-                         {"device", drawn_.device},
+                         {"device", device_},
                          {"seconds",
                           {{"windows", drawn_.window_seconds},
                            {"draw", drawn_.draw_seconds},
@@ -71,7 +61,7 @@ class RenderReport {
         out << "time          " << seconds_text(drawn_.window_seconds) << " disks, "
             << seconds_text(drawn_.draw_seconds) << " drawing, " << seconds_text(write_seconds)
             << " writing\n"
-            << "device        " << drawn_.device << '\n'
+            << "device        " << device_ << '\n'
             << "file          " << one_line(options_.out.output) << '\n';
         return out.str();
     }
@@ -85,7 +75,8 @@ class RenderReport {
 
     const RenderOptions& options_;
     const Subject& subject_;
-    const Drawn& drawn_;
+    const std::string& device_;
+    const DrawnPicture& drawn_;
 };
 
 /// Shows how far the work is, and ends it on a signal.
@@ -94,6 +85,27 @@ PartDone show_progress(ProgressLine& progress) {
         check_interrupted();
         progress.update(part, "");
     };
+}
+
+DrawnPicture draw_content(const Context& context, const picture::PictureParams& params,
+                          const picture::Content& content, ProgressLine& progress) {
+    progress.begin_stage("drawing");
+    DrawnPicture drawn;
+    drawn.samples = content.samples.size() + content.balls.size();
+    drawn.windows = content.table.windows.size();
+    const Stopwatch watch;
+    const picture::Gpu gpu(context.device(), context.queue());
+    drawn.picture = picture::draw_picture(gpu, content, params, show_progress(progress));
+    drawn.draw_seconds = watch.seconds();
+    return drawn;
+}
+
+void write_picture(const RenderOptions& options, const Subject& subject, const Context& context,
+                   const DrawnPicture& drawn, ProgressLine& progress) {
+    check_validation(context);
+    const RenderReport report(options, subject, context.report().name, drawn);
+    write_outputs(options.out, "the picture", progress, report,
+                  [&](AtomicFile& file) { picture::write_png(file, drawn.picture.pixels); });
 }
 
 } // namespace
@@ -105,40 +117,43 @@ void check_picture_path(const Path& path) {
     check_writable(path);
 }
 
-void draw_surface(const RenderOptions& options, const picture::PictureParams& params,
-                  const Subject& subject, const PreparedMesh& mesh, const picture::Scene& scene,
-                  std::vector<SurfaceDisk> disks, ProgressLine& progress) {
-    if (disks.empty()) {
-        fail_input(subject.samples_file, "has no samples to show");
+void check_visible(const std::string& path, const MeshInput& mesh) {
+    if (mesh.dimension() == 0) {
+        fail_input(path, "has edge lengths without coordinates, so there is nothing to look at");
     }
+}
+
+DrawnPicture draw_surface(const Context& context, const picture::PictureParams& params,
+                          const PreparedMesh& mesh, const picture::Scene& scene,
+                          std::vector<SurfaceDisk> disks, ProgressLine& progress) {
     progress.begin_stage("computing the disks");
     const Stopwatch watch;
     const picture::SurfaceContent content = picture::make_surface_content(
         mesh, std::move(disks), params.style, show_progress(progress));
-    draw_content(options, params, subject, {scene, content.table, content.samples}, progress,
-                 watch.seconds());
+    const double window_seconds = watch.seconds();
+    DrawnPicture drawn =
+        draw_content(context, params, {scene, content.table, content.samples}, progress);
+    drawn.window_seconds = window_seconds;
+    return drawn;
 }
 
-void draw_content(const RenderOptions& options, const picture::PictureParams& params,
-                  const Subject& subject, const picture::Content& content, ProgressLine& progress,
-                  double window_seconds) {
-    Drawn drawn;
-    drawn.samples = content.samples.size() + content.balls.size();
-    drawn.windows = content.table.windows.size();
-    drawn.window_seconds = window_seconds;
-    const Context context = open_device(options.device, true, progress);
-    drawn.device = context.report().name;
-    progress.begin_stage("drawing");
-    const Stopwatch watch;
-    {
-        const picture::Gpu gpu(context.device(), context.queue());
-        drawn.picture = picture::draw_picture(gpu, content, params, show_progress(progress));
+void render_surface(const RenderOptions& options, const picture::PictureParams& params,
+                    const Subject& subject, const PreparedMesh& mesh, const picture::Scene& scene,
+                    std::vector<SurfaceDisk> disks, ProgressLine& progress) {
+    if (disks.empty()) {
+        fail_input(subject.samples_file, "has no samples to show");
     }
-    drawn.draw_seconds = watch.seconds();
-    check_validation(context);
-    const RenderReport report(options, subject, drawn);
-    write_outputs(options.out, "the picture", progress, report,
-                  [&](AtomicFile& file) { picture::write_png(file, drawn.picture.pixels); });
+    const Context context = open_device(options.device, true, progress);
+    write_picture(options, subject, context,
+                  draw_surface(context, params, mesh, scene, std::move(disks), progress), progress);
+}
+
+void render_content(const RenderOptions& options, const picture::PictureParams& params,
+                    const Subject& subject, const picture::Content& content,
+                    ProgressLine& progress) {
+    const Context context = open_device(options.device, true, progress);
+    write_picture(options, subject, context, draw_content(context, params, content, progress),
+                  progress);
 }
 
 } // namespace geodisk::tools

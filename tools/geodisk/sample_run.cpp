@@ -73,11 +73,12 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, ProgressLi
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
         return Task{domain_of(job, mesh, params), job.method.expected(room)};
     };
-    auto [set, done] = run_on_device(job.run, job.runner, task_at, params.min_distance,
-                                     job.wanted_count, progress);
+    auto [set, done, context] = run_on_device(job.run, job.runner, task_at, params.min_distance,
+                                              job.wanted_count, progress, !job.picture.empty());
     params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
-    return {params, std::move(done), to_rows(mesh, params.min_distance, set.samples)};
+    return {params, std::move(done), to_rows(mesh, params.min_distance, set.samples),
+            std::move(context), std::nullopt};
 }
 
 } // namespace geodisk::tools

@@ -119,8 +119,8 @@ void run_box(const BoxOptions& options) {
         job.box.min_distance = min_distance;
         return Task{take(Domain::box(job.box)), job.method.expected(expected_count(job.box))};
     };
-    const auto [set, done] = run_on_device(job.run, job.runner, task_at, job.box.min_distance,
-                                           job.wanted_count, progress);
+    const auto [set, done, context] = run_on_device(
+        job.run, job.runner, task_at, job.box.min_distance, job.wanted_count, progress);
     job.box.min_distance = done.min_distance;
     const std::vector<SampleRow> rows = to_rows(set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);

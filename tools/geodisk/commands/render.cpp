@@ -17,7 +17,7 @@
 namespace geodisk::tools {
 namespace {
 
-void render_surface(const RenderOptions& options) {
+void render_samples(const RenderOptions& options) {
     const picture::PictureParams params = parse_picture(options);
     if (params.cuts) {
         fail_usage("--cut is for samples in a box of 3 dimensions");
@@ -28,10 +28,7 @@ void render_surface(const RenderOptions& options) {
     const std::optional<Length> distance = options.distance.parsed();
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
-    if (mesh.dimension() == 0) {
-        fail_input(options.mesh.mesh,
-                   "has edge lengths without coordinates, so there is nothing to look at");
-    }
+    check_visible(options.mesh.mesh, mesh);
     progress.begin_stage("reading the samples");
     const SampleFile samples = read_samples(options.samples);
     check_on_mesh(options.samples, samples, options.mesh.mesh, mesh);
@@ -45,7 +42,7 @@ void render_surface(const RenderOptions& options) {
     progress.begin_stage("preparing the scene");
     const picture::Scene scene =
         picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);
-    draw_surface(options, params, subject, mesh.prepared, scene, std::move(disks), progress);
+    render_surface(options, params, subject, mesh.prepared, scene, std::move(disks), progress);
 }
 
 } // namespace
@@ -59,7 +56,7 @@ void add_render_command(Command app) {
         if (options->samples.empty()) {
             render_box(*options);
         } else {
-            render_surface(*options);
+            render_samples(*options);
         }
     });
 }

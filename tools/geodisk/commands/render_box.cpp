@@ -62,7 +62,7 @@ void render_flat(const RenderOptions& options, const PictureParams& params, cons
         disks.push_back(flat.disk(row.position[0], row.position[1], box.min_distance / 2));
     }
     const picture::Scene scene = picture::make_scene(flat.positions(), 2, flat.triangles());
-    draw_surface(options, params, subject, flat.mesh(), scene, std::move(disks), progress);
+    render_surface(options, params, subject, flat.mesh(), scene, std::move(disks), progress);
 }
 
 void render_balls(const RenderOptions& options, const PictureParams& params, const Subject& subject,
@@ -82,7 +82,7 @@ void render_balls(const RenderOptions& options, const PictureParams& params, con
         const std::array<double, 3> at{row.position[0], row.position[1], row.position[2]};
         balls.push_back(frame.ball(at, radius, picture::color_of(balls.size())));
     }
-    draw_content(options, params, subject, {frame.scene(), frame.table(), {}, balls}, progress);
+    render_content(options, params, subject, {frame.scene(), frame.table(), {}, balls}, progress);
 }
 
 } // namespace

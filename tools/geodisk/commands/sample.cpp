@@ -1,28 +1,61 @@
 #include <memory>
+#include <vector>
 
+#include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/opened_device.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
+#include "geodisk/picture_run.hpp"
 #include "geodisk/reports/sample_report.hpp"
 #include "geodisk/sample_run.hpp"
+#include "picture/png.hpp"
+#include "picture/scene.hpp"
 #include "program/command.hpp"
 
 namespace geodisk::tools {
 namespace {
 
+/// On the device that they were made on.
+void draw_samples(const MeshInput& mesh, SampleResult& result, ProgressLine& progress) {
+    progress.begin_stage("preparing the scene");
+    const picture::Scene scene =
+        picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);
+    result.picture = draw_surface(
+        result.context, {}, mesh.prepared, scene,
+        disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2),
+        progress);
+    check_validation(result.context);
+}
+
 void run_sample(const SampleOptions& options) {
     const SampleJob job = parse_job(options);
-    check_outputs(job.out, "the samples", files_read(job)); // Before work that would be in vain.
+    const NamedFile picture{"the picture", job.picture};
+    check_outputs(job.out, "the samples", files_read(job), check_output_path, {picture});
+    if (!job.picture.empty()) {
+        check_picture_path(job.picture);
+    }
     ProgressLine progress(job.out.quiet);
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
     check_dimension(job.out.output, mesh.dimension());
-    const SampleResult result = sample_mesh(job, mesh, progress);
+    if (!job.picture.empty()) {
+        check_visible(job.mesh.mesh, mesh);
+    }
+    std::vector<FurtherFile> further;
+    SampleResult result = sample_mesh(job, mesh, progress);
+    if (!job.picture.empty()) {
+        draw_samples(mesh, result, progress);
+        further.push_back({picture, [&](AtomicFile& file) {
+                               picture::write_png(file, result.picture->picture.pixels);
+                           }});
+    }
     const SampleReport report(job, mesh, result);
-    write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
+    const auto write = [&](AtomicFile& file) {
         write_samples(file, job.out.output, report.header(), result.rows, job.out.ascii,
                       mesh.dimension());
-    });
+    };
+    write_outputs(job.out, "the samples", progress, report, write, further);
 }
 
 } // namespace

@@ -142,7 +142,7 @@ void spectrum_of_surface(const SpectrumOptions& options) {
     AtomicFile file(options.out.output);
     file.write(report.csv());
     file.sync();
-    publish(options.out, file, text_of(json), text);
+    publish(options.out, {&file}, text_of(json), text);
 }
 
 } // namespace

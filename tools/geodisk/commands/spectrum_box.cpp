@@ -147,7 +147,7 @@ void spectrum_of_boxes(const SpectrumOptions& options) {
         file.write(result.report.csv());
     }
     file.sync();
-    publish(options.out, file, text_of(json), text);
+    publish(options.out, {&file}, text_of(json), text);
 }
 
 } // namespace geodisk::tools

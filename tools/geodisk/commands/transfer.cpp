@@ -139,7 +139,7 @@ void run_transfer(const TransferOptions& options) {
     write_samples(file, options.out.output, transferred_header(options, samples.header, closest),
                   samples.rows, options.out.ascii, to.dimension());
     file.sync();
-    publish(options.out, file, report_text(options, from, to, samples, closest),
+    publish(options.out, {&file}, report_text(options, from, to, samples, closest),
             summary_text(options, from, to, samples, closest));
 }
 

@@ -49,6 +49,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.out = options.out;
     job.run = options.run;
     job.metric = options.metric;
+    job.picture = options.picture;
     job.method = parse_method(options.method, options.count);
     if (!options.min_distance.empty()) {
         job.min_distance = parse_length("--min-distance", options.min_distance);
@@ -72,6 +73,9 @@ void add_sample_options(Command command, SampleOptions& options) {
     add_mesh_argument(command, options.mesh, "Mesh to sample");
     add_output_argument(command, options.out);
     add_job_options(command, options);
+    command.add_option("--picture", options.picture, "FILE",
+                       "Draw the samples and their disks as well: *.png; geodisk render\n"
+                       "has other styles and views");
     add_output_options(command, options.out);
 }
 

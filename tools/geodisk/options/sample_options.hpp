@@ -23,6 +23,7 @@ struct SampleOptions {
     MethodOptions method;
     std::string min_distance, radius, count;
     std::string metric = "geodesic";
+    std::string picture;
 };
 
 /// Adds all options of the command; `options` must outlive the parsing.
@@ -43,6 +44,7 @@ struct SampleJob {
     double wanted_count = 0;            ///< Of --count, where it chooses the distance; else 0.
     SampleParams params;                ///< All but the distance, the radii and the throws.
     RunnerOptions runner;
+    std::string picture; ///< File for one, or empty.
 
     bool is_geodesic() const { return metric == "geodesic"; }
 

@@ -1,5 +1,6 @@
 #include "geodisk/outputs/outputs.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <optional>
 
@@ -43,16 +44,18 @@ void bring_out(const OutputOptions& options, std::optional<AtomicFile>& file,
 } // namespace
 
 void check_outputs(const OutputOptions& options, const std::string& what,
-                   const std::vector<NamedFile>& read, void (*check_path)(const Path&)) {
-    const NamedFile output{what, options.output};
-    const NamedFile report{"the report", options.json};
-    for (const NamedFile& other : read) {
-        check_pair(output, other);
-    }
-    for (const NamedFile& other : read) {
-        check_pair(report, other);
-    }
-    check_pair(report, output);
+                   const std::vector<NamedFile>& read, void (*check_path)(const Path&),
+                   const std::vector<NamedFile>& further) {
+    std::vector<NamedFile> known = read;
+    const auto add = [&known](const NamedFile& written) {
+        for (const NamedFile& other : known) {
+            check_pair(written, other);
+        }
+        known.push_back(written);
+    };
+    add({what, options.output});
+    std::ranges::for_each(further, add);
+    add({"the report", options.json});
     if (!options.output.empty()) {
         check_path(options.output);
     }
@@ -61,12 +64,14 @@ void check_outputs(const OutputOptions& options, const std::string& what,
     }
 }
 
-void publish(const OutputOptions& options, AtomicFile& output, const std::string& report,
-             const std::string& summary) {
+void publish(const OutputOptions& options, const std::vector<AtomicFile*>& files,
+             const std::string& report, const std::string& summary) {
     std::optional<AtomicFile> json;
     bring_out(options, json, report, summary, "the summary");
-    const Uninterrupted both;
-    output.commit();
+    const Uninterrupted all;
+    for (AtomicFile* const file : files) {
+        file->commit();
+    }
     if (json) {
         json->commit();
     }

@@ -1,6 +1,8 @@
 // The files and texts that commands leave behind, and the care that these take.
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,34 +15,51 @@
 
 namespace geodisk::tools {
 
+/// A file that a command writes besides its output.
+struct FurtherFile {
+    NamedFile name;
+    std::function<void(AtomicFile&)> write;
+};
+
 /// Finds out before the work that it would be in vain. Throws UserError: `usage` if a file to
-/// write, of which the output is called `what`, is one that is read or the other one; `bad_output`
-/// if one cannot be written, and what `check_path` throws of the output, if there is any.
+/// write, of which the output is called `what`, is one that is read or another one; `bad_output`
+/// if one cannot be written, and what `check_path` throws of the output, if there is any. What is
+/// `further` written is checked elsewhere but for its name.
 void check_outputs(const OutputOptions& options, const std::string& what,
                    const std::vector<NamedFile>& read,
-                   void (*check_path)(const Path&) = check_output_path);
+                   void (*check_path)(const Path&) = check_output_path,
+                   const std::vector<NamedFile>& further = {});
 
-/// Brings the report for programs to the disk, where `output` is already, and prints the summary
+/// Brings the report for programs to the disk, where `files` are already, and prints the summary
 /// for people; only then do files appear under their names. Throws UserError(bad_output).
-void publish(const OutputOptions& options, AtomicFile& output, const std::string& report,
-             const std::string& summary);
+void publish(const OutputOptions& options, const std::vector<AtomicFile*>& files,
+             const std::string& report, const std::string& summary);
 
 /// The same without a file: the report, then `result` for people.
 void publish(const OutputOptions& options, const std::string& report, const std::string& result);
 
-/// Writes what a command makes, "the samples" or so, with `write(file)`, and publishes it with
-/// `report`.
+/// Writes what a command makes, "the samples" or so, with `write(file)`, and what else, and
+/// publishes it with `report`.
 template <class Report, class Write>
 void write_outputs(const OutputOptions& options, std::string_view what, ProgressLine& progress,
-                   const Report& report, const Write& write) {
+                   const Report& report, const Write& write,
+                   const std::vector<FurtherFile>& further = {}) {
     progress.begin_stage("writing " + std::string(what));
-    AtomicFile file(options.output);
+    std::deque<AtomicFile> files;
+    std::vector<AtomicFile*> written;
+    const auto write_file = [&](const std::string& path, const auto& bytes) {
+        written.push_back(&files.emplace_back(path));
+        bytes(files.back());
+        files.back().sync();
+    };
     const double seconds = seconds_of([&] {
-        write(file);
-        file.sync();
+        write_file(options.output, write);
+        for (const FurtherFile& other : further) {
+            write_file(other.name.path, other.write);
+        }
     });
     progress.clear();
-    publish(options, file, report.json(seconds), report.summary(seconds));
+    publish(options, written, report.json(seconds), report.summary(seconds));
 }
 
 /// Throws UserError(bad_output) if `what` did not get through to standard output.

@@ -79,6 +79,9 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"sample_radii", nullptr}, // Where they do not vary.
                   {"seed", params.seed}};
     document["mesh"]["components_without_samples"] = bare_components_;
+    if (result_.picture) {
+        document["picture"] = job_.picture;
+    }
     if (most_radius_ > 0) {
         document["sample_radii"] = {{"least", least_radius_}, {"most", most_radius_}};
     }
@@ -110,12 +113,20 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
         << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(after), job_.out.output);
+    if (result_.picture) {
+        out << "picture       " << one_line(job_.picture) << '\n';
+    }
     return out.str();
 }
 
 SecondsByStage SampleReport::seconds(const SecondsByStage& after) const {
+    SecondsByStage stages = after;
+    if (const auto& picture = result_.picture) {
+        stages.insert(stages.begin(),
+                      {{"windows", picture->window_seconds}, {"draw", picture->draw_seconds}});
+    }
     return stage_seconds({{"load", mesh_.load_seconds}, {"prepare", mesh_.prepare_seconds}},
-                         result_.done, after);
+                         result_.done, stages);
 }
 
 Drawn SampleReport::drawn() const {

@@ -1,6 +1,7 @@
 // What `geodisk sample` tells about a run: to people, to programs, and in the sample file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
+#include "geodisk/picture_run.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/run_report.hpp"
 
@@ -18,6 +20,8 @@ struct SampleResult {
     SampleParams params; ///< Of the job, on its mesh.
     DeviceRun done;
     std::vector<SampleRow> rows;
+    Context context; ///< The device it was on.
+    std::optional<DrawnPicture> picture;
 };
 
 /// Tells of a job, its mesh and its result, which must outlive the report.
