@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "geometry/count_search.hpp"
+#include <geodisk/count_search.hpp>
 
 namespace geodisk::tools {
 namespace {

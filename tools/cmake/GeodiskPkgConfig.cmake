@@ -1,5 +1,6 @@
-# geodisk_install_pkg_config(): installs geodisk.pc, with the library of this build and the context.
-# It finds them from where it lies, so that an installation may be moved.
+# geodisk_install_pkg_config(): installs geodisk-cpp.pc, with the C++ library of this build and the
+# context, and geodisk.pc, with the C library where there is one. They find these from where they
+# lie, so that an installation may be moved.
 #
 # C++20 is for the user to ask for: pkg-config has no way to say so that other flags could override.
 function(geodisk_install_pkg_config)
@@ -33,7 +34,13 @@ function(geodisk_install_pkg_config)
     endforeach()
     list(JOIN context_libs " " context_libs)
 
-    configure_file("${PROJECT_SOURCE_DIR}/tools/cmake/geodisk.pc.in"
-        "${CMAKE_CURRENT_BINARY_DIR}/geodisk.pc" @ONLY)
-    install(FILES "${CMAKE_CURRENT_BINARY_DIR}/geodisk.pc" DESTINATION "${folder}")
+    set(packages geodisk-cpp)
+    if(GEODISK_BUILD_C)
+        list(APPEND packages geodisk)
+    endif()
+    foreach(package IN LISTS packages)
+        configure_file("${PROJECT_SOURCE_DIR}/tools/cmake/${package}.pc.in"
+            "${CMAKE_CURRENT_BINARY_DIR}/${package}.pc" @ONLY)
+        install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${package}.pc" DESTINATION "${folder}")
+    endforeach()
 endfunction()

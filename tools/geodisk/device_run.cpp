@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include <geodisk/count_search.hpp>
+
 #include "files/tuning_file.hpp"
 #include "geodisk/opened_device.hpp"
-#include "geometry/count_search.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"

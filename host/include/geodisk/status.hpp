@@ -26,6 +26,7 @@ enum class Status : std::int32_t {
     cancelled = -9,      ///< The progress callback asked to stop.
     internal = -10,      ///< A broken invariant of geodisk itself or of the driver.
     job_too_large = -11, ///< A buffer of the job exceeds what the device can bind.
+    busy = -12,          ///< Of the C API: another call, or a run in progress, has the object.
 };
 
 /// Name of a status as spelled above, for messages.

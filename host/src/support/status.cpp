@@ -25,6 +25,8 @@ GEODISK_API const char* to_string(Status status) noexcept {
         return "device_lost";
     case Status::cancelled:
         return "cancelled";
+    case Status::busy:
+        return "busy";
     case Status::job_too_large:
         return "job_too_large";
     case Status::internal:

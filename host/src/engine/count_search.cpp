@@ -1,9 +1,9 @@
-#include "geometry/count_search.hpp"
+#include <geodisk/count_search.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace geodisk::tools {
+namespace geodisk {
 namespace {
 
 constexpr double kTolerance = 0.05;
@@ -16,7 +16,7 @@ constexpr double kMargin = 0.1;
 } // namespace
 
 // Nothing but what IEEE 754 rounds in one way: the distance bears on the samples.
-std::optional<double> CountSearch::note(double distance, std::uint64_t count) {
+std::optional<double> CountSearch::note(double distance, std::uint64_t count) noexcept {
     const Try last{distance, static_cast<double>(std::max<std::uint64_t>(count, 1))};
     const double miss = std::abs(last.count - wanted_);
     is_nearest_ = tries_ == 0 || miss < least_miss_;
@@ -45,4 +45,4 @@ std::optional<double> CountSearch::note(double distance, std::uint64_t count) {
     return distance * std::clamp(factor, 1 / kMostFactor, kMostFactor);
 }
 
-} // namespace geodisk::tools
+} // namespace geodisk

@@ -1,18 +1,23 @@
-// Finds a distance at which there are about as many samples as are wanted, by what others gave.
+// Finding the distance at which about as many samples as are wanted come out.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
-namespace geodisk::tools {
+#include <geodisk/export.hpp>
 
+namespace geodisk {
+
+/// Chooses distances to try by what those before gave, beginning with distance_for_count(). The
+/// same counts lead to the same distances on every machine.
 class CountSearch {
   public:
-    explicit CountSearch(double wanted) : wanted_(wanted) {}
+    /// `wanted` samples, at least 1.
+    explicit CountSearch(double wanted) noexcept : wanted_(wanted) {}
 
     /// Notes how many samples a distance gave. Returns the distance to try next; nothing once that
     /// many are within 5 % of those wanted, or one, or several tries have not come so close.
-    std::optional<double> note(double distance, std::uint64_t count);
+    GEODISK_API std::optional<double> note(double distance, std::uint64_t count) noexcept;
 
     /// Whether none before the try noted last came nearer.
     bool is_nearest() const noexcept { return is_nearest_; }
@@ -30,4 +35,4 @@ class CountSearch {
     std::uint32_t tries_ = 0;
 };
 
-} // namespace geodisk::tools
+} // namespace geodisk

@@ -1,0 +1,85 @@
+// What all C functions do alike: structs of other versions, failures, exceptions.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <geodisk/geodisk.h>
+#include <geodisk/status.hpp>
+
+#include "support/guard.hpp"
+
+namespace geodisk::c {
+
+/// A failure that is the caller's mistake.
+Error wrong(std::string message);
+
+/// Tells the caller, if it wants to know. Returns the status.
+geodisk_status tell(geodisk_error* error, const Error& failure) noexcept;
+geodisk_status tell_success(geodisk_error* error) noexcept;
+
+/// Runs the body of a C function, which returns Result<Done>.
+template <class Body>
+geodisk_status answer(geodisk_error* error, Body&& body) noexcept {
+    const Result<Done> result = guarded(std::forward<Body>(body));
+    return result ? tell_success(error) : tell(error, result.error());
+}
+
+/// Copies as much as fits and ends it with 0, not within a character of UTF-8.
+void copy_text(std::string_view text, char* to, std::size_t capacity) noexcept;
+
+template <std::size_t kCapacity>
+void copy_text(std::string_view text, char (&to)[kCapacity]) noexcept {
+    copy_text(text, to, kCapacity);
+}
+
+/// The caller's struct as this version has it: what an older one lacks is 0. Fails where a later
+/// one asks for what this version does not know.
+template <class Struct>
+Result<Struct> taken(const Struct* given, const char* name) {
+    if (given == nullptr) {
+        return wrong(std::string(name) + " is NULL");
+    }
+    const std::size_t size = given->struct_size;
+    if (size < sizeof(std::size_t)) {
+        return wrong(std::string(name) + "->struct_size is not set");
+    }
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
+    for (std::size_t i = sizeof(Struct); i < size; ++i) {
+        if (bytes[i] != 0) {
+            return wrong(std::string(name) +
+                         " asks for what this version of geodisk does not know");
+        }
+    }
+    Struct result{};
+    std::memcpy(&result, given, std::min(size, sizeof(Struct)));
+    return result;
+}
+
+/// Writes as much as the caller's version of the struct has.
+template <class Struct>
+Result<Done> give(Struct* to, const char* name, Struct value) {
+    if (to == nullptr) {
+        return wrong(std::string(name) + " is NULL");
+    }
+    const std::size_t size = to->struct_size;
+    if (size < sizeof(std::size_t)) {
+        return wrong(std::string(name) + "->struct_size is not set");
+    }
+    value.struct_size = size;
+    std::memcpy(to, &value, std::min(size, sizeof(Struct)));
+    return Done{};
+}
+
+/// The i-th of an array of the caller's structs, as large as its version has them.
+template <class Struct>
+Struct* element_of(Struct* array, std::size_t i) noexcept {
+    using Byte = std::conditional_t<std::is_const_v<Struct>, const unsigned char, unsigned char>;
+    return reinterpret_cast<Struct*>(reinterpret_cast<Byte*>(array) + i * array->struct_size);
+}
+
+} // namespace geodisk::c

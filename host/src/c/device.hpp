@@ -1,0 +1,45 @@
+// The devices of the C API.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include <geodisk/context.hpp>
+#include <geodisk/geodisk.h>
+#include <geodisk/sampler.hpp>
+
+namespace geodisk::c {
+
+/// A device of geodisk's own, or a borrowed one.
+class Device {
+  public:
+    explicit Device(Context context)
+        : context_(std::move(context)), refs_(context_->device()), queue_(context_->queue()),
+          report_(context_->report()) {}
+    Device(const DeviceRefs& refs, const QueueRef& queue, DeviceReport report)
+        : refs_(refs), queue_(queue), report_(std::move(report)) {}
+
+    const QueueRef& queue() const noexcept { return queue_; }
+    const DeviceReport& report() const noexcept { return report_; }
+
+    /// Compiled at the first call, and shared.
+    Result<std::shared_ptr<const Sampler>> sampler(bool count_calls) const;
+
+    /// Fails for what the validation layer had to say, where it is on.
+    Result<Done> check_validation() const;
+
+  private:
+    std::optional<Context> context_;
+    DeviceRefs refs_;
+    QueueRef queue_;
+    DeviceReport report_;
+    mutable std::mutex mutex_;
+    mutable std::shared_ptr<const Sampler> samplers_[2]; ///< By count_calls.
+};
+
+} // namespace geodisk::c
+
+struct geodisk_device {
+    std::shared_ptr<const geodisk::c::Device> shared;
+};

@@ -1,0 +1,48 @@
+// What programs compiled with this version rely on. Fields may be added at the end of a struct;
+// none may move.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+
+#include <geodisk/geodisk.h>
+
+#define CHECK_FIELD(Struct, field, offset)                                                         \
+    static_assert(sizeof(void*) != 8 || offsetof(Struct, field) == (offset))
+
+CHECK_FIELD(geodisk_error, status, 8);
+CHECK_FIELD(geodisk_error, element, 16);
+CHECK_FIELD(geodisk_error, message, 24);
+CHECK_FIELD(geodisk_device_info, compute_queue_family, 32);
+CHECK_FIELD(geodisk_device_info, memory_bytes, 40);
+CHECK_FIELD(geodisk_device_info, uuid, 48);
+CHECK_FIELD(geodisk_device_info, name, 64);
+CHECK_FIELD(geodisk_device_info, driver, 320);
+CHECK_FIELD(geodisk_device_info, reasons, 832);
+CHECK_FIELD(geodisk_device_options, device, 8);
+CHECK_FIELD(geodisk_device_options, validation, 16);
+CHECK_FIELD(geodisk_vulkan_device, get_instance_proc_addr, 32);
+CHECK_FIELD(geodisk_vulkan_device, queue, 48);
+CHECK_FIELD(geodisk_vulkan_device, pipeline_cache, 56);
+CHECK_FIELD(geodisk_vulkan_device, lock_user, 72);
+CHECK_FIELD(geodisk_vulkan_device, host_allocator, 96);
+CHECK_FIELD(geodisk_mesh_params, vertex_count, 24);
+CHECK_FIELD(geodisk_mesh_params, indices, 40);
+CHECK_FIELD(geodisk_mesh_params, face_count, 56);
+CHECK_FIELD(geodisk_mesh_params, edge_lengths, 72);
+CHECK_FIELD(geodisk_mesh_params, weld_distance, 88);
+CHECK_FIELD(geodisk_mesh_params, most_threads, 96);
+CHECK_FIELD(geodisk_mesh_info, faces, 24);
+CHECK_FIELD(geodisk_mesh_info, merged_vertices, 80);
+CHECK_FIELD(geodisk_mesh_info, longest_edge, 104);
+CHECK_FIELD(geodisk_surface_params, min_distance, 8);
+CHECK_FIELD(geodisk_surface_params, throws, 32);
+CHECK_FIELD(geodisk_surface_params, radii, 40);
+CHECK_FIELD(geodisk_surface_params, metric, 56);
+CHECK_FIELD(geodisk_surface_part, scale, 24);
+CHECK_FIELD(geodisk_box_params, min_distance, 24);
+CHECK_FIELD(geodisk_box_params, stop_count, 52);
+CHECK_FIELD(geodisk_sampler_options, count_calls, 32);
+CHECK_FIELD(geodisk_progress, windows, 24);
+CHECK_FIELD(geodisk_report, windows, 32);
+CHECK_FIELD(geodisk_report, rho, 64);
+CHECK_FIELD(geodisk_report, calls, 104);

@@ -1,0 +1,333 @@
+// The C API gives what the C++ API gives.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <geodisk/runner.hpp>
+
+#include "c/api.hpp"
+#include "device_run.hpp"
+
+namespace geodisk::test {
+namespace {
+
+SampleSet expected(const Domain& domain) {
+    Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+    return expect(runner.sample_and_wait(domain));
+}
+
+Placed placed(const SampleSet& set) {
+    Placed result;
+    for (const Sample& sample : set.samples) {
+        result.faces.push_back(sample.face);
+        result.weights.insert(result.weights.end(), sample.weights, sample.weights + 3);
+    }
+    return result;
+}
+
+const TestMesh& knot() {
+    static const TestMesh mesh = builtin("torus-knot", 8);
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("a surface has the samples that it has in C++") {
+    const PreparedMesh prepared_mesh = prepared(knot());
+    const double distance = distance_for_count(prepared_mesh, nullptr, 500);
+    const SampleSet set =
+        expected(expect(Domain::surface(prepared_mesh, {.min_distance = distance, .seed = 3})));
+
+    const auto mesh = mesh_of(knot());
+    double same_distance = 0;
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 500, &same_distance, nullptr) ==
+            GEODISK_OK);
+    CHECK(same_distance == distance);
+    const auto domain = surface_of(mesh.get(), distance, 3);
+    const auto samples = sample(shared_sampler(), domain.get());
+    CHECK(placed(samples.get()) == placed(set));
+
+    // Where they are, by the weights.
+    const std::vector<double> points = positions(samples.get());
+    for (std::size_t i = 0; i < set.samples.size(); ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            double sum = 0;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const std::size_t vertex =
+                    knot().triangles[std::size_t{3} * set.samples[i].face + corner];
+                sum += double{set.samples[i].weights[corner]} * knot().positions[3 * vertex + axis];
+            }
+            REQUIRE(points[3 * i + axis] == sum);
+        }
+    }
+
+    // All else that they have, into an interleaved array of floats.
+    struct Instance {
+        float position[3], normal[3], radius;
+        std::uint32_t face;
+    };
+    std::vector<Instance> instances(set.samples.size());
+    const auto copy = [&](geodisk_attribute attribute, geodisk_type type, void* to) {
+        REQUIRE(geodisk_samples_copy(samples.get(), attribute, type, to, sizeof(Instance),
+                                     instances.size(), nullptr) == GEODISK_OK);
+    };
+    copy(GEODISK_POSITION, GEODISK_FLOAT32, &instances[0].position);
+    copy(GEODISK_NORMAL, GEODISK_FLOAT32, &instances[0].normal);
+    copy(GEODISK_RADIUS, GEODISK_FLOAT32, &instances[0].radius);
+    copy(GEODISK_FACE, GEODISK_UINT32, &instances[0].face);
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const Instance& one = instances[i];
+        REQUIRE(one.position[1] == static_cast<float>(points[3 * i + 1]));
+        const float* const n = one.normal;
+        REQUIRE(std::abs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-6f);
+        REQUIRE(one.radius == static_cast<float>(distance / 2));
+        REQUIRE(one.face == set.samples[i].face);
+    }
+
+    auto report = sized<geodisk_report>();
+    REQUIRE(geodisk_samples_report(samples.get(), &report, nullptr) == GEODISK_OK);
+    CHECK(report.samples == set.samples.size());
+    CHECK(report.candidates == set.report.candidates);
+    CHECK(report.min_distance == distance);
+    CHECK(report.rho > 0.65);
+}
+
+TEST_CASE("floats, short indices and strides are the mesh that they say") {
+    const TestMesh mesh = builtin("cube", 1);
+    struct Vertex {
+        float color;
+        float position[3];
+    };
+    std::vector<Vertex> vertices(mesh.positions.size() / 3);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            vertices[i].position[axis] = static_cast<float>(mesh.positions[3 * i + axis]);
+        }
+    }
+    std::vector<std::uint16_t> indices; // With one of something else behind each.
+    for (const std::uint32_t index : mesh.triangles) {
+        indices.push_back(static_cast<std::uint16_t>(index));
+        indices.push_back(9999);
+    }
+    geodisk_mesh_params params = params_of(mesh);
+    params.positions = &vertices[0].position;
+    params.position_type = GEODISK_FLOAT32;
+    params.position_stride = sizeof(Vertex);
+    params.indices = indices.data();
+    params.index_type = GEODISK_UINT16;
+    params.index_stride = 4;
+    const auto strided = owned<geodisk_mesh>([&](auto** made, geodisk_error* error) {
+        return geodisk_mesh_create(&params, made, error);
+    });
+    const auto packed = mesh_of(mesh);
+    const auto of = [](const Owned<geodisk_mesh>& one) {
+        return sample(shared_sampler(), surface_of(one.get(), 0.3).get());
+    };
+    CHECK(placed(of(strided).get()) == placed(of(packed).get()));
+    CHECK(positions(of(strided).get()) == positions(of(packed).get()));
+}
+
+TEST_CASE("radii vary, keys move candidates, and parts have samples of their own") {
+    const auto mesh = mesh_of(knot());
+    auto info = sized<geodisk_mesh_info>();
+    REQUIRE(geodisk_mesh_describe(mesh.get(), &info, nullptr) == GEODISK_OK);
+    CHECK(info.faces == knot().triangles.size() / 3);
+    CHECK(info.dimension == 3);
+    CHECK(info.components == 1);
+
+    std::vector<float> factors(knot().positions.size() / 3);
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        factors[i] = 0.5f + 0.5f * static_cast<float>(i) / static_cast<float>(factors.size());
+    }
+    const auto radii = owned<geodisk_radii>([&](auto** made, geodisk_error* error) {
+        return geodisk_radii_create(mesh.get(), factors.data(), GEODISK_FLOAT32, factors.size(),
+                                    made, error);
+    });
+    auto params = sized<geodisk_surface_params>();
+    REQUIRE(geodisk_distance_for_count(mesh.get(), radii.get(), 300, &params.min_distance,
+                                       nullptr) == GEODISK_OK);
+    params.radii = radii.get();
+    std::vector<std::uint32_t> keys;
+    for (std::uint32_t face = 0; face < info.faces; ++face) {
+        keys.push_back(1000000 - face);
+    }
+    params.face_keys = keys.data();
+    const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+
+    const PreparedMesh prepared_mesh = prepared(knot());
+    const RadiusField field = expect(
+        RadiusField::prepare(prepared_mesh, std::vector<double>(factors.begin(), factors.end())));
+    const SampleParams same{
+        .min_distance = params.min_distance, .radii = &field, .face_keys = keys};
+    const SampleSet set = expected(expect(Domain::surface(prepared_mesh, same)));
+    const auto samples = sample(shared_sampler(), domain.get());
+    CHECK(placed(samples.get()) == placed(set));
+    std::vector<double> radius(set.samples.size());
+    REQUIRE(geodisk_samples_copy(samples.get(), GEODISK_RADIUS, GEODISK_FLOAT64, radius.data(), 0,
+                                 radius.size(), nullptr) == GEODISK_OK);
+    for (std::size_t i = 0; i < radius.size(); ++i) {
+        REQUIRE(radius[i] == field.factor_at(set.samples[i].face, set.samples[i].weights) *
+                                 params.min_distance / 2);
+    }
+
+    // The same surface twice, and one of another size.
+    params.radii = nullptr;
+    params.face_keys = nullptr;
+    const TestMesh cube = builtin("cube", 1);
+    const auto other = mesh_of(cube);
+    auto parts = std::vector(2, sized<geodisk_surface_part>());
+    parts[0].mesh = mesh.get();
+    parts[0].params = &params;
+    parts[1].mesh = other.get();
+    auto on_cube = sized<geodisk_surface_params>();
+    on_cube.min_distance = 0.3;
+    parts[1].params = &on_cube;
+    parts[1].scale = 2;
+    const auto both = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+        return geodisk_domain_surfaces(parts.data(), 2, made, error);
+    });
+    const auto of_both = sample(shared_sampler(), both.get());
+    const std::size_t count = geodisk_samples_count(of_both.get());
+    std::vector<std::uint32_t> part(count);
+    REQUIRE(geodisk_samples_copy(of_both.get(), GEODISK_PART, GEODISK_UINT32, part.data(), 0, count,
+                                 nullptr) == GEODISK_OK);
+    const Placed all = placed(of_both.get());
+    Placed first;
+    for (std::size_t i = 0; i < count; ++i) {
+        REQUIRE(part[i] < 2);
+        REQUIRE(all.faces[i] < (part[i] == 0 ? info.faces : 12));
+        if (part[i] == 0) {
+            first.faces.push_back(all.faces[i]);
+            first.weights.insert(first.weights.end(), &all.weights[3 * i], &all.weights[3 * i] + 3);
+        }
+    }
+    const auto alone =
+        sample(shared_sampler(), surface_of(mesh.get(), params.min_distance, 0).get());
+    CHECK(first == placed(alone.get()));
+    CHECK(first.faces.size() < count);
+}
+
+TEST_CASE("other metrics and boxes") {
+    const auto mesh = mesh_of(knot());
+    const PreparedMesh prepared_mesh = prepared(knot());
+    const MeshView view{knot().positions, knot().triangles};
+    for (const auto& [metric, same] : {std::pair{GEODISK_EUCLIDEAN, Metric::euclidean},
+                                       std::pair{GEODISK_APPROXIMATE, Metric::approximate}}) {
+        auto params = sized<geodisk_surface_params>();
+        params.min_distance = distance_for_count(prepared_mesh, nullptr, 300);
+        params.metric = metric;
+        const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+            return geodisk_domain_surface(mesh.get(), &params, made, error);
+        });
+        const SampleSet set = expected(expect(Domain::surface_in_space(
+            view, prepared_mesh, {.min_distance = params.min_distance}, same)));
+        CHECK(placed(sample(shared_sampler(), domain.get()).get()) == placed(set));
+    }
+
+    const double sides[] = {1, 2, 1};
+    auto box = sized<geodisk_box_params>();
+    box.extents = sides;
+    box.dimension = 3;
+    box.is_periodic = 1;
+    box.seed = 5;
+    REQUIRE(geodisk_box_distance_for_count(&box, 400, &box.min_distance, nullptr) == GEODISK_OK);
+    const auto domain = owned<geodisk_domain>(
+        [&](auto** made, geodisk_error* error) { return geodisk_domain_box(&box, made, error); });
+    BoxParams same;
+    same.extents = {1, 2, 1};
+    same.is_periodic = true;
+    same.seed = 5;
+    same.min_distance = distance_for_count(same, 400);
+    const auto samples = sample(shared_sampler(), domain.get());
+    CHECK(positions(samples.get()) == expected(expect(Domain::box(same))).points);
+    CHECK(geodisk_samples_width(samples.get(), GEODISK_POSITION) == 3);
+    CHECK(geodisk_samples_width(samples.get(), GEODISK_NORMAL) == 0);
+    CHECK(geodisk_samples_width(samples.get(), GEODISK_FACE) == 0);
+}
+
+TEST_CASE("meshes of lengths, welded and saved ones") {
+    // The surface of the cube, from lengths.
+    const TestMesh cube = builtin("cube", 1);
+    std::vector<double> lengths;
+    for (std::size_t h = 0; h < cube.triangles.size(); ++h) {
+        const std::size_t next = h % 3 == 2 ? h - 2 : h + 1;
+        double square = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double d = cube.positions[std::size_t{3} * cube.triangles[next] + axis] -
+                             cube.positions[std::size_t{3} * cube.triangles[h] + axis];
+            square += d * d;
+        }
+        lengths.push_back(std::sqrt(square));
+    }
+    geodisk_mesh_params params = params_of(cube);
+    params.positions = nullptr;
+    params.edge_lengths = lengths.data();
+    const auto create = [&](auto** made, geodisk_error* error) {
+        return geodisk_mesh_create(&params, made, error);
+    };
+    const auto of_lengths = owned<geodisk_mesh>(create);
+    const auto plain = mesh_of(cube);
+    const auto set_of = [](const geodisk_mesh* mesh) {
+        return placed(sample(shared_sampler(), surface_of(mesh, 0.3).get()).get());
+    };
+    CHECK(set_of(of_lengths.get()) == set_of(plain.get()));
+    const auto bare = sample(shared_sampler(), surface_of(of_lengths.get(), 0.3).get());
+    CHECK(geodisk_samples_width(bare.get(), GEODISK_POSITION) == 0);
+
+    // A vertex for each corner.
+    TestMesh soup;
+    for (const std::uint32_t vertex : cube.triangles) {
+        soup.triangles.push_back(static_cast<std::uint32_t>(soup.triangles.size()));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            soup.positions.push_back(cube.positions[std::size_t{3} * vertex + axis]);
+        }
+    }
+    params = params_of(soup);
+    params.weld = 1;
+    const auto welded = owned<geodisk_mesh>(create);
+    CHECK(set_of(welded.get()) == set_of(plain.get()));
+    auto info = sized<geodisk_mesh_info>();
+    REQUIRE(geodisk_mesh_describe(welded.get(), &info, nullptr) == GEODISK_OK);
+    CHECK(info.merged_vertices == 36 - 8);
+    CHECK(info.boundary_edges == 0);
+
+    std::size_t size = 0;
+    REQUIRE(geodisk_mesh_save(plain.get(), nullptr, 0, &size, nullptr) == GEODISK_OK);
+    std::vector<unsigned char> bytes(size);
+    REQUIRE(geodisk_mesh_save(plain.get(), bytes.data(), size, &size, nullptr) == GEODISK_OK);
+    const auto loaded = owned<geodisk_mesh>([&](auto** made, geodisk_error* error) {
+        return geodisk_mesh_load(bytes.data(), bytes.size(), made, error);
+    });
+    CHECK(set_of(loaded.get()) == set_of(plain.get()));
+    bytes[size / 2] ^= 1;
+    geodisk_mesh* none = nullptr;
+    CHECK(geodisk_mesh_load(bytes.data(), bytes.size(), &none, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    CHECK(none == nullptr);
+}
+
+TEST_CASE("a search finds the distance of a count") {
+    const auto mesh = mesh_of(knot());
+    const auto search = owned<geodisk_count_search>([](auto** made, geodisk_error* error) {
+        return geodisk_count_search_create(200, made, error);
+    });
+    double distance = 3; // Far off.
+    std::size_t best = 0;
+    for (int tries = 0; distance > 0; ++tries) {
+        REQUIRE(tries < 10);
+        const std::size_t count = geodisk_samples_count(
+            sample(shared_sampler(), surface_of(mesh.get(), distance).get()).get());
+        std::int32_t is_nearest = 0;
+        REQUIRE(geodisk_count_search_note(search.get(), distance, count, &distance, &is_nearest,
+                                          nullptr) == GEODISK_OK);
+        best = is_nearest != 0 ? count : best;
+    }
+    CHECK(best >= 190);
+    CHECK(best <= 210);
+}
+
+} // namespace geodisk::test
