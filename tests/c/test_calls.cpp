@@ -347,6 +347,13 @@ TEST_CASE("runs are watched, cancelled, and one at a time") {
 
     REQUIRE(geodisk_start(sampler.get(), domain.get(), nullptr) == GEODISK_OK);
     CHECK(geodisk_start(sampler.get(), domain.get(), nullptr) == GEODISK_BUSY);
+    auto so_far = sized<geodisk_progress>();
+    while (so_far.candidates == 0) {
+        REQUIRE(geodisk_poll(sampler.get(), 1000, &samples, nullptr) == GEODISK_OK);
+        REQUIRE(samples == nullptr);
+        REQUIRE(geodisk_sampler_progress(sampler.get(), &so_far, nullptr) == GEODISK_OK);
+    }
+    CHECK(so_far.accepted <= geodisk_samples_count(all.get()));
     CHECK(geodisk_sampler_trim(sampler.get(), nullptr) == GEODISK_BUSY);
     geodisk_cancel(sampler.get());
     geodisk_status status = GEODISK_OK;
@@ -354,6 +361,8 @@ TEST_CASE("runs are watched, cancelled, and one at a time") {
         status = geodisk_poll(sampler.get(), 1000, &samples, nullptr);
     }
     CHECK(status == GEODISK_CANCELLED);
+    REQUIRE(geodisk_sampler_progress(sampler.get(), &so_far, nullptr) == GEODISK_OK);
+    CHECK(so_far.candidates == 0);
     CHECK(placed(sample(sampler.get(), domain.get()).get()) == placed(all.get()));
 }
 

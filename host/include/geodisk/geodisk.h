@@ -356,6 +356,11 @@ GEODISK_C_API geodisk_status geodisk_start(geodisk_sampler *sampler, const geodi
 GEODISK_C_API geodisk_status geodisk_poll(geodisk_sampler *sampler, uint32_t milliseconds,
                                           geodisk_samples **samples, geodisk_error *error);
 
+/* How far the run that geodisk_poll goes on with is; all is 0 where there is none. */
+GEODISK_C_API geodisk_status geodisk_sampler_progress(geodisk_sampler* sampler,
+                                                      geodisk_progress* progress,
+                                                      geodisk_error* error);
+
 /* Stops the run in progress, which ends with GEODISK_CANCELLED. The one function of a sampler that
  * any thread may call while another has it; it does nothing where no run is in progress. */
 GEODISK_C_API void geodisk_cancel(geodisk_sampler *sampler);

@@ -176,6 +176,14 @@ geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
     });
 }
 
+geodisk_status geodisk_sampler_progress(geodisk_sampler* sampler, geodisk_progress* progress,
+                                        geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) {
+        return give(progress, "progress",
+                    state.running ? progress_of(state.runner.progress()) : geodisk_progress{});
+    });
+}
+
 void geodisk_cancel(geodisk_sampler* sampler) {
     if (sampler != nullptr) {
         sampler->shared->is_cancelled = true;

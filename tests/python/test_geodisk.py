@@ -1,0 +1,296 @@
+"""The Python package: the samples of the program, arrays of all kinds, and what goes wrong."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import geodisk
+
+
+def torus(rings=40, sides=20):
+    """A closed surface of 2 * rings * sides faces."""
+    u, v = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
+    a, b = 2 * np.pi * u / rings, 2 * np.pi * v / sides
+    points = np.stack(
+        [(2 + np.cos(b)) * np.cos(a), (2 + np.cos(b)) * np.sin(a), np.sin(b)], axis=-1
+    ).reshape(-1, 3)
+    at = lambda i, j: (i % rings) * sides + j % sides
+    low, right, up, far = at(u, v), at(u + 1, v), at(u, v + 1), at(u + 1, v + 1)
+    faces = np.stack([low, right, far, low, far, up], axis=-1).reshape(-1, 3)
+    return points, faces
+
+
+VERTICES, FACES = torus()
+TETRAHEDRON = (
+    np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], float),
+    np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]),
+)
+
+
+def same(a, b):
+    return np.array_equal(a.face_index, b.face_index) and np.array_equal(
+        a.barycentric, b.barycentric
+    )
+
+
+def test_samples_are_complete_and_apart():
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
+    n = len(samples)
+    assert n > 300
+    assert samples.points.shape == samples.normals.shape == samples.barycentric.shape == (n, 3)
+    assert samples.points.dtype == np.float64 and samples.face_index.dtype == np.uint32
+    assert np.array_equal(samples.order, np.arange(n))
+    corners = VERTICES[FACES[samples.face_index]]
+    assert np.allclose((samples.barycentric[:, :, None] * corners).sum(axis=1), samples.points)
+    assert np.allclose(np.linalg.norm(samples.normals, axis=1), 1)
+    assert np.allclose(samples.barycentric.sum(axis=1), 1)
+    assert np.all(samples.radius == 0.15) and samples.min_distance == 0.3
+    # Straight lines are shorter than ways along the surface, but a little, at this distance.
+    between = np.linalg.norm(samples.points[:, None] - samples.points[None], axis=-1)
+    np.fill_diagonal(between, 9)
+    assert between.min() > 0.28
+    assert samples.report["samples"] == n and 0.6 < samples.report["rho"] < 0.8
+
+
+@pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
+def test_samples_are_those_of_the_program(tmp_path):
+    # By text that is exact, since the program reads a file.
+    with open(tmp_path / "torus.obj", "w") as file:
+        file.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in VERTICES.tolist())
+        file.writelines(f"f {a} {b} {c}\n" for a, b, c in (FACES + 1).tolist())
+    command = os.environ["GEODISK_COMMAND"]
+    for options, arguments in [
+        (["--min-distance", "0.4", "--seed", "9"], {"min_distance": 0.4, "seed": 9}),
+        (["--count", "200"], {"count": 200}),
+        (["-d", "0.4", "--metric", "euclidean"], {"min_distance": 0.4, "metric": "euclidean"}),
+    ]:
+        subprocess.run(
+            [command, "sample", "torus.obj", "-o", "a.csv", "-q", *options],
+            cwd=tmp_path,
+            check=True,
+        )
+        lines = [l for l in open(tmp_path / "a.csv") if not l.startswith("#")]
+        rows = np.loadtxt(lines[1:], delimiter=",")
+        samples = geodisk.sample(VERTICES, FACES, **arguments)
+        assert np.array_equal(rows[:, :3], samples.points)
+        assert np.array_equal(rows[:, 6], samples.face_index)
+
+    # What is saved here is read there.
+    samples.save(tmp_path / "b.csv")
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.4)
+    samples.save(tmp_path / "b.csv")
+    subprocess.run(
+        [command, "verify", "torus.obj", "b.csv", "-q"], cwd=tmp_path, check=True
+    )
+
+
+def test_arrays_of_all_kinds():
+    expected = geodisk.sample(VERTICES, FACES, min_distance=0.5)
+    wide = np.zeros((len(VERTICES), 7))
+    wide[:, 2:5] = VERTICES
+    for vertices, faces in [
+        (wide[:, 2:5], FACES),
+        (np.asfortranarray(VERTICES), FACES),
+        (VERTICES.tolist(), FACES.tolist()),
+        (VERTICES, FACES.astype(np.uint16)),
+        (VERTICES, FACES.astype(np.int32)),
+        (VERTICES, FACES.astype(np.uint32)),
+        (VERTICES, np.asfortranarray(FACES.astype(np.uint32))),
+        (VERTICES.astype(">f8"), FACES.astype(">i4")),
+        (np.repeat(VERTICES, 2, axis=0)[::2], FACES[::-1][::-1]),
+    ]:
+        assert same(geodisk.sample(vertices, faces, min_distance=0.5), expected)
+    frozen = VERTICES.copy(), FACES.astype(np.uint32)
+    for array in frozen:
+        array.setflags(write=False)
+    assert same(geodisk.sample(*frozen, min_distance=0.5), expected)
+    single = VERTICES.astype(np.float32)
+    assert same(
+        geodisk.sample(single, FACES, min_distance=0.5),
+        geodisk.sample(single.astype(np.float64), FACES, min_distance=0.5),
+    )
+
+
+def test_meshes_of_other_packages():
+    class Trimesh:
+        vertices, faces = VERTICES, FACES
+
+    class Open3D:
+        vertices, triangles = VERTICES, FACES
+
+    expected = geodisk.sample(VERTICES, FACES, min_distance=0.5)
+    mesh = geodisk.Mesh(Trimesh())
+    assert same(geodisk.sample(mesh, min_distance=0.5), expected)
+    assert same(geodisk.sample(Open3D(), min_distance=0.5), expected)
+    assert mesh.info["faces"] == len(FACES) and mesh.info["boundary_edges"] == 0
+    with pytest.raises(TypeError, match="a mesh is"):
+        geodisk.sample("nonsense".encode(), min_distance=0.5)
+    with pytest.raises(FileNotFoundError, match="nowhere.obj"):
+        geodisk.sample("nowhere.obj", min_distance=0.5)
+    with pytest.raises(TypeError, match="already"):
+        geodisk.sample(mesh, FACES, min_distance=0.5)
+
+
+def test_options():
+    every = geodisk.sample(VERTICES, FACES, min_distance=0.4)
+    assert same(geodisk.sample(VERTICES, FACES, radius=0.2), every)
+    first = geodisk.sample(VERTICES, FACES, min_distance=0.4, stop_count=50)
+    assert np.array_equal(first.face_index, every.face_index[:50])
+    assert not same(geodisk.sample(VERTICES, FACES, min_distance=0.4, seed=2**64 - 1), every)
+    keyed = geodisk.sample(
+        VERTICES, FACES, min_distance=0.4, face_keys=np.arange(len(FACES))[::-1]
+    )
+    assert not same(keyed, every)
+    density = np.linspace(0.3, 1, len(VERTICES))
+    varied = geodisk.sample(VERTICES, FACES, min_distance=0.6, density=density)
+    assert 0.09 <= varied.radius.min() < 0.15 and varied.radius.max() <= 0.3
+    lengths = np.linalg.norm(VERTICES[np.roll(FACES, -1, axis=1)] - VERTICES[FACES], axis=-1)
+    bare = geodisk.sample(len(VERTICES), FACES, edge_lengths=lengths, min_distance=0.4)
+    assert bare.points is None and bare.normals is None and len(bare) > 100
+    soup = VERTICES[FACES].reshape(-1, 3), np.arange(3 * len(FACES)).reshape(-1, 3)
+    assert same(geodisk.sample(*soup, min_distance=0.4, weld=True), every)
+    plane = geodisk.sample([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], min_distance=0.1)
+    assert plane.points.shape[1] == 2 and plane.normals is None
+
+
+def test_boxes():
+    samples = geodisk.sample_box([1, 2], min_distance=0.1, periodic=True)
+    assert samples.points.shape[1] == 2 and samples.face_index is None
+    apart = np.abs(samples.points[:, None] - samples.points[None])
+    apart = np.minimum(apart, [1, 2] - apart)
+    between = np.linalg.norm(apart, axis=-1)
+    np.fill_diagonal(between, 9)
+    assert between.min() >= 0.1
+    assert abs(len(geodisk.sample_box([1, 1, 1], count=300)) - 300) <= 15
+    with pytest.raises(geodisk.InvalidArgument, match="dimension"):
+        geodisk.sample_box([1] * 7, min_distance=0.1)
+
+
+@pytest.mark.parametrize(
+    "vertices, faces, kind, text",
+    [
+        (TETRAHEDRON[0].astype(complex), TETRAHEDRON[1], TypeError, "complex"),
+        (np.array([["a", "b", "c"]]), TETRAHEDRON[1], TypeError, "real numbers"),
+        (TETRAHEDRON[0], TETRAHEDRON[1].astype(float), TypeError, "integers"),
+        (TETRAHEDRON[0].ravel(), TETRAHEDRON[1], ValueError, "shape"),
+        (TETRAHEDRON[0][:, :1], TETRAHEDRON[1], ValueError, "shape"),
+        (TETRAHEDRON[0], TETRAHEDRON[1].ravel(), ValueError, "shape"),
+        (TETRAHEDRON[0], TETRAHEDRON[1][:, :2], ValueError, "shape"),
+        (TETRAHEDRON[0], TETRAHEDRON[1] - 1, geodisk.MeshRejected, "-1"),
+        (TETRAHEDRON[0], TETRAHEDRON[1].astype(np.int32) - 1, geodisk.MeshRejected, "-1"),
+        (TETRAHEDRON[0], TETRAHEDRON[1] + 2**32, geodisk.MeshRejected, "4294967"),
+        (TETRAHEDRON[0], TETRAHEDRON[1] + 1, geodisk.MeshRejected, "4"),
+        (TETRAHEDRON[0] * np.nan, TETRAHEDRON[1], geodisk.MeshRejected, "finite"),
+        (TETRAHEDRON[0] * np.inf, TETRAHEDRON[1], geodisk.MeshRejected, "finite"),
+        (TETRAHEDRON[0] * 0, TETRAHEDRON[1], geodisk.MeshRejected, "area"),
+        (np.zeros((0, 3)), np.zeros((0, 3), int), geodisk.MeshRejected, "face"),
+        ([], [], ValueError, "shape"),
+    ],
+)
+def test_bad_meshes(vertices, faces, kind, text):
+    with pytest.raises(kind, match=text):
+        geodisk.sample(vertices, faces, min_distance=0.2)
+
+
+def test_bad_values():
+    def fails(kind, text, **arguments):
+        with pytest.raises(kind, match=text):
+            geodisk.sample(*TETRAHEDRON, **{"min_distance": 0.2, **arguments})
+
+    for value in (0, -1, np.nan, np.inf):
+        fails(ValueError, "positive", min_distance=value)
+    fails(ValueError, "one of", radius=0.1)
+    fails(ValueError, "one of", min_distance=None)
+    fails(ValueError, "count", min_distance=None, count=0)
+    fails(ValueError, "seed", seed=-1)
+    fails(ValueError, "seed", seed=2**64)
+    fails(TypeError, "integer", seed=0.5)
+    fails(ValueError, "pool", pool_ratio=0.5)
+    fails(ValueError, "metric", metric="manhattan")
+    fails(ValueError, "shape", density=[1, 1])
+    fails(ValueError, "0.001", density=[1, 1, 2, 1])
+    fails(ValueError, "shape", face_keys=[1, 2])
+    fails(ValueError, "alike", face_keys=[1, 2, 2, 3])
+    fails(geodisk.NoDevice, "nowhere", device="nowhere")
+    rejected = TETRAHEDRON[1].copy()
+    rejected[2, 1] = 77
+    with pytest.raises(geodisk.MeshRejected) as caught:
+        geodisk.sample(TETRAHEDRON[0], rejected, min_distance=0.2)
+    assert caught.value.element == 2 and caught.value.status == "mesh_rejected"
+
+
+def test_progress_and_interruption():
+    seen = []
+    samples = geodisk.sample(
+        VERTICES, FACES, count=3000, progress=lambda part, n: seen.append((part, n))
+    )
+    assert len(seen) > 2 and all(0 <= part <= 1 for part, _ in seen)
+    assert seen[-1][1] <= len(samples)
+
+    def raises(part, n):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        geodisk.sample(VERTICES, FACES, min_distance=0.05, progress=raises)
+
+    # Ctrl-C, while the run has long to go.
+    timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        geodisk.sample(VERTICES, FACES, min_distance=0.008)
+    timer.join()
+    assert len(geodisk.sample(VERTICES, FACES, min_distance=0.5)) > 100
+
+
+def test_threads():
+    expected = geodisk.sample(VERTICES, FACES, min_distance=0.4)
+    mesh = geodisk.Mesh(VERTICES, FACES)
+    found, ticks = [], []
+    threads = [
+        threading.Thread(target=lambda: found.append(geodisk.sample(mesh, min_distance=0.4)))
+        for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    while any(thread.is_alive() for thread in threads):  # Others run on: the lock is released.
+        ticks.append(time.monotonic())
+        time.sleep(0.001)
+    assert len(found) == 4 and all(same(one, expected) for one in found)
+    assert ticks
+
+
+def test_saving(tmp_path):
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.5)
+    samples.save(tmp_path / "a.npz")
+    with np.load(tmp_path / "a.npz") as file:
+        assert np.array_equal(file["points"], samples.points)
+        assert np.array_equal(file["face_index"], samples.face_index)
+        assert file["min_distance"] == 0.5
+    with pytest.raises(ValueError, match="npz"):
+        samples.save(tmp_path / "a.doc")
+    with pytest.raises(OSError):
+        samples.save(tmp_path / "nowhere" / "a.npz")
+    with pytest.raises(ValueError, match="box"):
+        geodisk.sample_box(min_distance=0.2).save(tmp_path / "box.csv")
+    assert os.listdir(tmp_path) == ["a.npz"]
+
+
+def test_devices_and_children():
+    found = geodisk.devices()
+    assert any(device.usable for device in found)
+    assert geodisk.sample(*TETRAHEDRON, min_distance=0.5, device=found[0].index)
+    # A child that was forked opens a device of its own.
+    code = (
+        "import os, sys, geodisk\n"
+        "n = len(geodisk.sample_box(min_distance=0.1))\n"
+        "child = os.fork()\n"
+        "if child == 0: os._exit(0 if len(geodisk.sample_box(min_distance=0.1)) == n else 1)\n"
+        "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+    )
+    assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0

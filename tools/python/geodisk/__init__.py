@@ -1,0 +1,41 @@
+"""Random points on triangle meshes, no two closer than a minimum distance along the surface.
+
+Distances are exact geodesic ones, computed on a Vulkan device, a GPU's or the CPU's.
+
+>>> import geodisk
+>>> box = geodisk.sample_box([1, 1], min_distance=0.1)
+>>> len(box) > 50
+True
+"""
+
+from ._devices import Device, devices
+from ._library import (
+    Cancelled,
+    DeviceLost,
+    Error,
+    InvalidArgument,
+    MeshRejected,
+    NoDevice,
+    OutOfMemory,
+    version,
+)
+from ._mesh import Mesh
+from ._samples import Samples
+from ._sampling import sample, sample_box
+
+__version__ = version()
+__all__ = [
+    "Cancelled",
+    "Device",
+    "DeviceLost",
+    "Error",
+    "InvalidArgument",
+    "Mesh",
+    "MeshRejected",
+    "NoDevice",
+    "OutOfMemory",
+    "Samples",
+    "devices",
+    "sample",
+    "sample_box",
+]
