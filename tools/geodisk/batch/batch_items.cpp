@@ -121,7 +121,7 @@ void check_files(const std::vector<BatchItem>& items) {
     for (const BatchItem& item : items) {
         const auto [other, is_new] = written.emplace(identity(item.job.out.output), &item);
         if (!is_new) {
-            fail_usage(item.place + " and " + other->second->place + " would both write " +
+            fail_usage(other->second->place + " and " + item.place + " would both write " +
                        item.job.out.output + "; a line of a manifest gives another name by -o");
         }
     }
