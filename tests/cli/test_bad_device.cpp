@@ -98,6 +98,7 @@ TEST_CASE("a device that is too weak") {
     CHECK(contains(info.err, "none of the Vulkan devices"));
 }
 
+#ifdef __linux__
 TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
     const TemporaryFolder folder;
     std::optional<Setting> setting = with_weak_driver(folder);
@@ -122,11 +123,9 @@ TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
     for (const char* const file : {"once/cube.ply", "twice/cube.ply"}) {
         CHECK(bytes_of(folder / file) == bytes_of(folder / "cube.ply"));
     }
-    // A device that is lost takes no more work, so this is what says that both were.
     CHECK(contains(bytes_of(folder / "twice/batch.jsonl"), "\"exit_code\":7"));
 }
 
-#ifdef __linux__
 // AddressSanitizer tells of crashes itself, and adds calls of its own to those that led there.
 TEST_CASE("a driver that crashes is told from geodisk" *
           doctest::skip(GEODISK_HAS_ADDRESS_SANITIZER)) {
