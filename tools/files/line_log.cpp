@@ -1,9 +1,11 @@
 #include "files/line_log.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
 #include "files/output_target.hpp"
 
@@ -57,6 +59,9 @@ int resize(std::FILE* file, std::int64_t size) {
 }
 #endif
 
+constexpr int kTries = 20;
+constexpr std::chrono::milliseconds kPause(100);
+
 /// Bytes up to the end of the last whole line.
 std::int64_t whole_lines(std::FILE* file) {
     std::int64_t read = 0, whole = 0;
@@ -75,6 +80,11 @@ std::int64_t whole_lines(std::FILE* file) {
 } // namespace
 
 LineLog::LineLog(const Path& path) : path_(path), file_(open_alone(path)) {
+    // A program that was killed takes a moment to be gone.
+    for (int tries = 0; file_ == nullptr && errno == EWOULDBLOCK && tries < kTries; ++tries) {
+        std::this_thread::sleep_for(kPause);
+        file_ = open_alone(path);
+    }
     if (file_ == nullptr) {
         if (errno == EWOULDBLOCK) {
             fail_to_write(path_, "another program is writing it");

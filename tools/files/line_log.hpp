@@ -9,7 +9,8 @@
 
 namespace geodisk::tools {
 
-/// For one process at a time: another one that opens the file fails. Not thread-safe.
+/// For one process at a time: another one that opens the file waits two seconds and fails. Not
+/// thread-safe.
 class LineLog {
   public:
     /// Opens or creates the file. A last line without an end, of a program that was killed, is
