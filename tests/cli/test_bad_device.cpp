@@ -99,6 +99,33 @@ TEST_CASE("a device that is too weak") {
 }
 
 #ifdef __linux__
+TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
+    const TemporaryFolder folder;
+    std::optional<Setting> setting = with_weak_driver(folder);
+    if (!setting) {
+        return;
+    }
+    folder.write("list.txt", "builtin:torus-knot:24\nbuiltin:cube\n");
+    REQUIRE(run(folder, {"sample", "builtin:cube", "-n", "300", "-o", "cube.ply"}).status == 0);
+    const Arguments batch{"batch", "list.txt", "-n", "300", "--jobs", "1"};
+    setting->environment.emplace_back("GEODISK_TEST_LOSSES", "1");
+    const Outcome once = run(folder, joined(batch, {"-o", "once"}), *setting);
+    INFO(once.err);
+    CHECK(once.status == 0);
+    CHECK(contains(once.out, "2 ok, 0 failed"));
+
+    setting->environment.back().second = "2"; // Again where it is tried once more.
+    const Outcome twice = run(folder, joined(batch, {"-o", "twice"}), *setting);
+    INFO(twice.err);
+    CHECK(twice.status == 1);
+    CHECK(contains(twice.err, "builtin:torus-knot:24: "));
+    CHECK(contains(twice.out, "1 ok, 1 failed"));
+    for (const char* const file : {"once/cube.ply", "twice/cube.ply"}) {
+        CHECK(bytes_of(folder / file) == bytes_of(folder / "cube.ply"));
+    }
+    CHECK(contains(bytes_of(folder / "twice/batch.jsonl"), "\"exit_code\":7"));
+}
+
 // AddressSanitizer tells of crashes itself, and adds calls of its own to those that led there.
 TEST_CASE("a driver that crashes is told from geodisk" *
           doctest::skip(GEODISK_HAS_ADDRESS_SANITIZER)) {

@@ -18,8 +18,8 @@ Arguments sample(const Arguments& options) {
 
 TEST_CASE("help tells options, examples and exit statuses") {
     const TemporaryFolder folder;
-    for (const Arguments& arguments :
-         {Arguments{"--help"}, Arguments{"sample", "--help"}, Arguments{"verify", "-h"}}) {
+    for (const Arguments& arguments : {Arguments{"--help"}, Arguments{"sample", "--help"},
+                                       Arguments{"batch", "--help"}, Arguments{"verify", "-h"}}) {
         const Outcome outcome = run(folder, arguments);
         CHECK(outcome.status == 0);
         CHECK(outcome.err.empty());

@@ -1,5 +1,7 @@
 // A Vulkan driver that passes every call on to the driver of GEODISK_TEST_DRIVER, but reports
-// limits too small for geodisk, or does not even come to that, as GEODISK_TEST_CRASH says.
+// limits too small for geodisk, or does not even come to that, as GEODISK_TEST_CRASH says; or which
+// reports what there is, and loses as many devices, one after the other, as GEODISK_TEST_LOSSES
+// says.
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -25,7 +27,19 @@ PFN_vkVoidFunction real_function(VkInstance instance, const char* name) {
 
 VkInstance current_instance = VK_NULL_HANDLE; // The program under test makes one at a time.
 
+/// How many devices are to be lost.
+int losses() {
+    const char* const text = std::getenv("GEODISK_TEST_LOSSES");
+    return text != nullptr ? std::atoi(text) : 0;
+}
+
+int devices = 0;
+int submissions = 0; ///< To the last device; those of several threads are not told apart.
+
 void weaken(VkPhysicalDeviceLimits& limits) {
+    if (losses() > 0) {
+        return;
+    }
     const char* const crash = std::getenv("GEODISK_TEST_CRASH");
     if (crash != nullptr && std::strcmp(crash, "access") == 0) {
         std::raise(SIGSEGV);
@@ -61,6 +75,37 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
     return result;
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
+                                             const VkDeviceCreateInfo* info,
+                                             const VkAllocationCallbacks* allocator,
+                                             VkDevice* device) {
+    ++devices;
+    submissions = 0;
+    return reinterpret_cast<PFN_vkCreateDevice>(real_function(current_instance, "vkCreateDevice"))(
+        physical, info, allocator, device);
+}
+
+PFN_vkQueueSubmit real_submit = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
+                                      VkFence fence) {
+    constexpr int kLast = 8; // Beyond the check of arithmetic, amid the first mesh.
+    if (devices <= losses() && ++submissions >= kLast) {
+        return VK_ERROR_DEVICE_LOST;
+    }
+    return real_submit(queue, count, infos, fence);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_function(VkDevice device, const char* name) {
+    const auto real = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+        real_function(current_instance, "vkGetDeviceProcAddr"))(device, name);
+    if (std::strcmp(name, "vkQueueSubmit") == 0) {
+        real_submit = reinterpret_cast<PFN_vkQueueSubmit>(real);
+        return reinterpret_cast<PFN_vkVoidFunction>(submit);
+    }
+    return real;
+}
+
 } // namespace
 
 extern "C" {
@@ -76,6 +121,12 @@ vk_icdGetInstanceProcAddr(VkInstance instance, const char* name) {
     if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0 ||
         std::strcmp(name, "vkGetPhysicalDeviceProperties2KHR") == 0) {
         return reinterpret_cast<PFN_vkVoidFunction>(get_properties2);
+    }
+    if (losses() > 0 && std::strcmp(name, "vkCreateDevice") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(create_device);
+    }
+    if (losses() > 0 && std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(get_device_function);
     }
     return real_function(instance, name);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <geodisk/count_search.hpp>
 
@@ -41,11 +42,14 @@ ProgressCallback show_progress(ProgressLine& progress, double expected) {
     };
 }
 
-/// Throws UserError for an error of a run that --memory can help with.
+/// Throws UserError for an error of a run that --memory can help with, and DeviceLost.
 void check_run(const Error& error, bool bounded) {
     if (error.status == Status::workspace_too_small ||
         (error.status == Status::out_of_device_memory && bounded)) {
         throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
+    }
+    if (error.status == Status::device_lost) {
+        throw DeviceLost(error.message);
     }
 }
 
@@ -53,35 +57,55 @@ std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
     return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
 }
 
-SampleSet sample(Runner& runner, const Task& task, bool bounded, ProgressLine& progress) {
-    auto result = runner.sample_and_wait(task.domain, show_progress(progress, task.expected));
-    progress.clear();
-    check_interrupted();
-    if (!result) {
-        check_run(result.error(), bounded);
-    }
-    return take(std::move(result));
-}
-
 } // namespace
 
-DeviceResult run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
-                           const TaskAt& task_at, double min_distance, double wanted,
-                           ProgressLine& progress, bool graphics) {
-    Task task = task_at(min_distance); // Fails before a device is needed.
-    DeviceRun done;
+RunDevice::RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics)
+    : device_(std::move(device)), options_(runner), graphics_(graphics) {}
+
+void RunDevice::open(ProgressLine& progress) {
+    if (opened_) {
+        return;
+    }
     Stopwatch watch;
-    Context context = open_device(options.device, graphics, progress);
-    done.open_seconds = watch.seconds();
-    done.device = context.report();
+    Context context = open_device(device_, graphics_, progress);
+    open_seconds_ = watch.seconds();
 
     progress.begin_stage("compiling the shaders");
     watch = Stopwatch();
     Runner runner =
-        take(Runner::create(context.device(), context.queue(), tuned(runner_options, done.device)));
-    take(runner.sampler().prepare(task.domain));
-    done.compile_seconds = watch.seconds();
-    done.tuning = runner.sampler().tuning();
+        take(Runner::create(context.device(), context.queue(), tuned(options_, context.report())));
+    compile_seconds_ = watch.seconds();
+    opened_.emplace(Opened{std::move(context), std::move(runner)});
+}
+
+SampleSet RunDevice::sample(const Task& task, ProgressLine& progress) {
+    auto result =
+        opened_->runner.sample_and_wait(task.domain, show_progress(progress, task.expected));
+    progress.clear();
+    check_interrupted();
+    if (!result) {
+        const Error error = result.error();
+        if (error.status == Status::device_lost) {
+            opened_.reset(); // It refuses all further work.
+        }
+        check_run(error, options_.device_bytes != 0);
+    }
+    return take(std::move(result));
+}
+
+DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double wanted,
+                            ProgressLine& progress) {
+    Task task = task_at(min_distance); // Fails before a device is needed.
+    open(progress);
+    DeviceRun done;
+    done.device = context().report();
+
+    progress.begin_stage("compiling the shaders");
+    const Stopwatch watch;
+    take(opened_->runner.sampler().prepare(task.domain));
+    done.open_seconds = std::exchange(open_seconds_, 0);
+    done.compile_seconds = std::exchange(compile_seconds_, 0) + watch.seconds();
+    done.tuning = opened_->runner.sampler().tuning();
     check_interrupted();
 
     SampleSet best;
@@ -89,7 +113,7 @@ DeviceResult run_on_device(const RunOptions& options, const RunnerOptions& runne
     CountSearch search(wanted);
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
-        SampleSet set = sample(runner, task, runner_options.device_bytes != 0, progress);
+        SampleSet set = sample(task, progress);
         ++done.runs;
         seconds.compile += set.report.seconds.compile;
         seconds.upload += set.report.seconds.upload;
@@ -109,10 +133,16 @@ DeviceResult run_on_device(const RunOptions& options, const RunnerOptions& runne
         min_distance = *next;
         task = task_at(min_distance);
     }
-    check_validation(context);
+    check_validation(context());
     done.run = best.report;
     done.run.seconds = seconds;
-    return {std::move(best), std::move(done), std::move(context)};
+    return {std::move(best), std::move(done)};
+}
+
+void RunDevice::release_memory() {
+    if (opened_) {
+        opened_->runner.release_memory();
+    }
 }
 
 } // namespace geodisk::tools

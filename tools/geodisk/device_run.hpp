@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include <geodisk/context.hpp>
 #include <geodisk/domain.hpp>
@@ -10,24 +11,24 @@
 
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/outputs/progress.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::tools {
 
 /// How a set of samples came about.
 struct DeviceRun {
     DeviceReport device;
-    Tuning tuning;                                ///< As used.
-    double min_distance = 0;                      ///< As used.
-    std::uint32_t runs = 0;                       ///< At this distance and those tried before.
-    RunReport run;                                ///< With the seconds of all runs.
-    double open_seconds = 0, compile_seconds = 0; ///< Those of the stages after are in `run`.
+    Tuning tuning;           ///< As used.
+    double min_distance = 0; ///< As used.
+    std::uint32_t runs = 0;  ///< At this distance and those tried before.
+    RunReport run;           ///< With the seconds of all runs.
+    /// 0 where that was done before; those of the stages after are in `run`.
+    double open_seconds = 0, compile_seconds = 0;
 };
 
-/// What came of a run, and the device it was on.
 struct DeviceResult {
     SampleSet set;
     DeviceRun done;
-    Context context;
 };
 
 /// What there is to sample at a distance, and about how many samples that gives.
@@ -37,12 +38,46 @@ struct Task {
 };
 using TaskAt = std::function<Task(double min_distance)>;
 
-/// Opens the device of `options`, compiles there what the domain needs, and samples it. Where a
-/// number of samples is wanted, not 0, and another comes out, it tries other distances
-/// (CountSearch) and takes the nearest. The device can draw as well, where `graphics` is set.
-/// Throws UserError.
-DeviceResult run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
-                           const TaskAt& task_at, double min_distance, double wanted,
-                           ProgressLine& progress, bool graphics = false);
+/// The device was lost in a run, or has not answered.
+class DeviceLost : public UserError {
+  public:
+    explicit DeviceLost(const std::string& message) : UserError(ExitCode::internal, message) {}
+};
+
+/// A device for one run after another. Of one thread at a time.
+class RunDevice {
+  public:
+    /// The device can draw as well, where `graphics` is set. Nothing is opened yet.
+    RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics = false);
+
+    /// Opens the device and checks that it computes as it must, where that is not done or the
+    /// device was lost since. Throws UserError.
+    void open(ProgressLine& progress);
+
+    /// Opens the device where need be, compiles there what the domain needs, and samples it. Where
+    /// a number of samples is wanted, not 0, and another comes out, it tries other distances
+    /// (CountSearch) and takes the nearest. Throws UserError, DeviceLost among them.
+    DeviceResult run(const TaskAt& task_at, double min_distance, double wanted,
+                     ProgressLine& progress);
+
+    /// Frees what runs keep for those to come, so that something else has room.
+    void release_memory();
+
+    /// Of a device that is open.
+    const Context& context() const { return opened_->context; }
+
+  private:
+    struct Opened {
+        Context context;
+        Runner runner;
+    };
+    SampleSet sample(const Task& task, ProgressLine& progress);
+
+    DeviceOptions device_;
+    RunnerOptions options_;
+    bool graphics_;
+    std::optional<Opened> opened_;
+    double open_seconds_ = 0, compile_seconds_ = 0; ///< That no run has told of yet.
+};
 
 } // namespace geodisk::tools

@@ -10,6 +10,7 @@ constexpr const char* kFooter = R"(Examples:
   geodisk sample builtin:showpiece -o points.ply --count 10000
   geodisk sample bunny.obj -o points.csv --min-distance 1%
   geodisk sample bunny.obj -o points.ply --min-distance 1% --method pdts --count 500
+  geodisk batch meshes -o samples --count 10000
   geodisk verify bunny.obj points.csv
   geodisk analyze bunny.obj points.csv
   geodisk render bunny.obj points.ply -o picture.png
@@ -21,7 +22,7 @@ constexpr const char* kFooter = R"(Examples:
 
 Exit status:
   0    success
-  1    verify found samples too close, off the mesh or of another radius
+  1    verify found samples too close, off the mesh or of another radius; meshes of batch failed
   2    wrong usage: an unknown option, no or several distances, a value out of range
   3    an input file is missing, unreadable or malformed
   4    an output cannot be written
@@ -30,13 +31,15 @@ Exit status:
   7    the device was lost, or an error or crash inside geodisk or the driver
   130  interrupted (SIGINT)
   143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
-Whenever the status is 2 or more, no output file is written or replaced.)";
+Whenever the status is 2 or more, no output file is written or replaced, but for the meshes of
+batch that are done.)";
 
 void set_up(geodisk::tools::Command app) {
     app.has_version("geodisk " GEODISK_VERSION_STRING);
     app.needs_command();
     app.has_footer(kFooter);
     geodisk::tools::add_sample_command(app);
+    geodisk::tools::add_batch_command(app);
     geodisk::tools::add_verify_command(app);
     geodisk::tools::add_analyze_command(app);
     geodisk::tools::add_spectrum_command(app);

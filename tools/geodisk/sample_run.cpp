@@ -7,7 +7,6 @@
 
 #include <geodisk/domain.hpp>
 
-#include "geodisk/device_run.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -65,7 +64,12 @@ std::vector<NamedFile> files_read(const SampleJob& job) {
     return read;
 }
 
-SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress) {
+RunDevice device_for(const SampleJob& job) {
+    return RunDevice(job.run.device, job.runner, !job.picture.empty());
+}
+
+SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
+                         ProgressLine& progress) {
     check_space(job, mesh);
     SampleParams params = params_on(mesh, job);
     const auto task_at = [&](double min_distance) {
@@ -73,12 +77,16 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, ProgressLi
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
         return Task{domain_of(job, mesh, params), job.method.expected(room)};
     };
-    auto [set, done, context] = run_on_device(job.run, job.runner, task_at, params.min_distance,
-                                              job.wanted_count, progress, !job.picture.empty());
+    auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
     params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
-    return {params, std::move(done), to_rows(mesh, params.min_distance, set.samples),
-            std::move(context), std::nullopt};
+    return {params, std::move(done), to_rows(mesh, params.min_distance, set.samples), std::nullopt};
+}
+
+void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,
+                       const SampleResult& result, const SampleReport& report) {
+    write_samples(file, job.out.output, report.header(), result.rows, job.out.ascii,
+                  mesh.dimension());
 }
 
 } // namespace geodisk::tools

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "files/output_file.hpp"
+#include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -13,7 +15,16 @@ namespace geodisk::tools {
 /// The files that the job reads.
 std::vector<NamedFile> files_read(const SampleJob& job);
 
-/// Samples `mesh`, which must outlive the result, as the job asks for. Throws UserError.
-SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
+/// The device that the job asks for, which can draw where there is to be a picture.
+RunDevice device_for(const SampleJob& job);
+
+/// Samples `mesh`, which must outlive the result, as the job asks for. Throws UserError, DeviceLost
+/// among them.
+SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
+                         ProgressLine& progress);
+
+/// Writes the samples into `file`, opened for the job's output.
+void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,
+                       const SampleResult& result, const SampleReport& report);
 
 } // namespace geodisk::tools

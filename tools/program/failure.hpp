@@ -16,6 +16,7 @@ namespace geodisk::tools {
 enum class ExitCode : int {
     success = 0,
     violation = 1,     ///< `verify` found samples that are not as they should be.
+    some_failed = 1,   ///< Meshes of a `batch`, while others are done.
     usage = 2,         ///< Unknown option, contradictory or impossible parameters.
     bad_input = 3,     ///< A mesh or sample file is missing, unreadable or malformed.
     bad_output = 4,    ///< An output file cannot be written.

@@ -1,5 +1,6 @@
 #include "program/interrupt.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 
@@ -15,8 +16,9 @@ namespace geodisk::tools {
 namespace {
 
 // All that a signal handler may touch.
-volatile std::sig_atomic_t received_signal = 0;
-volatile std::sig_atomic_t is_uninterrupted = 0;
+std::atomic<int> received_signal = 0;
+std::atomic<int> uninterrupted = 0; ///< How many threads must not be ended.
+static_assert(std::atomic<int>::is_always_lock_free);
 const char* program_name = "";
 
 const char* what_happened(int signal) {
@@ -67,7 +69,7 @@ extern "C" void on_signal(int signal) {
     if (signal != SIGALRM) {
         received_signal = signal;
     }
-    if (is_first || is_uninterrupted != 0) {
+    if (is_first || uninterrupted != 0) {
         setitimer(ITIMER_REAL, &kTimeToStop, nullptr); // A system call and nothing more.
     } else {
         end_now();
@@ -109,11 +111,11 @@ void check_interrupted() {
 }
 
 Uninterrupted::Uninterrupted() {
-    is_uninterrupted = 1;
+    ++uninterrupted;
 }
 
 Uninterrupted::~Uninterrupted() {
-    is_uninterrupted = 0;
+    --uninterrupted;
 }
 
 } // namespace geodisk::tools

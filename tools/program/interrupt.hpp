@@ -15,7 +15,7 @@ bool is_interrupted();
 /// Throws UserError with the exit status 128 + signal if a signal came.
 void check_interrupted();
 
-/// While it lives, no signal ends the program: files appear under their names.
+/// While it lives, on any thread, no signal ends the program: files appear under their names.
 class Uninterrupted {
   public:
     Uninterrupted();

@@ -103,11 +103,17 @@ const std::string& given_command() {
     return noted_command;
 }
 
-void run_arguments(SetUp set_up, std::vector<std::string> arguments) {
+void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::string> arguments) {
     CLI::App app;
+    app.set_help_flag();
     set_up(Command(app));
+    check_values(arguments);
     std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
-    app.parse(std::move(arguments));
+    try {
+        app.parse(std::move(arguments));
+    } catch (const CLI::ParseError& error) {
+        fail_usage(usage_message(error));
+    }
 }
 
 int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv) {

@@ -2,6 +2,7 @@
 // failure into one line and an exit status.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ using SetUp = void (*)(Command);
 int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv);
 
 /// Does what these arguments ask for of a program so set up: what one of its commands does, as a
-/// step of another. Throws what that throws, and for arguments that are none.
-void run_arguments(SetUp set_up, std::vector<std::string> arguments);
+/// step of another. Throws what that throws, and UserError(usage) for arguments that are none.
+void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::string> arguments);
 
 /// The command that run_program() was called by, as a line for a shell.
 const std::string& given_command();

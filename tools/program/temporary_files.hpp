@@ -1,11 +1,15 @@
 // The temporary files of this process, so that one that is ended by a signal can remove them.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
 namespace geodisk::tools {
 
-/// Notes a file while it lives. Room is for 16 at a time; more are not noted.
+/// Files that are noted at a time.
+inline constexpr std::size_t kMostNoted = 64;
+
+/// Notes a file while it lives, from any thread. More than kMostNoted are not noted.
 class NotedTemporary {
   public:
     NotedTemporary() noexcept = default;

@@ -119,8 +119,8 @@ void run_box(const BoxOptions& options) {
         job.box.min_distance = min_distance;
         return Task{take(Domain::box(job.box)), job.method.expected(expected_count(job.box))};
     };
-    const auto [set, done, context] = run_on_device(
-        job.run, job.runner, task_at, job.box.min_distance, job.wanted_count, progress);
+    RunDevice device(job.run.device, job.runner);
+    const auto [set, done] = device.run(task_at, job.box.min_distance, job.wanted_count, progress);
     job.box.min_distance = done.min_distance;
     const std::vector<SampleRow> rows = to_rows(set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
@@ -155,6 +155,7 @@ void add_box_command(Command app) {
                        "with --method pdts, stop at exactly N",
                        distance);
     add_method_options(command, options->method, "the box");
+    add_calls_option(command, options->method);
     add_run_options(command, options->run);
     add_output_options(command, options->out);
     command.calls([options] { run_box(*options); });

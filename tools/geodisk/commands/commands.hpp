@@ -15,6 +15,10 @@ struct SpectrumOptions;
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
 void add_sample_command(Command app);
 
+/// Samples many meshes, each to a file of its own, on all GPUs. UserError(some_failed) if some
+/// could not be.
+void add_batch_command(Command app);
+
 /// Checks a sample file against its mesh or box, without a device. UserError(violation) if samples
 /// are too close or off the mesh.
 void add_verify_command(Command app);

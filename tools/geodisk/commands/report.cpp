@@ -60,7 +60,10 @@ void run_report(const ReportOptions& options) {
     if (!options.harmonics.empty() && mesh.radii) {
         fail_usage("--harmonics: a spectrum is of samples whose radii do not vary");
     }
-    const SampleResult result = sample_mesh(job, mesh, progress);
+    const SampleResult result = [&] {
+        RunDevice device = device_for(job);
+        return sample_mesh(job, mesh, device, progress);
+    }();
     const std::vector<SurfaceDisk> disks =
         disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2);
     Stopwatch watch;

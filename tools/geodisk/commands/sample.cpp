@@ -18,15 +18,17 @@ namespace geodisk::tools {
 namespace {
 
 /// On the device that they were made on.
-void draw_samples(const MeshInput& mesh, SampleResult& result, ProgressLine& progress) {
+void draw_samples(const MeshInput& mesh, SampleResult& result, RunDevice& device,
+                  ProgressLine& progress) {
+    device.release_memory();
     progress.begin_stage("preparing the scene");
     const picture::Scene scene =
         picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);
     result.picture = draw_surface(
-        result.context, {}, mesh.prepared, scene,
+        device.context(), {}, mesh.prepared, scene,
         disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2),
         progress);
-    check_validation(result.context);
+    check_validation(device.context());
 }
 
 void run_sample(const SampleOptions& options) {
@@ -43,17 +45,17 @@ void run_sample(const SampleOptions& options) {
         check_visible(job.mesh.mesh, mesh);
     }
     std::vector<FurtherFile> further;
-    SampleResult result = sample_mesh(job, mesh, progress);
+    RunDevice device = device_for(job);
+    SampleResult result = sample_mesh(job, mesh, device, progress);
     if (!job.picture.empty()) {
-        draw_samples(mesh, result, progress);
+        draw_samples(mesh, result, device, progress);
         further.push_back({picture, [&](AtomicFile& file) {
                                picture::write_png(file, result.picture->picture.pixels);
                            }});
     }
     const SampleReport report(job, mesh, result);
     const auto write = [&](AtomicFile& file) {
-        write_samples(file, job.out.output, report.header(), result.rows, job.out.ascii,
-                      mesh.dimension());
+        write_sample_file(file, job, mesh, result, report);
     };
     write_outputs(job.out, "the samples", progress, report, write, further);
 }

@@ -54,18 +54,6 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
     return sources;
 }
 
-std::vector<Lift> parse_lifts(const MeshOptions& options) {
-    if (!options.lifts.empty() && !options.edge_lengths.empty()) {
-        fail_usage("--lift and --edge-lengths contradict each other: lengths "
-                   "leave no coordinates to lift");
-    }
-    std::vector<Lift> lifts;
-    for (const std::string& text : options.lifts) {
-        lifts.push_back(parse_lift("--lift", text));
-    }
-    return lifts;
-}
-
 } // namespace
 
 std::array<double, 8> MeshInput::point(std::uint32_t face, const float (&weights)[3]) const {
@@ -107,11 +95,11 @@ void MeshInput::place(SampleRow& row) const {
     row.polygon = polygon(row.face);
 }
 
-MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
-                    const DensityOptions& density) {
+MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
+                        const DensityOptions& density) {
     const std::string& path = options.mesh;
     const bool radii_vary = density.is_given();
-    const std::vector<Lift> lifts = parse_lifts(options);
+    const std::vector<Lift> lifts = options.parsed_lifts();
     progress.begin_stage("reading the mesh");
     Stopwatch watch;
     MeshSources sources = sources_of(options, lifts, density);
@@ -140,6 +128,12 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
         mesh.warnings.push_back(std::move(*radii_warning));
     }
     check_interrupted();
+    return mesh;
+}
+
+MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
+                    const DensityOptions& density) {
+    MeshInput mesh = load_silently(options, progress, density);
     progress.clear();
     for (const MeshWarning& warning : mesh.warnings) {
         print_warning(warning.file + ": " + warning.message);

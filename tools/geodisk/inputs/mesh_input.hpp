@@ -25,7 +25,7 @@ struct MeshInput {
     MeshFile file;
     PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
     std::optional<RadiusField> radii;  ///< Where the options say that radii vary.
-    std::vector<MeshWarning> warnings; ///< As told to the user.
+    std::vector<MeshWarning> warnings; ///< For the user.
     double load_seconds = 0;
     double prepare_seconds = 0;
 
@@ -51,8 +51,12 @@ struct MeshInput {
     void place(SampleRow& row) const;
 };
 
-/// Reads and prepares a mesh and writes warnings to standard error. Throws UserError as
-/// read_mesh(), lifted_positions() and load_radii(), or bad_input when the mesh is rejected.
+/// Reads and prepares a mesh. Throws UserError as read_mesh(), lifted_positions() and load_radii(),
+/// or bad_input when the mesh is rejected.
+MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
+                        const DensityOptions& density);
+
+/// The same, and writes warnings to standard error.
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
                     const DensityOptions& density = {});
 

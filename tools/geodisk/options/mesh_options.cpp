@@ -1,6 +1,7 @@
 #include "geodisk/options/mesh_options.hpp"
 
 #include "program/command.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -12,6 +13,18 @@ constexpr const char* kBareFlag = "true";
 constexpr const char* kExact = "exact";
 
 } // namespace
+
+std::vector<Lift> MeshOptions::parsed_lifts() const {
+    if (!lifts.empty() && !edge_lengths.empty()) {
+        fail_usage("--lift and --edge-lengths contradict each other: lengths "
+                   "leave no coordinates to lift");
+    }
+    std::vector<Lift> parsed;
+    for (const std::string& text : lifts) {
+        parsed.push_back(parse_lift("--lift", text));
+    }
+    return parsed;
+}
 
 std::optional<Length> MeshOptions::weld_distance() const {
     if (weld.empty()) {

@@ -7,6 +7,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/options/run_options.hpp"
+#include "geometry/lift.hpp"
 #include "program/arguments.hpp"
 
 namespace geodisk::tools {
@@ -17,6 +18,8 @@ struct MeshOptions {
     std::vector<std::string> lifts;
     std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
 
+    /// Throws UserError(usage) for what is no lift, and where there is nothing to lift.
+    std::vector<Lift> parsed_lifts() const;
     /// As for MeshSources::weld. Throws UserError(usage) for no length.
     std::optional<Length> weld_distance() const;
     /// Adds the files that are read, called `what`.

@@ -5,6 +5,7 @@
 
 #include "program/arguments.hpp"
 #include "program/command.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -14,11 +15,13 @@ namespace {
 /// Darts for each sample there is room for, after which a count counts as out of reach.
 constexpr double kDartsPerSample = 1000;
 
+constexpr const char* kMethodGroup = "Method";
+
 void check_method(const MethodOptions& options) {
     if (options.method != "psdp" && options.method != "pdts") {
         fail_usage("--method: " + in_quotes(options.method) + " is neither psdp nor pdts");
     }
-    if (options.throws_darts() && options.pool_ratio_option.is_given()) {
+    if (options.throws_darts() && !options.pool_ratio.empty()) {
         fail_usage("--pool-ratio is for --method psdp; with pdts, --throws "
                    "tells how many darts to throw");
     }
@@ -77,7 +80,9 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     Method method;
     method.throws_darts = options.throws_darts();
     method.counts_calls = options.count_calls;
-    method.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
+    if (!options.pool_ratio.empty()) {
+        method.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
+    }
     if (method.throws_darts) {
         if (count.empty() && options.throws.empty()) {
             fail_usage("nothing to stop at; with --method pdts give --count, "
@@ -112,30 +117,31 @@ void check_one_distance(const MethodOptions& options,
 }
 
 void add_method_options(Command command, MethodOptions& options, const std::string& domain) {
-    const char* const method = "Method";
     command
         .add_option("--method", options.method, "NAME",
                     "psdp: from a pool of candidates; pdts: throw darts until\n"
                     "there are --count samples or --throws darts were thrown",
-                    method)
+                    kMethodGroup)
         .shows_default();
     command.add_option("--throws", options.throws, "K",
                        "Most darts of pdts, up to 4294967295; fewer samples than\n"
                        "--count are then no error. If not given, 1000 for each\n"
                        "sample that " +
                            domain + " has room for",
-                       method);
-    options.pool_ratio_option =
-        command
-            .add_option("--pool-ratio", options.pool_ratio, "Q",
-                        "Candidates of psdp per expected sample, 1 to 10000; more\n"
-                        "leave fewer gaps",
-                        method)
-            .shows_default();
+                       kMethodGroup);
+    command
+        .add_option("--pool-ratio", options.pool_ratio, "Q",
+                    "Candidates of psdp per expected sample, 1 to 10000; more\n"
+                    "leave fewer gaps",
+                    kMethodGroup)
+        .shows_default(exact_text(kDefaultPoolRatio));
+}
+
+void add_calls_option(Command command, MethodOptions& options) {
     command.add_flag("--count-calls", options.count_calls,
                      "Count how often the paper's CheckStatus would call itself;\n"
                      "takes a little time, does not change the samples",
-                     method);
+                     kMethodGroup);
 }
 
 } // namespace geodisk::tools

@@ -8,22 +8,24 @@
 
 #include <geodisk/params.hpp>
 
-#include "program/command.hpp"
-
 namespace geodisk::tools {
+
+class Command;
 
 /// As given on the command line.
 struct MethodOptions {
-    std::string method = "psdp", pool_ratio = "20", throws;
+    std::string method = "psdp", pool_ratio, throws;
     bool count_calls = false;
-    Option pool_ratio_option; ///< Knows whether it was given.
 
     bool throws_darts() const { return method == "pdts"; }
 };
 
-/// Adds --method, --throws, --pool-ratio and --count-calls; `options` must outlive the parsing.
-/// Samples have room in `domain`: "the surface".
+/// Adds --method, --throws and --pool-ratio; `options` must outlive the parsing. Samples have room
+/// in `domain`: "the surface".
 void add_method_options(Command command, MethodOptions& options, const std::string& domain);
+
+/// Adds --count-calls.
+void add_calls_option(Command command, MethodOptions& options);
 
 /// The options, checked.
 struct Method {

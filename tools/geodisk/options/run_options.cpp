@@ -14,9 +14,13 @@ void add_json_option(Command command, OutputOptions& options) {
                        "Write a report as JSON, - for standard output");
 }
 
+void add_ascii_option(Command command, OutputOptions& options) {
+    command.add_flag("--ascii", options.ascii, "Write PLY as text");
+}
+
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
-    command.add_flag("--ascii", options.ascii, "Write PLY as text");
+    add_ascii_option(command, options);
     command.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
 }
 
@@ -33,23 +37,35 @@ double RunOptions::stall_seconds() const {
     return stall_timeout.empty() ? 0 : parse_ratio("--stall-timeout", stall_timeout, 0.1, kWeek);
 }
 
-void add_device_options(Command command, DeviceOptions& options) {
-    command.add_option("--device", options.device, "NAME|INDEX",
-                       "Device by name, index or UUID (geodisk info)");
+void add_validate_option(Command command, DeviceOptions& options) {
     command.add_flag("--validate", options.validate,
                      "Run with the Vulkan validation layer, fail on any message", "Development");
 }
 
-void add_run_options(Command command, RunOptions& options) {
+void add_device_options(Command command, DeviceOptions& options) {
+    command.add_option("--device", options.device, "NAME|INDEX",
+                       "Device by name, index or UUID (geodisk info)");
+    add_validate_option(command, options);
+}
+
+void add_seed_option(Command command, RunOptions& options) {
     command.add_option("--seed", options.seed, "S", "64-bit seed; equal seeds give equal samples")
         .shows_default();
-    add_device_options(command, options.device);
+}
+
+void add_limit_options(Command command, RunOptions& options) {
     command.add_option("--memory", options.memory, "BYTES",
                        "Most bytes to take on the device, with K, M or G;\n"
                        "does not change the samples");
     command.add_option("--stall-timeout", options.stall_timeout, "SECONDS",
                        "Give the device up when it has not answered for so long\n"
                        "(120 s, and 600 s on a CPU)");
+}
+
+void add_run_options(Command command, RunOptions& options) {
+    add_seed_option(command, options);
+    add_device_options(command, options.device);
+    add_limit_options(command, options);
 }
 
 } // namespace geodisk::tools

@@ -31,6 +31,9 @@ void add_output_argument(Command command, OutputOptions& options,
 
 void add_json_option(Command command, OutputOptions& options);
 
+/// Adds --ascii.
+void add_ascii_option(Command command, OutputOptions& options);
+
 /// Adds --json, --ascii and --quiet.
 void add_output_options(Command command, OutputOptions& options);
 
@@ -39,6 +42,9 @@ struct DeviceOptions {
     std::string device;
     bool validate = false;
 };
+
+/// Adds --validate.
+void add_validate_option(Command command, DeviceOptions& options);
 
 /// Adds --device and --validate.
 void add_device_options(Command command, DeviceOptions& options);
@@ -54,6 +60,13 @@ struct RunOptions {
     double stall_seconds() const;       ///< 0 for what suits the device.
 };
 
+/// Adds --seed.
+void add_seed_option(Command command, RunOptions& options);
+
+/// Adds --memory and --stall-timeout.
+void add_limit_options(Command command, RunOptions& options);
+
+/// Adds all of them.
 void add_run_options(Command command, RunOptions& options);
 
 } // namespace geodisk::tools

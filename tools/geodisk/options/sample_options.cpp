@@ -66,6 +66,9 @@ SampleJob parse_job(const SampleOptions& options) {
     job.runner.stall_seconds = options.run.stall_seconds();
     job.runner.sampler.count_calls = job.method.counts_calls;
     check_metric(options);
+    job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
+    job.mesh.weld_distance();
+    job.density.is_given();
     return job;
 }
 
@@ -79,7 +82,7 @@ void add_sample_options(Command command, SampleOptions& options) {
     add_output_options(command, options.out);
 }
 
-void add_job_options(Command command, SampleOptions& options) {
+void add_subject_options(Command command, SampleOptions& options) {
     const char* const distance = "Distance, give one";
     command.add_option("-d,--min-distance", options.min_distance, "D",
                        "Least distance along the surface, in mesh units,\n"
@@ -102,8 +105,14 @@ void add_job_options(Command command, SampleOptions& options) {
                     "form by normals (Bowers et al. 2010)")
         .shows_default();
     add_method_options(command, options.method, "the surface");
+    add_seed_option(command, options.run);
+}
 
-    add_run_options(command, options.run);
+void add_job_options(Command command, SampleOptions& options) {
+    add_subject_options(command, options);
+    add_calls_option(command, options.method);
+    add_device_options(command, options.run.device);
+    add_limit_options(command, options.run);
 }
 
 } // namespace geodisk::tools

@@ -29,6 +29,10 @@ struct SampleOptions {
 /// Adds all options of the command; `options` must outlive the parsing.
 void add_sample_options(Command command, SampleOptions& options);
 
+/// Adds those that say what is sampled besides the mesh file, and so hold all that the samples
+/// depend on.
+void add_subject_options(Command command, SampleOptions& options);
+
 /// Adds those that say what is sampled and how, all but what is written of it.
 void add_job_options(Command command, SampleOptions& options);
 

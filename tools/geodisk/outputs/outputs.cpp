@@ -92,6 +92,11 @@ void flush_or_fail(const std::string& what) {
     }
 }
 
+void print_failure(const std::string& subject, const std::string& message) {
+    const bool is_named = message.starts_with(subject + ": ");
+    std::cerr << "geodisk: " << one_line(is_named ? message : subject + ": " + message) << '\n';
+}
+
 void print_warning(const std::string& message) {
     std::cerr << "geodisk: warning: " << one_line(message) << '\n';
 }

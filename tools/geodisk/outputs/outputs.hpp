@@ -65,6 +65,10 @@ void write_outputs(const OutputOptions& options, std::string_view what, Progress
 /// Throws UserError(bad_output) if `what` did not get through to standard output.
 void flush_or_fail(const std::string& what);
 
+/// "geodisk: SUBJECT: MESSAGE" on standard error, the subject once, for what fails while other
+/// things go on.
+void print_failure(const std::string& subject, const std::string& message);
+
 /// "geodisk: warning: MESSAGE" on standard error.
 void print_warning(const std::string& message);
 

@@ -20,7 +20,6 @@ struct SampleResult {
     SampleParams params; ///< Of the job, on its mesh.
     DeviceRun done;
     std::vector<SampleRow> rows;
-    Context context; ///< The device it was on.
     std::optional<DrawnPicture> picture;
 };
 

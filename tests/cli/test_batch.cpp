@@ -1,0 +1,324 @@
+// Many meshes in one go.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The lines of a log, all of which must be whole.
+std::vector<Json> log_of(const std::filesystem::path& path) {
+    std::vector<Json> entries;
+    for (const std::string& line : lines_of(bytes_of(path))) {
+        entries.push_back(Json::parse(line));
+    }
+    return entries;
+}
+
+/// How often the log tells of each mesh that it is done.
+std::map<std::string, int> times_done(const std::vector<Json>& entries) {
+    std::map<std::string, int> times;
+    for (const Json& entry : entries) {
+        times[entry["mesh"]] += entry["status"] == "ok" ? 1 : 0;
+    }
+    return times;
+}
+
+void write_shape(const TemporaryFolder& folder, const std::string& shape, const std::string& file) {
+    std::filesystem::create_directories((folder / file).parent_path());
+    REQUIRE(run(folder, {"shapes", shape, "-o", file}).status == 0);
+}
+
+/// A folder `meshes` of three meshes and what is none.
+void write_meshes(const TemporaryFolder& folder) {
+    write_shape(folder, "cube", "meshes/a.ply");
+    write_shape(folder, "icosphere:2", "meshes/more/b c.PLY");
+    write_shape(folder, "torus-knot:24", "meshes/more/d.ply");
+    folder.write("meshes/notes.txt", "no mesh");
+    folder.write("meshes/.hidden.obj", "no mesh either");
+}
+
+/// The paths in `folder` of all files below `part`.
+std::vector<std::string> files_below(const TemporaryFolder& folder, const std::string& part) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / part)) {
+        if (entry.is_regular_file()) {
+            names.push_back(entry.path().lexically_relative(folder / "").generic_string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// Checks that a single run with these arguments writes the same bytes as are in `file`.
+void check_same(const TemporaryFolder& folder, const std::string& file, const Arguments& sample) {
+    const std::string single = "single" + std::filesystem::path(file).extension().string();
+    const Outcome outcome = run(folder, joined({"sample", "-q", "-o", single}, sample));
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    INFO(file);
+    CHECK(bytes_of(folder / file) == bytes_of(folder / single));
+    CHECK(!bytes_of(folder / file).empty());
+}
+
+/// A manifest whose third line fails after two good ones, and whose fourth takes a while.
+void write_slow_list(const TemporaryFolder& folder) {
+    folder.write("list.txt", "builtin:cube\nbuiltin:torus-knot:24\nmissing.obj\n"
+                             "builtin:icosphere:5 -n 200000\nbuiltin:icosphere:2\n");
+}
+
+const Arguments kSlowList{"batch", "list.txt", "-o", "out", "-n", "100", "--jobs", "1"};
+
+/// Ends the slow batch by `signal` while it is at its fourth line.
+Outcome end_midway(const TemporaryFolder& folder, int signal) {
+    write_slow_list(folder);
+    Setting setting;
+    setting.signal_at = "missing.obj";
+    setting.signal = signal;
+    const Outcome outcome = run(folder, kSlowList, setting);
+    CHECK(files_below(folder, "out") ==
+          std::vector<std::string>{"out/batch.jsonl", "out/cube.ply", "out/torus-knot-24.ply"});
+    CHECK(log_of(folder / "out/batch.jsonl").size() == 3);
+    return outcome;
+}
+
+/// Goes on with it, without what takes long.
+void check_resumes(const TemporaryFolder& folder) {
+    folder.write("list.txt", "builtin:cube\nbuiltin:torus-knot:24\nmissing.obj\n"
+                             "builtin:icosphere:5 -n 200\nbuiltin:icosphere:2\n");
+    const auto before = std::filesystem::last_write_time(folder / "out/cube.ply");
+    const Outcome outcome = run(folder, joined(kSlowList, {"--resume"}));
+    CHECK(outcome.status == 1);
+    CHECK(contains(outcome.out, "5 of list.txt: 2 ok, 1 failed, 2 skipped"));
+    CHECK(std::filesystem::last_write_time(folder / "out/cube.ply") == before);
+    const auto times = times_done(log_of(folder / "out/batch.jsonl"));
+    CHECK(times == std::map<std::string, int>{{"builtin:cube", 1},
+                                              {"builtin:icosphere:2", 1},
+                                              {"builtin:icosphere:5", 1},
+                                              {"builtin:torus-knot:24", 1},
+                                              {"missing.obj", 0}});
+    check_same(folder, "out/icosphere-5.ply", {"builtin:icosphere:5", "-n", "200"});
+    CHECK(files_below(folder, "out").size() == 5);
+}
+
+} // namespace
+
+TEST_CASE("batch does with each mesh of a folder what sample does, however many at a time") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "meshes");
+    write_meshes(folder);
+    const Arguments options{"-n", "150", "--seed", "5"};
+    const Outcome outcome =
+        run(folder, joined({"batch", "meshes", "-o", "meshes/out", "--jobs", "1"}, options));
+    INFO(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK(contains(outcome.out, "3 of meshes: 3 ok, 0 failed, 0 skipped"));
+    CHECK(contains(outcome.out, "meshes per hour"));
+    CHECK(files_below(folder, "meshes/out") ==
+          std::vector<std::string>{"meshes/out/a.ply", "meshes/out/batch.jsonl",
+                                   "meshes/out/more/b c.ply", "meshes/out/more/d.ply"});
+    check_same(folder, "meshes/out/a.ply", joined({"meshes/a.ply"}, options));
+    check_same(folder, "meshes/out/more/b c.ply", joined({"meshes/more/b c.PLY"}, options));
+    check_same(folder, "meshes/out/more/d.ply", joined({"meshes/more/d.ply"}, options));
+
+    // What was written lies in the folder, but is no mesh of it.
+    const Outcome three = run(folder, joined({"batch", "meshes", "-o", "meshes/out", "--jobs", "3",
+                                              "--resume", "--json", "-", "--ascii"},
+                                             options));
+    CHECK(three.status == 0);
+    const Json report = Json::parse(three.out);
+    CHECK(report["meshes"] == 3);
+    CHECK(report["ok"] == 3); // With another option they are others.
+    CHECK(report["jobs"] == 3);
+    CHECK(report["samples"] > 300);
+    for (const Json& entry : log_of(folder / "meshes/out/batch.jsonl")) {
+        CHECK(entry["status"] == "ok");
+        CHECK(entry["exit_code"] == 0);
+        CHECK(entry["seconds"] > 0.0);
+        CHECK(entry["min_distance"] > 0.0);
+    }
+    check_same(folder, "meshes/out/a.ply", joined({"meshes/a.ply", "--ascii"}, options));
+    check_same(folder, "meshes/out/more/d.ply", joined({"meshes/more/d.ply", "--ascii"}, options));
+}
+
+TEST_CASE("a bad file stops no other one of a batch") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "meshes");
+    write_shape(folder, "cube", "meshes/a.ply");
+    folder.write("meshes/b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    folder.write("meshes/c.ply", "ply\n");
+    write_shape(folder, "icosphere:2", "meshes/d.ply");
+    const Outcome outcome = run(folder, {"batch", "meshes", "-o", "out", "-n", "50"});
+    CHECK(outcome.status == 1);
+    CHECK(contains(outcome.err, "geodisk: meshes/b.obj: line 4: "));
+    CHECK(contains(outcome.err, "geodisk: meshes/c.ply: "));
+    CHECK(outcome.err.ends_with("geodisk: 2 meshes of 4 failed; out/batch.jsonl tells why, and "
+                                "--resume tries again\n"));
+    CHECK(files_below(folder, "out") ==
+          std::vector<std::string>{"out/a.ply", "out/batch.jsonl", "out/d.ply"});
+    std::size_t failed = 0;
+    for (const Json& entry : log_of(folder / "out/batch.jsonl")) {
+        if (entry["status"] == "failed") {
+            ++failed;
+            CHECK(entry["exit_code"] == 3);
+            CHECK(contains(entry["error"].get<std::string>(), entry["mesh"].get<std::string>()));
+        }
+    }
+    CHECK(failed == 2);
+
+    write_shape(folder, "cube", "meshes/c.ply"); // And then it is good.
+    const Outcome again = run(folder, {"batch", "meshes", "-o", "out", "-n", "50", "--resume"});
+    CHECK(again.status == 1);
+    CHECK(contains(again.out, "4 of meshes: 1 ok, 1 failed, 2 skipped"));
+}
+
+TEST_CASE("lines of a manifest have options of their own") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "in/sub");
+    write_shape(folder, "cube", "in/sub/a b.ply");
+    folder.write("in/grey.txt", "1\n1\n1\n1\n0.5\n0.5\n0.5\n0.5\n");
+    folder.write("in/list.txt", "\xEF\xBB\xBF# meshes\r\n\r\n"
+                                "'sub/a b.ply' -n 60 # fewer\r\n"
+                                "\"sub/a b.ply\" -r 10% -o second.v2\r\n"
+                                "sub/a\" \"b.ply --density-file grey.txt -o deep/third.csv\r\n"
+                                "builtin:torus-knot:24 --method pdts --throws 900 -d 5% --seed 7");
+    const Outcome outcome = run(folder, {"batch", "in/list.txt", "-o", "out", "-n", "80",
+                                         "--pool-ratio", "30", "--seed", "3"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const Arguments common{"--pool-ratio", "30", "--seed", "3"};
+    const std::string mesh = "in/sub/a b.ply";
+    check_same(folder, "out/sub/a b.ply", joined({mesh, "-n", "60"}, common));
+    check_same(folder, "out/second.v2.ply", joined({mesh, "-r", "10%"}, common));
+    check_same(folder, "out/deep/third.csv",
+               joined({mesh, "-n", "80", "--density-file", "in/grey.txt"}, common));
+    check_same(folder, "out/torus-knot-24.ply",
+               {"builtin:torus-knot:24", "--method", "pdts", "--throws", "900", "-d", "5%", "-n",
+                "80", "--seed", "7"});
+}
+
+TEST_CASE("wrong lines of a manifest are told before any work") {
+    const TemporaryFolder folder;
+    const auto check = [&](const char* manifest, int status, const std::string& part,
+                           const Arguments& more = {"-n", "9"}) {
+        folder.write("list.txt", manifest);
+        check_fails(folder, status, part, joined({"batch", "list.txt", "-o", "out"}, more));
+    };
+    check("builtin:cube\n\nbuiltin:cube -o b -n x\n", 2, "list.txt: line 3: --count: 'x' is not");
+    check("builtin:cube \"-n 9\n", 2, "list.txt: line 1: a quote \" has no end");
+    check("builtin:cube builtin:torus\n", 2, "list.txt: line 1: ");
+    check("-n 9\n", 2, "list.txt: line 1: MESH is required");
+    check("builtin:cube --device 0\n", 2, "--device");
+    check("builtin:cube --help\n", 2, "--help");
+    check("builtin:cube -o ../a\n", 2, "line 1: --output: '../a' is no name");
+    check("builtin:cube\n", 2, "line 1: no distance given", {"-q"});
+    check("builtin:cube\n# \nlist.txt -o cube\n", 2,
+          "list.txt: line 1 and list.txt: line 3 would both write out/cube.ply");
+    check("out/a.ply -o a\n", 2, "line 1: its samples would replace out/a.ply");
+    check("# nothing\n", 3, "list.txt: names no mesh");
+    check("builtin:cube\n", 2, "--shard: '2/2' is not", {"-n", "9", "--shard", "2/2"});
+    check("builtin:cube\n", 2, "--shard", {"-n", "9", "--shard", "1"});
+    check("builtin:cube\n", 2, "--jobs", {"-n", "9", "--jobs", "0"});
+    check("builtin:cube\n", 2, "--format: 'obj'", {"-n", "9", "--format", "obj"});
+    std::filesystem::create_directory(folder / "empty");
+    check_fails(folder, 3, "empty: holds no mesh", {"batch", "empty", "-o", "out", "-n", "9"});
+    check_fails(folder, 3, "absent: ", {"batch", "absent", "-o", "out", "-n", "9"});
+    write_shape(folder, "cube", "two/a.ply");
+    write_shape(folder, "cube", "two/b.ply");
+    std::filesystem::rename(folder / "two/b.ply", folder / "two/a.PLY");
+    check_fails(folder, 2, "would both write out/a.ply", {"batch", "two", "-o", "out", "-n", "9"});
+}
+
+TEST_CASE("shards of a batch do each mesh once and share no log") {
+    const TemporaryFolder folder;
+    folder.write("list.txt", "builtin:cube\nbuiltin:cube:2\nbuiltin:cube:3\nbuiltin:cube:4\n"
+                             "builtin:cube:5\n");
+    std::map<std::string, int> times;
+    for (const char* const index : {"0", "1", "2"}) {
+        const Outcome outcome = run(folder, {"batch", "list.txt", "-o", "out", "-n", "30",
+                                             "--shard", std::string(index) + "/3"});
+        CHECK(outcome.status == 0);
+        const auto log = log_of(folder / ("out/batch-" + std::string(index) + "-of-3.jsonl"));
+        CHECK(log.size() == (*index == '2' ? 1 : 2));
+        for (const auto& [mesh, count] : times_done(log)) {
+            times[mesh] += count;
+        }
+    }
+    CHECK(times.size() == 5);
+    CHECK(std::all_of(times.begin(), times.end(), [](const auto& t) { return t.second == 1; }));
+    CHECK(files_below(folder, "out").size() == 8);
+
+    // Another division goes on where they ended, and finds nothing left.
+    const Outcome whole = run(folder, {"batch", "list.txt", "-o", "out", "-n", "30", "--resume"});
+    CHECK(whole.status == 0);
+    CHECK(contains(whole.out, "5 of list.txt: 0 ok, 0 failed, 5 skipped"));
+}
+
+TEST_CASE("an interrupted batch goes on without loss or double work") {
+    const TemporaryFolder folder;
+    const Outcome outcome = end_midway(folder, SIGINT);
+    CHECK(outcome.status == 130);
+    CHECK(outcome.err.ends_with("geodisk: interrupted\n"));
+    CHECK(outcome.out.empty());
+    check_resumes(folder);
+}
+
+TEST_CASE("a killed batch goes on behind a torn line of its log") {
+    const TemporaryFolder folder;
+    CHECK(end_midway(folder, SIGKILL).status == -SIGKILL);
+    std::ofstream(folder / "out/batch.jsonl", std::ios::app) << R"({"mesh":"builtin:icosph)";
+    check_resumes(folder);
+}
+
+TEST_CASE("a batch neither overwrites a log nor takes a lost file for done") {
+    const TemporaryFolder folder;
+    folder.write("list.txt", "builtin:cube\nbuiltin:icosphere:2\n");
+    const Arguments batch{"batch", "list.txt", "-o", "out", "-n", "30"};
+    REQUIRE(run(folder, batch).status == 0);
+    const std::string log = bytes_of(folder / "out/batch.jsonl");
+    check_fails(folder, 2, "out/batch.jsonl: there is a log already", batch);
+    CHECK(bytes_of(folder / "out/batch.jsonl") == log);
+    std::filesystem::remove(folder / "out/cube.ply");
+    const Outcome outcome = run(folder, joined(batch, {"--resume"}));
+    CHECK(contains(outcome.out, "2 of list.txt: 1 ok, 0 failed, 1 skipped"));
+    const Outcome other = run(folder, joined(batch, {"--resume", "--seed", "4"}));
+    CHECK(contains(other.out, "2 of list.txt: 2 ok, 0 failed, 0 skipped"));
+}
+
+TEST_CASE("the commands that a log tells do the same") {
+    const TemporaryFolder folder;
+    folder.write("list.txt", "builtin:cube --weld --ascii\n"
+                             "builtin:icosphere:2 --density-curvature --density-floor 0.3\n"
+                             "builtin:icosphere:3 --lift normals:0.2 --seed 0x9 -d 20%\n"
+                             "builtin:torus-knot:24 --metric euclidean --pool-ratio 10\n"
+                             "builtin:cube:3 --method pdts -r 0.1 --throws 300 -o darts.csv\n");
+    REQUIRE(run(folder, {"batch", "list.txt", "-o", "out", "-n", "40"}).status == 0);
+    for (const Json& entry : log_of(folder / "out/batch.jsonl")) {
+        Arguments words;
+        std::istringstream text(entry["command"].get<std::string>());
+        for (std::string word; text >> word;) {
+            words.push_back(word);
+        }
+        const std::string bytes = bytes_of(folder / entry["output"].get<std::string>());
+        std::filesystem::remove(folder / entry["output"].get<std::string>());
+        INFO(entry["command"].get<std::string>());
+        CHECK(run(folder, Arguments(words.begin() + 1, words.end())).status == 0);
+        CHECK(bytes_of(folder / entry["output"].get<std::string>()) == bytes);
+    }
+}
+
+} // namespace geodisk::test

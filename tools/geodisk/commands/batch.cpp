@@ -1,0 +1,135 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "geodisk/batch/batch_items.hpp"
+#include "geodisk/batch/batch_log.hpp"
+#include "geodisk/batch/batch_run.hpp"
+#include "geodisk/batch/device_pool.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/options/batch_options.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/batch_report.hpp"
+#include "program/command.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  geodisk batch meshes -o samples --count 10000
+  geodisk batch list.txt -o samples --min-distance 1% --format csv
+  geodisk batch list.txt -o samples --count 10000 --shard 3/16
+  geodisk batch list.txt -o samples --count 10000 --resume
+
+A manifest, whose paths are relative to it:
+  # mesh              options
+  bunny.ply           --count 20000
+  "old scans/a.obj"   --min-distance 0.5% --weld -o scans/first
+  builtin:torus-knot  --seed 7
+
+Exit status:
+  0    all meshes are done
+  1    some failed, as the log tells; the others are done
+  2    wrong usage, a line of the manifest among it
+  3    the folder or the manifest is missing, unreadable or names no mesh
+  4    the log or the report cannot be written
+  5    no Vulkan device that can run geodisk
+  6    the list of meshes does not fit into memory
+  7    an error or crash inside geodisk or the driver
+  130  interrupted (SIGINT)
+  143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
+Files of meshes that are done stay, whatever the status, and --resume goes on behind them.)";
+
+/// Enough that one reads and writes while the device samples another.
+constexpr int kJobsPerDevice = 2;
+
+/// What of the shard is not done yet.
+std::vector<const BatchItem*> items_to_do(const std::vector<BatchItem>& items, const Shard& shard,
+                                          const std::set<std::string>& done, BatchResult& result) {
+    std::vector<const BatchItem*> left;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (!shard.has(i)) {
+            continue;
+        }
+        ++result.meshes;
+        std::error_code ignored;
+        if (done.contains(items[i].command) &&
+            std::filesystem::is_regular_file(Path(items[i].job.out.output), ignored)) {
+            ++result.skipped;
+        } else {
+            left.push_back(&items[i]);
+        }
+    }
+    return left;
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(Path(folder), error);
+    if (error) {
+        fail_to_write(folder, error.message());
+    }
+}
+
+/// The log, and the report for programs, are written beside what is read.
+void check_paths(const BatchOptions& options, const std::string& log) {
+    OutputOptions out = options.sample.out;
+    out.output = log;
+    check_outputs(out, "the log", {{"the manifest", options.input}}, [](const Path&) {});
+}
+
+void run_items(const BatchOptions& options, const std::vector<const BatchItem*>& items,
+               LineLog& log, BatchResult& result) {
+    ProgressLine progress(options.sample.out.quiet);
+    DevicePool pool(chosen_devices(options.devices), options.sample.run.device.validate,
+                    items.front()->job.runner);
+    pool.open(progress);
+    result.devices = pool.names();
+    result.jobs = options.jobs != 0 ? options.jobs : kJobsPerDevice * static_cast<int>(pool.size());
+    result.totals = run_batch(items, result.jobs, pool, log, progress);
+}
+
+void run_batch_command(const BatchOptions& options) {
+    const Shard shard = options.parsed_shard();
+    const std::vector<BatchItem> items = batch_items(options);
+    BatchResult result;
+    result.log = batch_log_path(options);
+    if (!options.resumes) {
+        check_no_log(result.log);
+    }
+    make_folder(options.folder);
+    check_paths(options, result.log);
+    LineLog log(result.log);
+    const auto done = options.resumes ? commands_done(options.folder) : std::set<std::string>();
+    const std::vector<const BatchItem*> left = items_to_do(items, shard, done, result);
+    if (!left.empty()) {
+        run_items(options, left, log, result);
+    }
+    publish(options.sample.out, batch_json(options, result), batch_summary(options, result));
+    if (result.totals.failed > 0) {
+        throw UserError(ExitCode::some_failed, counted(result.totals.failed, "mesh", "meshes") +
+                                                   " of " + grouped(result.meshes) + " failed; " +
+                                                   result.log +
+                                                   " tells why, and --resume tries again");
+    }
+}
+
+} // namespace
+
+void add_batch_command(Command app) {
+    const Command command =
+        app.add_command("batch", "Sample all meshes of a folder or list, each to a file");
+    const auto options = std::make_shared<BatchOptions>();
+    add_batch_options(command, *options);
+    command.has_footer(kFooter);
+    command.calls([options] { run_batch_command(*options); });
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,29 @@
+// Lists of meshes, one per line with options of its own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "program/path.hpp"
+
+namespace geodisk::tools {
+
+struct ManifestLine {
+    std::uint32_t number; ///< In the file, from 1.
+    std::vector<std::string> words;
+};
+
+/// The words of `line`, between blanks and tabs. Those in single or double quotes belong together,
+/// also within a word; a # where a word may begin ends the line. Throws UserError(usage) for a
+/// quote without end.
+std::vector<std::string> split_words(const std::string& line);
+
+/// The lines that have words. Throws UserError: `bad_input` for a file that cannot be read, `usage`
+/// naming the line for what split_words() refuses.
+std::vector<ManifestLine> read_manifest(const Path& path);
+
+/// "PATH: line NUMBER".
+std::string line_text(const Path& path, std::uint32_t number);
+
+} // namespace geodisk::tools

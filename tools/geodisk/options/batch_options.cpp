@@ -1,0 +1,136 @@
+#include "geodisk/options/batch_options.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "files/mesh_file.hpp"
+#include "program/command.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/program.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+void add_line_options(Command command, LineOptions& line) {
+    add_mesh_argument(command, line.sample.mesh, "Mesh to sample");
+    command.add_option("-o,--output", line.name, "NAME", "File to write, in the folder");
+    add_subject_options(command, line.sample);
+    add_ascii_option(command, line.sample.out);
+}
+
+void parse_words(const std::vector<std::string>& words, LineOptions& line) {
+    run_arguments([&](Command command) { add_line_options(command, line); }, words);
+}
+
+/// `path`, relative to `folder`, for who works in the current one.
+std::string seen_from(const Path& folder, const std::string& path) {
+    return is_builtin(path) ? path : (folder / Path(path)).string();
+}
+
+/// Takes out of `common` what an option of another name in `line` stands in for.
+void drop_replaced(SampleOptions& common, const SampleOptions& line) {
+    const std::string& method =
+        line.method.method.empty() ? common.method.method : line.method.method;
+    const bool throws_darts = method == "pdts";
+    const bool has_length = !line.min_distance.empty() || !line.radius.empty();
+    // Where darts stop at a count, it goes with a length.
+    if (has_length || (!line.count.empty() && !throws_darts)) {
+        common.min_distance.clear();
+        common.radius.clear();
+    }
+    if (has_length && !throws_darts) {
+        common.count.clear();
+    }
+    if (!line.method.method.empty()) {
+        (throws_darts ? common.method.pool_ratio : common.method.throws).clear();
+    }
+    const DensityOptions& density = line.density;
+    if (!density.attribute.empty() || !density.file.empty() || !density.map.empty() ||
+        density.curvature) {
+        common.density = {};
+    }
+}
+
+} // namespace
+
+Shard BatchOptions::parsed_shard() const {
+    if (shard.empty()) {
+        return {};
+    }
+    const std::size_t slash = shard.find('/');
+    const auto index = parse_integer<std::size_t>(shard.substr(0, slash));
+    const auto count = slash == std::string::npos
+                           ? std::nullopt
+                           : parse_integer<std::size_t>(shard.substr(slash + 1));
+    if (!index || !count || *index >= *count) {
+        fail_usage("--shard: " + in_quotes(shard) +
+                   " is not a part I/N of N, counted from 0: 0/4 to 3/4");
+    }
+    return {*index, *count};
+}
+
+void add_batch_options(Command command, BatchOptions& options) {
+    command
+        .add_option("INPUT", options.input, "",
+                    "Folder of meshes, with those in it; or manifest, a text\n"
+                    "file with a mesh on each line, and options for it")
+        .required();
+    command
+        .add_option("-o,--output", options.folder, "DIR",
+                    "Folder to write to: samples and batch.jsonl, the log")
+        .required();
+    command.add_option("--format", options.format, "NAME", "Of the samples: ply, csv or xyz")
+        .shows_default();
+    const char* const group = "Batch";
+    command
+        .add_option("--jobs", options.jobs, "K",
+                    "Meshes to read, sample and write at a time, 1 to 32;\n"
+                    "without it, 2 for each device",
+                    group)
+        .takes_range(1, kMostJobs);
+    command.add_option("--shard", options.shard, "I/N",
+                       "Only each Nth mesh, from the Ith on, counted from 0; the\n"
+                       "log is then batch-I-of-N.jsonl",
+                       group);
+    command.add_flag("--resume", options.resumes,
+                     "Go on with a batch: leave out what the logs in DIR tell\n"
+                     "is done with the same options",
+                     group);
+    command
+        .add_option("--device", options.devices, "NAME|INDEX",
+                    "Device by name, index or UUID (geodisk info), or all; may\n"
+                    "be given several times. Without it, all GPUs, or the best\n"
+                    "device where there are none",
+                    group)
+        .takes_one_value();
+    add_subject_options(command, options.sample);
+    add_validate_option(command, options.sample.run.device);
+    add_limit_options(command, options.sample.run);
+    add_output_options(command, options.sample.out);
+}
+
+LineOptions parse_line(const SampleOptions& common, const std::vector<std::string>& words,
+                       const Path& folder) {
+    LineOptions alone;
+    alone.sample.method.method.clear(); // To see whether the line gives one.
+    parse_words(words, alone);
+    LineOptions line{common, alone.sample.mesh.mesh, {}};
+    drop_replaced(line.sample, alone.sample);
+    parse_words(words, line);
+    SampleOptions& sample = line.sample;
+    sample.mesh.mesh = seen_from(folder, sample.mesh.mesh);
+    for (const auto& [path, given] :
+         {std::pair{&sample.mesh.coordinates, &alone.sample.mesh.coordinates},
+          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths},
+          {&sample.density.file, &alone.sample.density.file},
+          {&sample.density.map, &alone.sample.density.map}}) {
+        if (!given->empty()) {
+            *path = seen_from(folder, *given);
+        }
+    }
+    return line;
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,73 @@
+#include "geodisk/options/sample_command.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "program/command_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// Arguments, without those that say what is so anyway.
+class ArgumentList {
+  public:
+    explicit ArgumentList(std::vector<std::string> first) : words_(std::move(first)) {}
+
+    void add(const char* name, const std::string& value, const std::string& usual = {}) {
+        if (value != usual) {
+            words_.insert(words_.end(), {name, value});
+        }
+    }
+    void add_flag(const std::string& text, bool is_set) {
+        if (is_set) {
+            words_.push_back(text);
+        }
+    }
+    const std::vector<std::string>& words() const { return words_; }
+
+  private:
+    std::vector<std::string> words_;
+};
+
+void add_mesh(ArgumentList& list, const MeshOptions& mesh) {
+    const HeaderEntries additions = mesh.additions();
+    for (const auto& [name, value] : additions) {
+        if (name == "weld") { // A flag takes no value behind a blank.
+            list.add_flag("--weld=" + value, true);
+        }
+    }
+    list.add("--coordinates", mesh.coordinates);
+    list.add("--edge-lengths", mesh.edge_lengths);
+    for (const std::string& lift : mesh.lifts) {
+        list.add("--lift", lift);
+    }
+}
+
+void add_density(ArgumentList& list, const DensityOptions& density) {
+    list.add("--density-attribute", density.attribute);
+    list.add("--density-file", density.file);
+    list.add("--density-map", density.map);
+    list.add_flag("--density-curvature", density.curvature);
+    list.add("--density-floor", density.floor);
+}
+
+} // namespace
+
+std::string sample_command(const SampleOptions& options) {
+    const SampleOptions usual;
+    ArgumentList list({"sample", options.mesh.mesh, "-o", options.out.output});
+    list.add("--min-distance", options.min_distance);
+    list.add("--radius", options.radius);
+    list.add("--count", options.count);
+    add_mesh(list, options.mesh);
+    add_density(list, options.density);
+    list.add("--metric", options.metric, usual.metric);
+    list.add("--method", options.method.method, usual.method.method);
+    list.add("--pool-ratio", options.method.pool_ratio);
+    list.add("--throws", options.method.throws);
+    list.add("--seed", options.run.seed, usual.run.seed);
+    list.add_flag("--ascii", options.out.ascii);
+    return command_text("geodisk", list.words());
+}
+
+} // namespace geodisk::tools

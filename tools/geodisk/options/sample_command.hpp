@@ -1,0 +1,14 @@
+// Sampling jobs as commands.
+#pragma once
+
+#include <string>
+
+#include "geodisk/options/sample_options.hpp"
+
+namespace geodisk::tools {
+
+/// The command, as a line for a shell, that gives the same samples in the same file. Options that
+/// change neither are not in it, so equal commands give equal files.
+std::string sample_command(const SampleOptions& options);
+
+} // namespace geodisk::tools
