@@ -35,7 +35,7 @@ class Bytes {
     /// A struct of any content, of the right size or another one.
     template <class Struct>
     Struct any_struct() {
-        auto value = next<Struct>();
+        auto value = below(2) == 0 ? next<Struct>() : Struct{};
         value.struct_size = below(8) == 0 ? below(sizeof(Struct) + 1) : sizeof(Struct);
         return value;
     }
@@ -92,7 +92,8 @@ class Program {
 
   private:
     void call() {
-        geodisk_error error = bytes_.any_struct<geodisk_error>();
+        geodisk_error error{};
+        error.struct_size = bytes_.below(4) == 0 ? bytes_.below(sizeof error) : sizeof error;
         geodisk_error* const e = bytes_.below(4) == 0 ? nullptr : &error;
         switch (bytes_.below(16)) {
         case 0:

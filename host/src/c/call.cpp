@@ -68,7 +68,7 @@ void copy_text(std::string_view text, char* to, std::size_t capacity) noexcept {
             --size;
         }
     }
-    std::memcpy(to, text.data(), size);
+    std::copy_n(text.begin(), size, to);
     to[size] = 0;
 }
 
