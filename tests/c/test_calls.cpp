@@ -63,6 +63,7 @@ TEST_CASE("wrong arguments are told of") {
         check_wrong(part, [&](geodisk_error* e) { return geodisk_mesh_create(&params, &made, e); });
     };
     mesh_fails("struct_size", [](auto& p) { p.struct_size = 0; });
+    mesh_fails("struct_size", [](auto& p) { p.struct_size -= 3; });
     mesh_fails("one of", [](auto& p) { p.positions = nullptr; });
     mesh_fails("indices is NULL", [](auto& p) { p.indices = nullptr; });
     mesh_fails("position_type", [](auto& p) { p.position_type = GEODISK_UINT16; });

@@ -37,6 +37,12 @@ void copy_text(std::string_view text, char (&to)[kCapacity]) noexcept {
     copy_text(text, to, kCapacity);
 }
 
+/// Whether a struct of some version can have so many bytes: then none of its fields is cut.
+template <class Struct>
+bool is_size_of(std::size_t size) noexcept {
+    return size >= sizeof(std::size_t) && size % alignof(Struct) == 0;
+}
+
 /// The caller's struct as this version has it: what an older one lacks is 0. Fails where a later
 /// one asks for what this version does not know.
 template <class Struct>
@@ -45,8 +51,8 @@ Result<Struct> taken(const Struct* given, const char* name) {
         return wrong(std::string(name) + " is NULL");
     }
     const std::size_t size = given->struct_size;
-    if (size < sizeof(std::size_t)) {
-        return wrong(std::string(name) + "->struct_size is not set");
+    if (!is_size_of<Struct>(size)) {
+        return wrong(std::string(name) + "->struct_size is not its size");
     }
     const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
     for (std::size_t i = sizeof(Struct); i < size; ++i) {
@@ -67,8 +73,8 @@ Result<Done> give(Struct* to, const char* name, Struct value) {
         return wrong(std::string(name) + " is NULL");
     }
     const std::size_t size = to->struct_size;
-    if (size < sizeof(std::size_t)) {
-        return wrong(std::string(name) + "->struct_size is not set");
+    if (!is_size_of<Struct>(size)) {
+        return wrong(std::string(name) + "->struct_size is not its size");
     }
     value.struct_size = size;
     std::memcpy(to, &value, std::min(size, sizeof(Struct)));
