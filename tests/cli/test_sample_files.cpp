@@ -79,6 +79,23 @@ TEST_CASE("all formats hold the same samples") {
     }
 }
 
+TEST_CASE("the format is that of --format or of the extension") {
+    const TemporaryFolder folder;
+    const std::string csv = sample_cube(folder, "a.csv", {"-d", "0.2"});
+    CHECK(sample_cube(folder, "a.txt", {"-d", "0.2", "--format", "csv"}) == csv);
+    const std::string npz = sample_cube(folder, "a.npz", {"-d", "0.2"});
+    CHECK(npz.starts_with("PK"));
+    CHECK(sample_cube(folder, "b.npz", {"-d", "0.2"}) == npz);
+    CHECK(sample_cube(folder, "a.pcd", {"-d", "0.2"}).starts_with("# .PCD v0.7"));
+    CHECK(contains(sample_cube(folder, "a.obj", {"-d", "0.2"}), "# min_distance: 0.2\n"));
+    check_fails(folder, 2, "--format: 'las' is no sample format",
+                {"sample", "builtin:cube", "-o", "b.las", "-n", "9", "--format", "las"});
+    check_fails(folder, 3, "geodisk writes samples as .npz but does not read them back",
+                {"verify", "builtin:cube", "a.npz"});
+    check_fails(folder, 2, "an .obj file holds three coordinates",
+                {"sample", "builtin:veronese:2", "-o", "b.obj", "-n", "9"});
+}
+
 TEST_CASE("samples name the triangles and faces of the mesh file, whatever of it is dropped") {
     const TemporaryFolder folder;
     // A cube of quads with a line, a copy, and a face that repeats a vertex before most of them.

@@ -113,7 +113,7 @@ void run_box(const BoxOptions& options) {
     BoxJob job = parse_job(options);
     const auto dimension = static_cast<std::uint32_t>(job.box.extents.size());
     check_outputs(job.out, "the samples", {});
-    check_box_dimension(job.out.output, dimension);
+    check_box_dimension(job.out.target(), dimension);
     ProgressLine progress(job.out.quiet);
     const auto task_at = [&](double min_distance) {
         job.box.min_distance = min_distance;
@@ -126,7 +126,7 @@ void run_box(const BoxOptions& options) {
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
     const BoxReport report(job, rows.size(), done);
     write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
-        write_box_samples(file, job.out.output, report.header(), rows, job.out.ascii, dimension);
+        write_box_samples(file, job.out.target(), report.header(), rows, dimension);
     });
 }
 
@@ -137,8 +137,8 @@ void add_box_command(Command app) {
         app.add_command("box", "Put samples in a box of R^n, by straight-line distance");
     const auto options = std::make_shared<BoxOptions>();
     add_output_argument(command, options->out,
-                        "File to write: *.csv, *.ply (binary; 0 for coordinates that a\n"
-                        "box of fewer than three lacks) or *.xyz (positions only)");
+                        "File to write: *.csv, *.npz, or with 0 for coordinates that a box\n"
+                        "of fewer than three lacks *.ply, *.pcd, *.glb, *.gltf, *.obj, *.xyz");
     const char* const box = "Box";
     command.add_option("--dim", options->dimension, "N", "Dimensions, 1 to 6; sides of 1", box);
     command.add_option("--extents", options->extents, "A,...",

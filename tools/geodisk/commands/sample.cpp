@@ -32,13 +32,13 @@ void draw_samples(const MeshInput& mesh, SampleResult& result, ProgressLine& pro
 void run_sample(const SampleOptions& options) {
     const SampleJob job = parse_job(options);
     const NamedFile picture{"the picture", job.picture};
-    check_outputs(job.out, "the samples", files_read(job), check_output_path, {picture});
+    check_outputs(job.out, "the samples", files_read(job), nullptr, {picture});
     if (!job.picture.empty()) {
         check_picture_path(job.picture);
     }
     ProgressLine progress(job.out.quiet);
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
-    check_dimension(job.out.output, mesh.dimension());
+    check_dimension(job.out.target(), mesh.dimension());
     if (!job.picture.empty()) {
         check_visible(job.mesh.mesh, mesh);
     }
@@ -52,8 +52,7 @@ void run_sample(const SampleOptions& options) {
     }
     const SampleReport report(job, mesh, result);
     const auto write = [&](AtomicFile& file) {
-        write_samples(file, job.out.output, report.header(), result.rows, job.out.ascii,
-                      mesh.dimension());
+        write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension());
     };
     write_outputs(job.out, "the samples", progress, report, write, further);
 }

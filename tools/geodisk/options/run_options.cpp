@@ -16,7 +16,10 @@ void add_json_option(Command command, OutputOptions& options) {
 
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
-    command.add_flag("--ascii", options.ascii, "Write PLY as text");
+    command.add_option("--format", options.format, "NAME",
+                       "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, whatever\n"
+                       "the extension of OUT");
+    command.add_flag("--ascii", options.ascii, "Write PLY or PCD as text");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
 }
 

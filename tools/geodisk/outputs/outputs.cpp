@@ -56,8 +56,10 @@ void check_outputs(const OutputOptions& options, const std::string& what,
     add({what, options.output});
     std::ranges::for_each(further, add);
     add({"the report", options.json});
-    if (!options.output.empty()) {
+    if (!options.output.empty() && check_path != nullptr) {
         check_path(options.output);
+    } else if (!options.output.empty()) {
+        check_writable(options.target().path);
     }
     if (is_file(options.json)) {
         check_writable(options.json);
