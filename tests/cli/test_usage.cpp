@@ -49,6 +49,32 @@ TEST_CASE("the version is one line") {
     CHECK(lines_of(outcome.out).size() == 1);
 }
 
+TEST_CASE("colours are for terminals that want them") {
+    if (!terminals_work()) {
+        return;
+    }
+    const TemporaryFolder folder;
+    folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n");
+    const auto told = [&](const Arguments& arguments, const std::string& terminal,
+                          const std::string& no_color, bool has_terminal = true) {
+        Setting setting;
+        setting.has_terminal = has_terminal;
+        setting.environment = {{"TERM", terminal}, {"NO_COLOR", no_color}};
+        return run(folder, arguments, setting).err;
+    };
+    const Arguments wrong{"resample"};
+    const Arguments odd{"sample", "odd.obj", "-o", "a.csv", "-n", "9", "-q"};
+    CHECK(contains(told(wrong, "xterm", ""), "\x1b[31mgeodisk:\x1b[0m "));
+    CHECK(contains(told(odd, "xterm", ""), "\x1b[33mgeodisk: warning:\x1b[0m "));
+    for (const Arguments& arguments : {wrong, odd}) {
+        for (const std::string& plain : {told(arguments, "xterm", "1"), told(arguments, "dumb", ""),
+                                         told(arguments, "xterm", "", false)}) {
+            CHECK(plain.starts_with("geodisk: "));
+            CHECK_FALSE(contains(plain, "\x1b"));
+        }
+    }
+}
+
 TEST_CASE("shapes lists names that sample and verify take") {
     const TemporaryFolder folder;
     const Outcome outcome = run(folder, {"shapes"});

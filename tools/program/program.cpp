@@ -16,6 +16,7 @@
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/standard_streams.hpp"
+#include "program/terminal.hpp"
 #include "program/utf8_arguments.hpp"
 
 namespace geodisk::tools {
@@ -25,7 +26,10 @@ std::string noted_command;
 
 int fail(const char* program, ExitCode code, const std::string& message) {
     std::cout.flush();
-    std::cerr << program << ": " << one_line(message) << '\n';
+    const std::string mark = std::string(program) + ':';
+    const bool is_signal = static_cast<int>(code) > 128; // Which was wanted, so no error.
+    std::cerr << (is_signal ? mark : coloured(mark, Colour::red)) << ' ' << one_line(message)
+              << '\n';
     return static_cast<int>(code);
 }
 

@@ -7,6 +7,7 @@
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/terminal.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -95,7 +96,7 @@ void flush_or_fail(const std::string& what) {
 }
 
 void print_warning(const std::string& message) {
-    std::cerr << "geodisk: warning: " << one_line(message) << '\n';
+    std::cerr << coloured("geodisk: warning:", Colour::yellow) << ' ' << one_line(message) << '\n';
 }
 
 } // namespace geodisk::tools
