@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/command.hpp"
 #include "files/sample_file.hpp"
 
@@ -94,6 +96,37 @@ TEST_CASE("the format is that of --format or of the extension") {
                 {"verify", "builtin:cube", "a.npz"});
     check_fails(folder, 2, "an .obj file holds three coordinates",
                 {"sample", "builtin:veronese:2", "-o", "b.obj", "-n", "9"});
+}
+
+TEST_CASE("a dry run tells what to expect and writes nothing") {
+    const TemporaryFolder folder;
+    const Arguments job{"sample", "builtin:cube", "-d", "0.2"};
+    const Outcome text = run(folder, joined(job, {"--dry-run"}));
+    INFO(text.err);
+    REQUIRE(text.status == 0);
+    for (const char* const part :
+         {"min distance  0.2 ", "samples       about ", " expected\n", "candidates    about ",
+          "memory        ", " sampling, as tried", "file          none, this was a dry run\n"}) {
+        CHECK(contains(text.out, part));
+    }
+    const Outcome report = run(folder, joined(job, {"--dry-run", "-o", "a.ply", "--json", "-"}));
+    REQUIRE(report.status == 0);
+    const auto document = nlohmann::json::parse(report.out);
+    CHECK(document.at("dry_run") == true);
+    CHECK(document.at("pilot_part") == 1);
+    CHECK(document.at("device_bytes") > 0);
+    CHECK(files_in(folder).empty());
+    const double expected = document.at("expected_samples");
+    CHECK(document.at("expected_candidates").get<double>() ==
+          doctest::Approx(20 * expected).epsilon(0.1));
+    const auto rows = csv_rows(sample_cube(folder, "a.csv", {"-d", "0.2"}));
+    CHECK(static_cast<double>(rows.size()) == doctest::Approx(expected).epsilon(0.2));
+
+    const Outcome box = run(folder, {"box", "--dim", "2", "-n", "99", "--dry-run"});
+    CHECK(box.status == 0);
+    CHECK(contains(box.out, "samples       about 99 expected\n"));
+    check_fails(folder, 2, "--output is required", {"box", "--dim", "2", "-n", "99"});
+    check_fails(folder, 6, "--memory", joined(job, {"--dry-run", "--memory", "1"}));
 }
 
 TEST_CASE("samples name the triangles and faces of the mesh file, whatever of it is dropped") {

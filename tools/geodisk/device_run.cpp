@@ -41,14 +41,6 @@ ProgressCallback show_progress(ProgressLine& progress, double expected) {
     };
 }
 
-/// Throws UserError for an error of a run that --memory can help with.
-void check_run(const Error& error, bool bounded) {
-    if (error.status == Status::workspace_too_small ||
-        (error.status == Status::out_of_device_memory && bounded)) {
-        throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
-    }
-}
-
 std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
     return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
 }
@@ -64,6 +56,13 @@ SampleSet sample(Runner& runner, const Task& task, bool bounded, ProgressLine& p
 }
 
 } // namespace
+
+void check_run(const Error& error, bool bounded) {
+    if (error.status == Status::workspace_too_small ||
+        (error.status == Status::out_of_device_memory && bounded)) {
+        throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
+    }
+}
 
 DeviceResult run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
                            const TaskAt& task_at, double min_distance, double wanted,

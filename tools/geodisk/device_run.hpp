@@ -37,6 +37,9 @@ struct Task {
 };
 using TaskAt = std::function<Task(double min_distance)>;
 
+/// Throws UserError for an error of a run that --memory can help with, which was `bounded` by it.
+void check_run(const Error& error, bool bounded);
+
 /// Opens the device of `options`, compiles there what the domain needs, and samples it. Where a
 /// number of samples is wanted, not 0, and another comes out, it tries other distances
 /// (CountSearch) and takes the nearest. The device can draw as well, where `graphics` is set.

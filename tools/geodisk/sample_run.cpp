@@ -81,4 +81,13 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, ProgressLi
             std::move(context), std::nullopt};
 }
 
+DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress) {
+    check_space(job, mesh);
+    const SampleParams params = params_on(mesh, job);
+    const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
+    return dry_run_on_device(job.run, job.runner,
+                             {domain_of(job, mesh, params), job.method.expected(room)},
+                             params.min_distance, params.seed, progress);
+}
+
 } // namespace geodisk::tools

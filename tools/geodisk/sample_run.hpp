@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "geodisk/dry_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -15,5 +16,8 @@ std::vector<NamedFile> files_read(const SampleJob& job);
 
 /// Samples `mesh`, which must outlive the result, as the job asks for. Throws UserError.
 SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
+
+/// The same as a dry run.
+DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
 
 } // namespace geodisk::tools

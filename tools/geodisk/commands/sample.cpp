@@ -30,6 +30,7 @@ void draw_samples(const MeshInput& mesh, SampleResult& result, ProgressLine& pro
 }
 
 void run_sample(const SampleOptions& options) {
+    check_output_or_dry_run(options.out);
     const SampleJob job = parse_job(options);
     const NamedFile picture{"the picture", job.picture};
     check_outputs(job.out, "the samples", files_read(job), nullptr, {picture});
@@ -38,9 +39,16 @@ void run_sample(const SampleOptions& options) {
     }
     ProgressLine progress(job.out.quiet);
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
-    check_dimension(job.out.target(), mesh.dimension());
+    if (!job.out.output.empty()) {
+        check_dimension(job.out.target(), mesh.dimension());
+    }
     if (!job.picture.empty()) {
         check_visible(job.mesh.mesh, mesh);
+    }
+    if (job.out.is_dry_run) {
+        const DryRun dry = try_sampling(job, mesh, progress);
+        publish(job.out, dry_sample_json(job, mesh, dry), dry_sample_text(job, mesh, dry));
+        return;
     }
     std::vector<FurtherFile> further;
     SampleResult result = sample_mesh(job, mesh, progress);
