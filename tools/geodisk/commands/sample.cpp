@@ -29,7 +29,9 @@ void draw_samples(const MeshInput& mesh, SampleResult& result, ProgressLine& pro
     check_validation(result.context);
 }
 
-void run_sample(const SampleOptions& options) {
+} // namespace
+
+void sample_to_files(const SampleOptions& options) {
     check_output_or_dry_run(options.out);
     const SampleJob job = parse_job(options);
     const NamedFile picture{"the picture", job.picture};
@@ -65,14 +67,12 @@ void run_sample(const SampleOptions& options) {
     write_outputs(job.out, "the samples", progress, report, write, further);
 }
 
-} // namespace
-
 void add_sample_command(Command app) {
     const Command command =
         app.add_command("sample", "Put samples on a mesh and write them to a file");
     const auto options = std::make_shared<SampleOptions>();
     add_sample_options(command, *options);
-    command.calls([options] { run_sample(*options); });
+    command.calls([options] { sample_to_files(*options); });
 }
 
 } // namespace geodisk::tools
