@@ -233,7 +233,7 @@ TEST_CASE("wrong lines of a manifest are told before any work") {
     check("builtin:cube\n", 2, "--shard: '2/2' is not", {"-n", "9", "--shard", "2/2"});
     check("builtin:cube\n", 2, "--shard", {"-n", "9", "--shard", "1"});
     check("builtin:cube\n", 2, "--jobs", {"-n", "9", "--jobs", "0"});
-    check("builtin:cube\n", 2, "--format: 'obj'", {"-n", "9", "--format", "obj"});
+    check("builtin:cube\n", 2, "--format: 'doc'", {"-n", "9", "--format", "doc"});
     std::filesystem::create_directory(folder / "empty");
     check_fails(folder, 3, "empty: holds no mesh", {"batch", "empty", "-o", "out", "-n", "9"});
     check_fails(folder, 3, "absent: ", {"batch", "absent", "-o", "out", "-n", "9"});

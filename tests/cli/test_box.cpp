@@ -266,7 +266,7 @@ TEST_CASE("box: what cannot be done is explained") {
                 box("a.csv", {"--dim", "2", "-d", "1.5", "--periodic"}));
     check_fails(folder, 2, "times as long", box("a.csv", {"--dim", "2", "-d", "1e-9"}));
     check_fails(folder, 2, "candidates", box("a.csv", {"--dim", "4", "-d", "1e-4"}));
-    check_fails(folder, 2, "use .ply or .csv", box("a.xyz", {"--dim", "4", "-n", "9"}));
+    check_fails(folder, 2, "use .ply, .csv or .npz", box("a.xyz", {"--dim", "4", "-n", "9"}));
     check_fails(folder, 2, "unknown sample format", box("a.txt", {"--dim", "2", "-n", "9"}));
     check_fails(folder, 2, "would replace the samples",
                 box("a.csv", {"--dim", "2", "-n", "9", "--json", "a.csv"}));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/command.hpp"
 #include "files/sample_file.hpp"
 
@@ -77,6 +79,54 @@ TEST_CASE("all formats hold the same samples") {
                std::equal(a[i].bary, a[i].bary + 3, c[i].bary)));
         CHECK(a[i].position[0] == doctest::Approx(c[i].position[0]));
     }
+}
+
+TEST_CASE("the format is that of --format or of the extension") {
+    const TemporaryFolder folder;
+    const std::string csv = sample_cube(folder, "a.csv", {"-d", "0.2"});
+    CHECK(sample_cube(folder, "a.txt", {"-d", "0.2", "--format", "csv"}) == csv);
+    const std::string npz = sample_cube(folder, "a.npz", {"-d", "0.2"});
+    CHECK(npz.starts_with("PK"));
+    CHECK(sample_cube(folder, "b.npz", {"-d", "0.2"}) == npz);
+    CHECK(sample_cube(folder, "a.pcd", {"-d", "0.2"}).starts_with("# .PCD v0.7"));
+    CHECK(contains(sample_cube(folder, "a.obj", {"-d", "0.2"}), "# min_distance: 0.2\n"));
+    check_fails(folder, 2, "--format: 'las' is no sample format",
+                {"sample", "builtin:cube", "-o", "b.las", "-n", "9", "--format", "las"});
+    check_fails(folder, 3, "geodisk writes samples as .npz but does not read them back",
+                {"verify", "builtin:cube", "a.npz"});
+    check_fails(folder, 2, "an .obj file holds three coordinates",
+                {"sample", "builtin:veronese:2", "-o", "b.obj", "-n", "9"});
+}
+
+TEST_CASE("a dry run tells what to expect and writes nothing") {
+    const TemporaryFolder folder;
+    const Arguments job{"sample", "builtin:cube", "-d", "0.2"};
+    const Outcome text = run(folder, joined(job, {"--dry-run"}));
+    INFO(text.err);
+    REQUIRE(text.status == 0);
+    for (const char* const part :
+         {"min distance  0.2 ", "samples       about ", " expected\n", "candidates    about ",
+          "memory        ", " sampling, as tried", "file          none, this was a dry run\n"}) {
+        CHECK(contains(text.out, part));
+    }
+    const Outcome report = run(folder, joined(job, {"--dry-run", "-o", "a.ply", "--json", "-"}));
+    REQUIRE(report.status == 0);
+    const auto document = nlohmann::json::parse(report.out);
+    CHECK(document.at("dry_run") == true);
+    CHECK(document.at("pilot_part") == 1);
+    CHECK(document.at("device_bytes") > 0);
+    CHECK(files_in(folder).empty());
+    const double expected = document.at("expected_samples");
+    CHECK(document.at("expected_candidates").get<double>() ==
+          doctest::Approx(20 * expected).epsilon(0.1));
+    const auto rows = csv_rows(sample_cube(folder, "a.csv", {"-d", "0.2"}));
+    CHECK(static_cast<double>(rows.size()) == doctest::Approx(expected).epsilon(0.2));
+
+    const Outcome box = run(folder, {"box", "--dim", "2", "-n", "99", "--dry-run"});
+    CHECK(box.status == 0);
+    CHECK(contains(box.out, "samples       about 99 expected\n"));
+    check_fails(folder, 2, "--output is required", {"box", "--dim", "2", "-n", "99"});
+    check_fails(folder, 6, "--memory", joined(job, {"--dry-run", "--memory", "1"}));
 }
 
 TEST_CASE("samples name the triangles and faces of the mesh file, whatever of it is dropped") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "cli/command.hpp"
+#include "files/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -41,12 +42,69 @@ TEST_CASE("help tells options, examples and exit statuses") {
     }
 }
 
+TEST_CASE("nothing asked for is a question for help") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder, {});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out == run(folder, {"--help"}).out);
+}
+
+TEST_CASE("a mesh alone is sampled and drawn, and no file replaced") {
+    const TemporaryFolder folder;
+    const Outcome first = run(folder, {"builtin:cube"});
+    INFO(first.err);
+    REQUIRE(first.status == 0);
+    CHECK(contains(first.out, "file          cube-samples.ply\n"));
+    CHECK(contains(first.out, "picture       cube-samples.png\n"));
+    const std::string samples = bytes_of(folder / "cube-samples.ply");
+    const auto written = tools::read_samples(folder / "cube-samples.ply").rows.size();
+    CHECK((written > 9500 && written < 10500));
+    folder.write("cube-samples-2.png", "mine");
+    std::filesystem::create_directory(folder / "meshes");
+    std::filesystem::copy_file(folder / "cube-samples.png", folder / "cube-samples-3.ply");
+    const Outcome second = run(folder, {"builtin:cube", "-q"});
+    CHECK(second.status == 0);
+    CHECK(second.out.empty());
+    CHECK(bytes_of(folder / "cube-samples.ply") == samples);
+    CHECK(bytes_of(folder / "cube-samples-2.png") == "mine");
+    CHECK(bytes_of(folder / "cube-samples-4.ply") == samples);
+    folder.write("meshes/flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(run(folder, {"meshes/flat.obj"}).status == 0);
+    CHECK(bytes_of(folder / "flat-samples.png").starts_with("\x89PNG"));
+}
+
 TEST_CASE("the version is one line") {
     const TemporaryFolder folder;
     const Outcome outcome = run(folder, {"--version"});
     CHECK(outcome.status == 0);
     CHECK(outcome.out.starts_with("geodisk "));
     CHECK(lines_of(outcome.out).size() == 1);
+}
+
+TEST_CASE("colours are for terminals that want them") {
+    if (!terminals_work()) {
+        return;
+    }
+    const TemporaryFolder folder;
+    folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n");
+    const auto told = [&](const Arguments& arguments, const std::string& terminal,
+                          const std::string& no_color, bool has_terminal = true) {
+        Setting setting;
+        setting.has_terminal = has_terminal;
+        setting.environment = {{"TERM", terminal}, {"NO_COLOR", no_color}};
+        return run(folder, arguments, setting).err;
+    };
+    const Arguments wrong{"resample"};
+    const Arguments odd{"sample", "odd.obj", "-o", "a.csv", "-n", "9", "-q"};
+    CHECK(contains(told(wrong, "xterm", ""), "\x1b[31mgeodisk:\x1b[0m "));
+    CHECK(contains(told(odd, "xterm", ""), "\x1b[33mgeodisk: warning:\x1b[0m "));
+    for (const Arguments& arguments : {wrong, odd}) {
+        for (const std::string& plain : {told(arguments, "xterm", "1"), told(arguments, "dumb", ""),
+                                         told(arguments, "xterm", "", false)}) {
+            CHECK(plain.starts_with("geodisk: "));
+            CHECK_FALSE(contains(plain, "\x1b"));
+        }
+    }
 }
 
 TEST_CASE("shapes lists names that sample and verify take") {
@@ -59,8 +117,11 @@ TEST_CASE("shapes lists names that sample and verify take") {
 
 TEST_CASE("wrong usage is explained") {
     const TemporaryFolder folder;
-    check_fails(folder, 2, "see geodisk --help", {});
-    check_fails(folder, 2, "see geodisk --help", {"resample"});
+    check_fails(folder, 2, "'smaple': no such command or mesh file (see geodisk --help)",
+                {"smaple", "builtin:cube", "-n", "9"});
+    check_fails(folder, 2, "'missing.obj': no such command or mesh file", {"missing.obj"});
+    check_fails(folder, 2, "unknown built-in shape 'kube'", {"builtin:kube"});
+    check_fails(folder, 2, "--count", {"builtin:cube", "--count", "9"});
     check_fails(folder, 2, "MESH is required (see geodisk sample --help)", {"sample"});
     check_fails(folder, 2, "--output is required", {"sample", "builtin:cube", "-n", "9"});
     check_fails(folder, 2, "SAMPLES is required", {"verify", "builtin:cube"});

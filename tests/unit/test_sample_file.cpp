@@ -1,6 +1,7 @@
 #include "files/sample_file.hpp"
 
 #include "files/mesh_file.hpp"
+#include "files/output_file.hpp"
 #include "test_files.hpp"
 
 #include <cmath>
@@ -157,14 +158,14 @@ TEST_CASE("binary samples have the documented layout") {
 TEST_CASE("output paths are checked early") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "folder.ply");
-    check_fails(ExitCode::usage, ".ply, .csv and .xyz",
-                [&] { check_output_path(folder / "a.txt"); });
-    check_fails(ExitCode::usage, ".ply, .csv and .xyz", [&] { check_output_path(folder / "a"); });
-    check_fails(ExitCode::bad_output, "No such file",
-                [&] { check_output_path(folder / "missing" / "a.ply"); });
-    check_fails(ExitCode::bad_output, "is a folder",
-                [&] { check_output_path(folder / "folder.ply"); });
-    check_output_path(folder / "a.ply");
+    const auto check = [&](const std::filesystem::path& path) {
+        check_writable(sample_target(path).path);
+    };
+    check_fails(ExitCode::usage, ".ply, .csv, .xyz, ", [&] { check(folder / "a.txt"); });
+    check_fails(ExitCode::usage, ".gltf and .glb", [&] { check(folder / "a"); });
+    check_fails(ExitCode::bad_output, "No such file", [&] { check(folder / "missing" / "a.ply"); });
+    check_fails(ExitCode::bad_output, "is a folder", [&] { check(folder / "folder.ply"); });
+    check(folder / "a.ply");
     CHECK(folder.file_count() == 1);
     check_fails(ExitCode::usage, "known are",
                 [&] { write_samples(folder / "a.txt", {}, {}, false); });
@@ -184,6 +185,10 @@ TEST_CASE("sample files may lack and add columns in any order") {
 
 TEST_CASE("broken sample files are refused with their line or record") {
     check_refused("a.xyz", "0 0 0\n", "face_index");
+    check_refused("a.obj", "v 0 0 0\n", "an .obj file has no face_index");
+    for (const char* const name : {"a.pcd", "a.npz", "a.gltf", "a.glb"}) {
+        check_refused(name, "", "does not read them back; use .ply or .csv");
+    }
     check_refused("a.txt", "0 0 0\n", "unknown sample format");
     check_refused("a.csv", "", "no header row");
     check_refused("a.csv", "x,y,z\n1,2,3\n", "no column face_index");

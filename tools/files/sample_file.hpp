@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/sample_target.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -54,39 +55,42 @@ struct SampleFile {
     std::uint32_t dimension = 3; ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
 };
 
-/// Writes `rows` in the format of the extension of `path`:
-///   .ply  binary little endian, or ascii on request: element vertex with x y z nx ny nz
+/// Writes `rows` in the format of `target`:
+///   ply   binary little endian, or ascii on request: element vertex with x y z nx ny nz
 ///         face_index bary_u bary_v bary_w, radius as double where radii vary, and
 ///         polygon_index where polygons were split; the header as "comment KEY: VALUE". x y z are
 ///         float, or double where float would blur them: far from the origin for their extent.
-///   .csv  a header row with the same names; the header before it as "# KEY: VALUE"
-///   .xyz  x y z per line and nothing else
-/// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY has besides x y z so
-/// that viewers show the first three, and there are no normals; with 0, of a mesh of edge lengths
-/// without coordinates, there are neither. XYZ takes 3 alone.
-/// Numbers in text are the shortest that read back exactly. The file appears complete or not at
-/// all. Throws UserError as check_output_path() and check_dimension() do.
-void write_samples(const Path& path, const SampleHeader& header, std::span<const SampleRow> rows,
-                   bool ascii_ply, std::uint32_t dimension = 3);
+///   csv   a header row with the same names; the header before it as "# KEY: VALUE"
+///   xyz   x y z per line and nothing else
+///   obj   v and vn, and p for each, behind the header as "# KEY: VALUE"
+///   pcd   version 0.7, binary or ascii: the columns of PLY, normals as normal_x normal_y normal_z;
+///         the header as "# KEY: VALUE"
+///   npz   arrays of numpy: points normals face_index barycentric radius polygon_index, the scalars
+///         min_distance and seed, and the header as an object of JSON
+///   gltf, glb  points in float, relative to a node that bears what float would blur: NORMAL
+///         _FACE_INDEX _BARYCENTRIC _RADIUS _POLYGON_INDEX; the header in asset.extras
+/// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY and PCD have besides
+/// x y z so that viewers show the first three, and there are no normals; with 0, of a mesh of edge
+/// lengths without coordinates, there are neither. check_dimension() tells which formats take that.
+/// Numbers in text are the shortest that read back exactly. Equal samples make equal bytes.
+void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
+                   std::span<const SampleRow> rows, std::uint32_t dimension = 3);
 
-/// The same into `file`, which the caller opened for `path` and commits.
-void write_samples(AtomicFile& file, const Path& path, const SampleHeader& header,
-                   std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension = 3);
+/// The same into a file of its own, in the format of its extension, that appears complete or not at
+/// all. Throws UserError as sample_target(), check_dimension() and AtomicFile do.
+void write_samples(const Path& path, const SampleHeader& header, std::span<const SampleRow> rows,
+                   bool is_text, std::uint32_t dimension = 3);
 
 /// The same for samples in a box of 1 to 6 dimensions: no normals, faces and weights; coordinates
-/// are double. PLY has x y z in any case and XYZ is such a line: 0 for what a box of fewer
-/// dimensions lacks; CSV has just the coordinates there are.
-void write_box_samples(AtomicFile& file, const Path& path, const SampleHeader& header,
-                       std::span<const SampleRow> rows, bool ascii_ply, std::uint32_t dimension);
-
-/// Fails before long work where write_samples() would fail after it: UserError(usage) for an
-/// unknown extension, UserError(bad_output) for a folder, a missing folder or no permission.
-void check_output_path(const Path& path);
+/// are double. Formats for viewers have x y z in any case: 0 for what a box of fewer dimensions
+/// lacks; CSV and NPZ have just the coordinates there are.
+void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
+                       std::span<const SampleRow> rows, std::uint32_t dimension);
 
 /// UserError(usage) if the format cannot hold samples of so many coordinates.
-void check_dimension(const Path& path, std::uint32_t dimension);
+void check_dimension(const SampleTarget& target, std::uint32_t dimension);
 /// The same for samples in a box.
-void check_box_dimension(const Path& path, std::uint32_t dimension);
+void check_box_dimension(const SampleTarget& target, std::uint32_t dimension);
 
 /// Reads a sample file of either PLY format or CSV. Columns may come in any order and type;
 /// face_index bary_u bary_v bary_w must be there, and either x0 x1 ... or x y z or none of these;

@@ -276,10 +276,17 @@ SampleFile read_in(const Path& path, Domain domain) {
     if (extension == ".csv") {
         return CsvReader(path, domain).read();
     }
-    if (extension == ".xyz") {
-        fail_input(path, domain == Domain::surface
-                             ? "an .xyz file has no face_index and bary columns; use .ply or .csv"
-                             : "an .xyz file does not tell of its box; use .ply or .csv");
+    if (extension == ".xyz" || extension == ".obj") {
+        fail_input(path, "an " + extension +
+                             (domain == Domain::surface
+                                  ? " file has no face_index and bary columns; use .ply or .csv"
+                                  : " file does not tell of its box; use .ply or .csv"));
+    }
+    for (const char* const written : {".pcd", ".npz", ".gltf", ".glb"}) {
+        if (extension == written) {
+            fail_input(path, "geodisk writes samples as " + extension +
+                                 " but does not read them back; use .ply or .csv");
+        }
     }
     fail_input(path, "unknown sample format; known are .ply and .csv");
 }

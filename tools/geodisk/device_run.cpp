@@ -42,7 +42,12 @@ ProgressCallback show_progress(ProgressLine& progress, double expected) {
     };
 }
 
-/// Throws UserError for an error of a run that --memory can help with, and DeviceLost.
+std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
+    return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
+}
+
+} // namespace
+
 void check_run(const Error& error, bool bounded) {
     if (error.status == Status::workspace_too_small ||
         (error.status == Status::out_of_device_memory && bounded)) {
@@ -52,12 +57,6 @@ void check_run(const Error& error, bool bounded) {
         throw DeviceLost(error.message);
     }
 }
-
-std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
-    return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
-}
-
-} // namespace
 
 RunDevice::RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics)
     : device_(std::move(device)), options_(runner), graphics_(graphics) {}

@@ -44,6 +44,10 @@ class DeviceLost : public UserError {
     explicit DeviceLost(const std::string& message) : UserError(ExitCode::internal, message) {}
 };
 
+/// Throws UserError for an error of a run that --memory can help with, which was `bounded` by it,
+/// and DeviceLost.
+void check_run(const Error& error, bool bounded);
+
 /// A device for one run after another. Of one thread at a time.
 class RunDevice {
   public:

@@ -7,6 +7,7 @@
 namespace {
 
 constexpr const char* kFooter = R"(Examples:
+  geodisk bunny.obj
   geodisk sample builtin:showpiece -o points.ply --count 10000
   geodisk sample bunny.obj -o points.csv --min-distance 1%
   geodisk sample bunny.obj -o points.ply --min-distance 1% --method pdts --count 500
@@ -49,6 +50,7 @@ void set_up(geodisk::tools::Command app) {
     geodisk::tools::add_box_command(app);
     geodisk::tools::add_shapes_command(app);
     geodisk::tools::add_info_command(app);
+    geodisk::tools::add_quick_command(app);
 }
 
 } // namespace
@@ -58,5 +60,5 @@ int main(int argc, char** argv) {
         "geodisk",
         "Random points on a triangle mesh, no two closer than a minimum distance along the "
         "surface",
-        set_up, argc, argv);
+        set_up, argc, argv, geodisk::tools::choose_command);
 }

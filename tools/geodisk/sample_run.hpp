@@ -5,6 +5,7 @@
 
 #include "files/output_file.hpp"
 #include "geodisk/device_run.hpp"
+#include "geodisk/dry_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -26,5 +27,8 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
 /// Writes the samples into `file`, opened for the job's output.
 void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,
                        const SampleResult& result, const SampleReport& report);
+
+/// The same as a dry run.
+DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
 
 } // namespace geodisk::tools

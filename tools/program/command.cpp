@@ -99,6 +99,11 @@ Command Command::add_command(const std::string& name, const std::string& text) c
     return Command(*app_->add_subcommand(name, text));
 }
 
+bool Command::has_command(const std::string& name) const {
+    const auto has_name = [&name](CLI::App* one) { return one->check_name(name); };
+    return !app_->get_subcommands(std::function<bool(CLI::App*)>(has_name)).empty();
+}
+
 void Command::needs_command() const {
     app_->require_subcommand(1);
 }

@@ -63,6 +63,7 @@ class Command {
                     const std::string& group = "Options") const;
 
     Command add_command(const std::string& name, const std::string& text) const;
+    bool has_command(const std::string& name) const;
     /// One of its subcommands must be given.
     void needs_command() const;
 

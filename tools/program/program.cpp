@@ -16,6 +16,7 @@
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/standard_streams.hpp"
+#include "program/terminal.hpp"
 #include "program/utf8_arguments.hpp"
 
 namespace geodisk::tools {
@@ -25,7 +26,10 @@ std::string noted_command;
 
 int fail(const char* program, ExitCode code, const std::string& message) {
     std::cout.flush();
-    std::cerr << program << ": " << one_line(message) << '\n';
+    const std::string mark = std::string(program) + ':';
+    const bool is_signal = static_cast<int>(code) > 128; // Which was wanted, so no error.
+    std::cerr << (is_signal ? mark : coloured(mark, Colour::red)) << ' ' << one_line(message)
+              << '\n';
     return static_cast<int>(code);
 }
 
@@ -61,11 +65,14 @@ void check_values(const std::vector<std::string>& arguments) {
     }
 }
 
-int parse(CLI::App& app, int argc, char** argv) {
+int parse(CLI::App& app, int argc, char** argv, Rewrite rewrite) {
     const char* const name = app.get_name().c_str();
     try {
         std::vector<std::string> arguments = utf8_arguments(argc, argv);
         noted_command = command_text(name, arguments);
+        if (rewrite != nullptr) {
+            rewrite(Command(app), arguments);
+        }
         check_values(arguments);
         std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
         app.parse(arguments);
@@ -85,11 +92,12 @@ int parse(CLI::App& app, int argc, char** argv) {
     return 0;
 }
 
-int run(const char* name, const char* description, SetUp set_up, int argc, char** argv) {
+int run(const char* name, const char* description, SetUp set_up, int argc, char** argv,
+        Rewrite rewrite) {
     try {
         CLI::App app(description, name);
         set_up(Command(app));
-        return parse(app, argc, argv);
+        return parse(app, argc, argv, rewrite);
     } catch (const std::bad_alloc&) {
         return fail(name, ExitCode::out_of_memory, "the memory of this machine does not suffice");
     } catch (const std::exception& error) {
@@ -116,11 +124,12 @@ void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::
     }
 }
 
-int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv) {
+int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv,
+                Rewrite rewrite) {
     occupy_closed_streams();
     install_signal_handlers(name);
     install_crash_handlers(name);
-    const int status = run(name, description, set_up, argc, argv);
+    const int status = run(name, description, set_up, argc, argv, rewrite);
     expect_exit();
     return status;
 }

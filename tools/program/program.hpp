@@ -13,10 +13,14 @@ namespace geodisk::tools {
 /// Gives a program its options and commands, whose callbacks do the work.
 using SetUp = void (*)(Command);
 
+/// Turns the arguments of a program so set up into others. Throws UserError.
+using Rewrite = void (*)(Command, std::vector<std::string>&);
+
 /// The body of main(): sets the program up, parses the arguments, and returns the exit status of
 /// the process. Prints help and version to standard output, and "NAME: MESSAGE" to standard error
 /// for any exception, signal and crash.
-int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv);
+int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv,
+                Rewrite rewrite = nullptr);
 
 /// Does what these arguments ask for of a program so set up: what one of its commands does, as a
 /// step of another. Throws what that throws, and UserError(usage) for arguments that are none.

@@ -9,6 +9,7 @@
 
 #include "files/input_file.hpp"
 #include "files/mesh_file.hpp"
+#include "files/sample_target.hpp"
 #include "geodisk/inputs/manifest.hpp"
 #include "geodisk/inputs/mesh_folder.hpp"
 #include "geodisk/options/sample_command.hpp"
@@ -18,14 +19,6 @@
 
 namespace geodisk::tools {
 namespace {
-
-constexpr std::string_view kFormats[] = {"ply", "csv", "xyz"};
-
-void check_format(const std::string& format) {
-    if (std::ranges::find(kFormats, format) == std::ranges::end(kFormats)) {
-        fail_usage("--format: " + in_quotes(format) + " is none of ply, csv and xyz");
-    }
-}
 
 /// Whether `path` stays in the folder that it is relative to, and names something there.
 bool stays_inside(const std::filesystem::path& path) {
@@ -55,8 +48,7 @@ std::filesystem::path given_name(const std::string& name, const std::string& for
     }
     const std::string extension = lower_extension(path);
     const bool has_format =
-        !extension.empty() &&
-        std::ranges::find(kFormats, std::string_view(extension).substr(1)) != std::end(kFormats);
+        !extension.empty() && is_sample_format(std::string_view(extension).substr(1));
     if (!has_format) {
         path += '.' + format;
     }
@@ -142,7 +134,7 @@ void check_files(const std::vector<BatchItem>& items) {
 } // namespace
 
 std::vector<BatchItem> batch_items(const BatchOptions& options) {
-    check_format(options.format);
+    sample_target(options.input, options.format); // Fails for what is no format.
     std::error_code ignored;
     const bool is_folder = std::filesystem::is_directory(Path(options.input), ignored);
     std::vector<BatchItem> items =

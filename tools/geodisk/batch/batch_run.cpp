@@ -132,7 +132,7 @@ class BatchRun {
         for (const MeshWarning& warning : mesh.warnings) {
             entry.warnings.push_back(warning.message);
         }
-        check_dimension(job.out.output, mesh.dimension());
+        check_dimension(job.out.target(), mesh.dimension());
         const SampleResult result = sample_on(pool_, job, mesh, none);
         make_folder_of(job.out.output);
         AtomicFile file(job.out.output);

@@ -11,6 +11,7 @@
 
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/device_run.hpp"
+#include "geodisk/dry_run.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/box_report.hpp"
 #include "program/arguments.hpp"
@@ -110,15 +111,24 @@ std::vector<SampleRow> to_rows(const std::vector<double>& points, std::size_t di
 }
 
 void run_box(const BoxOptions& options) {
+    check_output_or_dry_run(options.out);
     BoxJob job = parse_job(options);
     const auto dimension = static_cast<std::uint32_t>(job.box.extents.size());
     check_outputs(job.out, "the samples", {});
-    check_box_dimension(job.out.output, dimension);
+    if (!job.out.output.empty()) {
+        check_box_dimension(job.out.target(), dimension);
+    }
     ProgressLine progress(job.out.quiet);
     const auto task_at = [&](double min_distance) {
         job.box.min_distance = min_distance;
         return Task{take(Domain::box(job.box)), job.method.expected(expected_count(job.box))};
     };
+    if (job.out.is_dry_run) {
+        const DryRun dry = dry_run_on_device(job.run, job.runner, task_at(job.box.min_distance),
+                                             job.box.min_distance, job.box.seed, progress);
+        publish(job.out, dry_box_json(job, dry), dry_box_text(job, dry));
+        return;
+    }
     RunDevice device(job.run.device, job.runner);
     const auto [set, done] = device.run(task_at, job.box.min_distance, job.wanted_count, progress);
     job.box.min_distance = done.min_distance;
@@ -126,7 +136,7 @@ void run_box(const BoxOptions& options) {
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
     const BoxReport report(job, rows.size(), done);
     write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
-        write_box_samples(file, job.out.output, report.header(), rows, job.out.ascii, dimension);
+        write_box_samples(file, job.out.target(), report.header(), rows, dimension);
     });
 }
 
@@ -136,9 +146,9 @@ void add_box_command(Command app) {
     const Command command =
         app.add_command("box", "Put samples in a box of R^n, by straight-line distance");
     const auto options = std::make_shared<BoxOptions>();
-    add_output_argument(command, options->out,
-                        "File to write: *.csv, *.ply (binary; 0 for coordinates that a\n"
-                        "box of fewer than three lacks) or *.xyz (positions only)");
+    add_output_or_dry_run(command, options->out,
+                          "File to write: *.csv, *.npz, or with 0 for coordinates that a box\n"
+                          "of fewer than three lacks *.ply, *.pcd, *.glb, *.gltf, *.obj, *.xyz");
     const char* const box = "Box";
     command.add_option("--dim", options->dimension, "N", "Dimensions, 1 to 6; sides of 1", box);
     command.add_option("--extents", options->extents, "A,...",

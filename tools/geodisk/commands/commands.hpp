@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace geodisk::tools {
 
@@ -10,6 +11,7 @@ class Command;
 
 struct OutputOptions;
 struct RenderOptions;
+struct SampleOptions;
 struct SpectrumOptions;
 
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
@@ -18,6 +20,16 @@ void add_sample_command(Command app);
 /// Samples many meshes, each to a file of its own, on all GPUs. UserError(some_failed) if some
 /// could not be.
 void add_batch_command(Command app);
+
+/// What `sample` does.
+void sample_to_files(const SampleOptions& options);
+
+/// Samples a mesh and draws the samples, into files of the current folder named by the mesh.
+void add_quick_command(Command app);
+
+/// Makes a mesh alone, or nothing, the arguments of a command: `quick`, or help. UserError(usage)
+/// for what is neither a command nor a mesh.
+void choose_command(Command app, std::vector<std::string>& arguments);
 
 /// Checks a sample file against its mesh or box, without a device. UserError(violation) if samples
 /// are too close or off the mesh.

@@ -31,18 +31,28 @@ void draw_samples(const MeshInput& mesh, SampleResult& result, RunDevice& device
     check_validation(device.context());
 }
 
-void run_sample(const SampleOptions& options) {
+} // namespace
+
+void sample_to_files(const SampleOptions& options) {
+    check_output_or_dry_run(options.out);
     const SampleJob job = parse_job(options);
     const NamedFile picture{"the picture", job.picture};
-    check_outputs(job.out, "the samples", files_read(job), check_output_path, {picture});
+    check_outputs(job.out, "the samples", files_read(job), nullptr, {picture});
     if (!job.picture.empty()) {
         check_picture_path(job.picture);
     }
     ProgressLine progress(job.out.quiet);
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
-    check_dimension(job.out.output, mesh.dimension());
+    if (!job.out.output.empty()) {
+        check_dimension(job.out.target(), mesh.dimension());
+    }
     if (!job.picture.empty()) {
         check_visible(job.mesh.mesh, mesh);
+    }
+    if (job.out.is_dry_run) {
+        const DryRun dry = try_sampling(job, mesh, progress);
+        publish(job.out, dry_sample_json(job, mesh, dry), dry_sample_text(job, mesh, dry));
+        return;
     }
     std::vector<FurtherFile> further;
     RunDevice device = device_for(job);
@@ -60,14 +70,12 @@ void run_sample(const SampleOptions& options) {
     write_outputs(job.out, "the samples", progress, report, write, further);
 }
 
-} // namespace
-
 void add_sample_command(Command app) {
     const Command command =
         app.add_command("sample", "Put samples on a mesh and write them to a file");
     const auto options = std::make_shared<SampleOptions>();
     add_sample_options(command, *options);
-    command.calls([options] { run_sample(*options); });
+    command.calls([options] { sample_to_files(*options); });
 }
 
 } // namespace geodisk::tools

@@ -124,7 +124,7 @@ void run_transfer(const TransferOptions& options) {
     const MeshInput from = load_mesh(options.from, progress);
     const MeshInput to = load_mesh(options.to, progress);
     check_connectivity(options, from.file, to.file);
-    check_dimension(options.out.output, to.dimension());
+    check_dimension(options.out.target(), to.dimension());
     progress.begin_stage("reading the samples");
     SampleFile samples = read_samples(options.samples);
     progress.clear();
@@ -136,8 +136,8 @@ void run_transfer(const TransferOptions& options) {
     }
     const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
     AtomicFile file(options.out.output);
-    write_samples(file, options.out.output, transferred_header(options, samples.header, closest),
-                  samples.rows, options.out.ascii, to.dimension());
+    write_samples(file, options.out.target(), transferred_header(options, samples.header, closest),
+                  samples.rows, to.dimension());
     file.sync();
     publish(options.out, {&file}, report_text(options, from, to, samples, closest),
             summary_text(options, from, to, samples, closest));

@@ -185,7 +185,8 @@ void fail_on_violations(const Check& check) {
 /// A single file must be one of samples in a box, which has nothing of a surface.
 void check_box(const VerifyOptions& options) {
     const std::string extension = lower_extension(options.mesh.mesh);
-    if (extension != ".ply" && extension != ".csv" && extension != ".xyz") {
+    constexpr std::string_view kOfSamples = ".ply .csv .xyz .npz .pcd "; // And of no mesh alone.
+    if (extension.empty() || kOfSamples.find(extension + ' ') == std::string_view::npos) {
         fail_usage("SAMPLES is required, except for samples in a box, which "
                    "are verified without a mesh");
     }

@@ -81,7 +81,8 @@ void add_batch_options(Command command, BatchOptions& options) {
         .add_option("-o,--output", options.folder, "DIR",
                     "Folder to write to: samples and batch.jsonl, the log")
         .required();
-    command.add_option("--format", options.format, "NAME", "Of the samples: ply, csv or xyz")
+    command
+        .add_option("--format", options.format, "NAME", "Of the samples, as geodisk sample has it")
         .shows_default();
     const char* const group = "Batch";
     command
@@ -108,7 +109,9 @@ void add_batch_options(Command command, BatchOptions& options) {
     add_subject_options(command, options.sample);
     add_validate_option(command, options.sample.run.device);
     add_limit_options(command, options.sample.run);
-    add_output_options(command, options.sample.out);
+    add_json_option(command, options.sample.out);
+    add_ascii_option(command, options.sample.out);
+    command.add_flag("-q,--quiet", options.sample.out.quiet, "No progress and no summary");
 }
 
 LineOptions parse_line(const SampleOptions& common, const std::vector<std::string>& words,

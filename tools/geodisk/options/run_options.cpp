@@ -2,11 +2,25 @@
 
 #include "program/arguments.hpp"
 #include "program/command.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::tools {
 
 void add_output_argument(Command command, OutputOptions& options, const std::string& summary) {
     command.add_option("-o,--output", options.output, "OUT", summary).required();
+}
+
+void add_output_or_dry_run(Command command, OutputOptions& options, const std::string& summary) {
+    command.add_option("-o,--output", options.output, "OUT", summary);
+    command.add_flag("--dry-run", options.is_dry_run,
+                     "Write no samples; tell how many to expect, and what memory\n"
+                     "and time they take, by a pilot of about two seconds");
+}
+
+void check_output_or_dry_run(const OutputOptions& options) {
+    if (options.output.empty() && !options.is_dry_run) {
+        fail_usage("--output is required");
+    }
 }
 
 void add_json_option(Command command, OutputOptions& options) {
@@ -15,11 +29,14 @@ void add_json_option(Command command, OutputOptions& options) {
 }
 
 void add_ascii_option(Command command, OutputOptions& options) {
-    command.add_flag("--ascii", options.ascii, "Write PLY as text");
+    command.add_flag("--ascii", options.ascii, "Write PLY or PCD as text");
 }
 
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
+    command.add_option("--format", options.format, "NAME",
+                       "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, whatever\n"
+                       "the extension of OUT");
     add_ascii_option(command, options);
     command.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "files/sample_target.hpp"
+
 namespace geodisk::tools {
 
 class Command;
@@ -18,23 +20,36 @@ struct NamedFile {
 struct OutputOptions {
     std::string output; ///< The samples.
     std::string json;   ///< The report for programs; "-" is standard output. Or "".
-    bool ascii = false, quiet = false;
+    std::string format; ///< Of the samples; "" for that of their extension.
+    bool ascii = false, quiet = false, is_dry_run = false;
+
+    /// Where and how to write the samples. Throws UserError(usage).
+    SampleTarget target() const { return sample_target(output, format, ascii); }
 
     /// Whether to print the results for people.
     bool has_summary() const { return !quiet && json != "-"; }
 };
 
+inline constexpr const char* kSampleFiles =
+    "File to write: *.ply, *.csv, *.npz, *.pcd, *.glb, *.gltf,\n"
+    "*.obj (points, normals) or *.xyz (points)";
+
 /// Adds -o, described by `summary`.
 void add_output_argument(Command command, OutputOptions& options,
-                         const std::string& summary = "File to write: *.ply (binary), *.csv or "
-                                                      "*.xyz (positions only)");
+                         const std::string& summary = kSampleFiles);
+
+/// Adds -o and --dry-run, one of which must be given.
+void add_output_or_dry_run(Command command, OutputOptions& options, const std::string& summary);
+
+/// Throws UserError(usage) if neither was.
+void check_output_or_dry_run(const OutputOptions& options);
 
 void add_json_option(Command command, OutputOptions& options);
 
 /// Adds --ascii.
 void add_ascii_option(Command command, OutputOptions& options);
 
-/// Adds --json, --ascii and --quiet.
+/// Adds --json, --format, --ascii and --quiet.
 void add_output_options(Command command, OutputOptions& options);
 
 /// Which device to work on, as given on the command line.

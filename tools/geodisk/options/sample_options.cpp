@@ -74,7 +74,7 @@ SampleJob parse_job(const SampleOptions& options) {
 
 void add_sample_options(Command command, SampleOptions& options) {
     add_mesh_argument(command, options.mesh, "Mesh to sample");
-    add_output_argument(command, options.out);
+    add_output_or_dry_run(command, options.out, kSampleFiles);
     add_job_options(command, options);
     command.add_option("--picture", options.picture, "FILE",
                        "Draw the samples and their disks as well: *.png; geodisk render\n"

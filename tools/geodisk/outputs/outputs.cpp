@@ -7,6 +7,7 @@
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/terminal.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -56,8 +57,10 @@ void check_outputs(const OutputOptions& options, const std::string& what,
     add({what, options.output});
     std::ranges::for_each(further, add);
     add({"the report", options.json});
-    if (!options.output.empty()) {
+    if (!options.output.empty() && check_path != nullptr) {
         check_path(options.output);
+    } else if (!options.output.empty()) {
+        check_writable(options.target().path);
     }
     if (is_file(options.json)) {
         check_writable(options.json);
@@ -98,7 +101,7 @@ void print_failure(const std::string& subject, const std::string& message) {
 }
 
 void print_warning(const std::string& message) {
-    std::cerr << "geodisk: warning: " << one_line(message) << '\n';
+    std::cerr << coloured("geodisk: warning:", Colour::yellow) << ' ' << one_line(message) << '\n';
 }
 
 } // namespace geodisk::tools

@@ -23,11 +23,10 @@ struct FurtherFile {
 
 /// Finds out before the work that it would be in vain. Throws UserError: `usage` if a file to
 /// write, of which the output is called `what`, is one that is read or another one; `bad_output`
-/// if one cannot be written, and what `check_path` throws of the output, if there is any. What is
-/// `further` written is checked elsewhere but for its name.
+/// if one cannot be written, and what `check_path` throws of the output, if there is any; without
+/// it, these are samples. What is `further` written is checked elsewhere but for its name.
 void check_outputs(const OutputOptions& options, const std::string& what,
-                   const std::vector<NamedFile>& read,
-                   void (*check_path)(const Path&) = check_output_path,
+                   const std::vector<NamedFile>& read, void (*check_path)(const Path&) = nullptr,
                    const std::vector<NamedFile>& further = {});
 
 /// Brings the report for programs to the disk, where `files` are already, and prints the summary

@@ -3,25 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 
-#ifdef _WIN32
-#include <io.h>
-#else
-#include <unistd.h>
-#endif
+#include "program/terminal.hpp"
 
 namespace geodisk::tools {
 namespace {
 
 constexpr std::size_t kColumns = 79; // A line that wraps cannot be cleared again.
 constexpr std::size_t kBarColumns = 30;
-
-bool stderr_is_terminal() {
-#ifdef _WIN32
-    return _isatty(_fileno(stderr)) != 0;
-#else
-    return isatty(STDERR_FILENO) == 1;
-#endif
-}
 
 } // namespace
 

@@ -28,6 +28,11 @@ const char* kind_text(const BoxParams& box) {
     return box.is_periodic ? "periodic" : "open";
 }
 
+Json box_json(const BoxParams& box) {
+    return {
+        {"dimension", box.extents.size()}, {"extents", box.extents}, {"periodic", box.is_periodic}};
+}
+
 } // namespace
 
 std::string box_text(const BoxParams& box) {
@@ -41,6 +46,17 @@ double diagonal_of(const BoxParams& box) {
         sum += (side / longest) * (side / longest);
     }
     return longest * std::sqrt(sum);
+}
+
+std::string dry_box_json(const BoxJob& job, const DryRun& dry) {
+    Json document{{"version", GEODISK_VERSION_STRING}, {"box", box_json(job.box)}};
+    document.update(dry_run_json(dry));
+    return text_of(document);
+}
+
+std::string dry_box_text(const BoxJob& job, const DryRun& dry) {
+    return "box           " + box_text(job.box) + "\nmin distance  " +
+           rounded(dry.min_distance, 6) + '\n' + dry_run_text(dry);
 }
 
 BoxReport::BoxReport(const BoxJob& job, std::size_t samples, const DeviceRun& done)
@@ -72,10 +88,7 @@ SampleHeader BoxReport::header() const {
 std::string BoxReport::json(double write_seconds) const {
     const RunReport& run = done_.run;
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"box",
-                   {{"dimension", job_.box.extents.size()},
-                    {"extents", job_.box.extents},
-                    {"periodic", job_.box.is_periodic}}},
+                  {"box", box_json(job_.box)},
                   {"output", job_.out.output},
                   {"min_distance", job_.box.min_distance},
                   {"seed", job_.box.seed}};

@@ -8,6 +8,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/device_run.hpp"
+#include "geodisk/dry_run.hpp"
 #include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/reports/run_report.hpp"
@@ -28,6 +29,10 @@ struct BoxJob {
     double wanted_count = 0; ///< Of --count, where it chooses the distance; else 0.
     RunnerOptions runner;
 };
+
+/// What --dry-run tells of a job.
+std::string dry_box_json(const BoxJob& job, const DryRun& dry);
+std::string dry_box_text(const BoxJob& job, const DryRun& dry);
 
 /// Tells of a job and what came of it, both of which must outlive the report.
 class BoxReport {

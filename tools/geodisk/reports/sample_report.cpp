@@ -19,7 +19,26 @@ std::string metric_text(const SampleJob& job) {
     return job.is_geodesic() ? job.metric : job.metric + ", not exact along the surface";
 }
 
+std::string distance_line(const SampleJob& job, double distance) {
+    return "min distance  " + rounded(distance, 6) + " (radius " + rounded(distance / 2, 6) +
+           ") in mesh units" + (job.is_geodesic() ? "" : ", " + metric_text(job)) + '\n';
+}
+
 } // namespace
+
+std::string dry_sample_json(const SampleJob& job, const MeshInput& mesh, const DryRun& dry) {
+    Json document{{"version", GEODISK_VERSION_STRING},
+                  {"mesh", mesh_json(job.mesh.mesh, job.additions(), mesh)},
+                  {"warnings", warnings_json(mesh.warnings)},
+                  {"metric", metric_text(job)}};
+    document.update(dry_run_json(dry));
+    return text_of(document);
+}
+
+std::string dry_sample_text(const SampleJob& job, const MeshInput& mesh, const DryRun& dry) {
+    return mesh_lines("mesh", job.mesh.mesh, job.additions(), mesh) +
+           distance_line(job, dry.min_distance) + dry_run_text(dry);
+}
 
 SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const SampleResult& result)
     : job_(job), mesh_(mesh), result_(result), samples_(result.rows.size()),
@@ -101,11 +120,9 @@ Json SampleReport::document(const SecondsByStage& after) const {
 }
 
 std::string SampleReport::summary(const SecondsByStage& after) const {
-    const double distance = result_.params.min_distance;
     std::ostringstream out;
     out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, bare_components_)
-        << "min distance  " << rounded(distance, 6) << " (radius " << rounded(distance / 2, 6)
-        << ") in mesh units" << (job_.is_geodesic() ? "" : ", " + metric_text(job_)) << '\n';
+        << distance_line(job_, result_.params.min_distance);
     if (most_radius_ > 0) {
         out << "radii         " << rounded(least_radius_, 6) << " to " << rounded(most_radius_, 6)
             << " at the samples\n";

@@ -7,6 +7,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/device_run.hpp"
+#include "geodisk/dry_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/picture_run.hpp"
@@ -22,6 +23,10 @@ struct SampleResult {
     std::vector<SampleRow> rows;
     std::optional<DrawnPicture> picture;
 };
+
+/// What --dry-run tells of a job.
+std::string dry_sample_json(const SampleJob& job, const MeshInput& mesh, const DryRun& dry);
+std::string dry_sample_text(const SampleJob& job, const MeshInput& mesh, const DryRun& dry);
 
 /// Tells of a job, its mesh and its result, which must outlive the report.
 class SampleReport {

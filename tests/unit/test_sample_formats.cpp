@@ -1,0 +1,313 @@
+// Sample files that geodisk writes for others, read back by means of their own.
+#include "files/sample_file.hpp"
+
+#include "files/output_file.hpp"
+#include "test_files.hpp"
+
+#ifdef GEODISK_GLTF
+#include <tiny_gltf.h>
+#endif
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace geodisk::tools;
+
+namespace {
+
+const SampleHeader kHeader{{{"version", "geodisk 0.1.0"},
+                            {"mesh", "caf\xc3\xa9.obj"},
+                            {"lift", "normals:1"},
+                            {"lift", "attribute:q:2"},
+                            {"min_distance", "0.25"},
+                            {"seed", "18446744073709551615"},
+                            {"device", "not \xff UTF-8"}}};
+
+std::vector<SampleRow> some_rows(double offset, double radius = 0) {
+    std::vector<SampleRow> rows;
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        SampleRow row;
+        for (std::size_t k = 0; k < 8; ++k) {
+            row.position[k] = offset + std::sin(i * 1.7 + static_cast<double>(k));
+        }
+        row.normal[i % 3] = i < 3 ? 1.0f : -1.0f;
+        row.face = 1000 + i;
+        row.bary[0] = 0.25f;
+        row.bary[1] = 0.75f;
+        row.radius = radius > 0 ? radius + i : 0;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+template <class Value>
+Value value_at(std::string_view bytes, std::size_t at) {
+    Value value;
+    REQUIRE(at + sizeof value <= bytes.size());
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+/// The files of an archive that stores them, by its local headers.
+std::map<std::string, std::string> files_of_zip(const std::string& bytes) {
+    std::map<std::string, std::string> files;
+    std::size_t at = 0;
+    while (value_at<std::uint32_t>(bytes, at) == 0x04034b50) {
+        CHECK(value_at<std::uint16_t>(bytes, at + 8) == 0);         // Stored.
+        CHECK(value_at<std::uint32_t>(bytes, at + 10) == 0x210000); // 1 January 1980.
+        const auto size = value_at<std::uint32_t>(bytes, at + 18);
+        const auto name = value_at<std::uint16_t>(bytes, at + 26);
+        files[bytes.substr(at + 30, name)] = bytes.substr(at + 30 + name, size);
+        at += 30u + name + size;
+    }
+    CHECK(value_at<std::uint32_t>(bytes, at) == 0x02014b50); // The directory.
+    CHECK(value_at<std::uint32_t>(bytes, bytes.size() - 22) == 0x06054b50);
+    CHECK(value_at<std::uint32_t>(bytes, bytes.size() - 6) == at);
+    CHECK(value_at<std::uint16_t>(bytes, bytes.size() - 12) == files.size());
+    return files;
+}
+
+struct Array {
+    std::string description; ///< As Python spells it.
+    std::string content;
+};
+
+Array array_of(const std::string& npy) {
+    REQUIRE(npy.starts_with(std::string("\x93NUMPY\x01\x00", 8)));
+    const auto size = value_at<std::uint16_t>(npy, 8);
+    CHECK((10 + size) % 64 == 0);
+    return {npy.substr(10, size), npy.substr(10u + size)};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+std::string written(const std::string& name, const std::vector<SampleRow>& rows,
+                    std::uint32_t dimension = 3, bool is_text = false) {
+    const TemporaryFolder folder;
+    write_samples(folder / name, kHeader, rows, is_text, dimension);
+    const std::string bytes = bytes_of(folder / name);
+    write_samples(folder / name, kHeader, rows, is_text, dimension);
+    CHECK(bytes_of(folder / name) == bytes); // Whenever it is written.
+    CHECK(folder.file_count() == 1);
+    return bytes;
+}
+
+std::string written_box(const std::string& name, const std::vector<SampleRow>& rows,
+                        std::uint32_t dimension) {
+    const TemporaryFolder folder;
+    AtomicFile file(folder / name);
+    write_box_samples(file, sample_target(folder / name), kHeader, rows, dimension);
+    file.commit();
+    return bytes_of(folder / name);
+}
+
+} // namespace
+
+TEST_CASE("OBJ has points and their normals") {
+    const std::vector<SampleRow> rows = some_rows(0);
+    const std::vector<std::string> lines = lines_of(written("a.obj", rows));
+    REQUIRE(lines.size() == 7 + 3 * 5);
+    CHECK(lines[0] == "# version: geodisk 0.1.0");
+    CHECK(lines[8].starts_with("v 0.99166481"));
+    CHECK(lines[12] == "vn 1 0 0");
+    CHECK(lines[17] == "p 1");
+    CHECK(lines[21] == "p 5");
+    const std::string box = written_box("a.obj", some_rows(0), 2);
+    CHECK_FALSE(contains(box, "vn "));
+    CHECK(contains(box, "p 5\n"));
+}
+
+TEST_CASE("PCD tells its fields, in text and binary") {
+    const std::vector<SampleRow> rows = some_rows(0, 0.5);
+    const std::string text = written("a.pcd", rows, 3, true);
+    CHECK(text.starts_with("# .PCD v0.7 - Point Cloud Data file format\n# version: geodisk"));
+    const std::string fields =
+        "VERSION 0.7\nFIELDS x y z normal_x normal_y normal_z face_index bary_u bary_v bary_w "
+        "radius\nSIZE 4 4 4 4 4 4 4 4 4 4 8\nTYPE F F F F F F U F F F F\n"
+        "COUNT 1 1 1 1 1 1 1 1 1 1 1\nWIDTH 5\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 5\n";
+    REQUIRE(contains(text, fields + "DATA ascii\n"));
+    CHECK(contains(text, " 1 0 0 1000 0.25 0.75 0 0.5\n"));
+    const std::string binary = written("a.pcd", rows);
+    REQUIRE(contains(binary, fields + "DATA binary\n"));
+    const std::size_t body = binary.find("DATA binary\n") + 12;
+    constexpr std::size_t kRecord = 10 * 4 + 8;
+    REQUIRE(binary.size() == body + 5 * kRecord);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const std::size_t at = body + i * kRecord;
+        CHECK(value_at<float>(binary, at) == static_cast<float>(rows[i].position[0]));
+        CHECK(value_at<float>(binary, at + 12) == rows[i].normal[0]);
+        CHECK(value_at<std::uint32_t>(binary, at + 24) == rows[i].face);
+        CHECK(value_at<float>(binary, at + 32) == 0.75f);
+        CHECK(value_at<double>(binary, at + 40) == rows[i].radius);
+    }
+    CHECK(contains(written("b.pcd", some_rows(1e7)), "SIZE 8 8 8 4"));
+    CHECK(contains(written("b.pcd", some_rows(0), 4), "FIELDS x y z x0 x1 x2 x3 face_index"));
+    CHECK(contains(written_box("b.pcd", some_rows(0), 2), "FIELDS x y z\nSIZE 8 8 8\n"));
+}
+
+TEST_CASE("NPZ has arrays of numpy") {
+    const std::vector<SampleRow> rows = some_rows(0, 0.5);
+    const auto files = files_of_zip(written("a.npz", rows));
+    CHECK(files.size() == 8);
+    const auto check = [&](const std::string& name, const std::string& type,
+                           const std::string& shape, std::size_t size) {
+        CAPTURE(name);
+        REQUIRE(files.contains(name + ".npy"));
+        const Array array = array_of(files.at(name + ".npy"));
+        CHECK(array.description.starts_with(
+            "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }"));
+        CHECK(array.content.size() == size);
+        return array.content;
+    };
+    const std::string points = check("points", "<f8", "(5, 3)", 5 * 24);
+    const std::string faces = check("face_index", "<u4", "(5,)", 5 * 4);
+    const std::string weights = check("barycentric", "<f8", "(5, 3)", 5 * 24);
+    const std::string normals = check("normals", "<f8", "(5, 3)", 5 * 24);
+    const std::string radii = check("radius", "<f8", "(5,)", 5 * 8);
+    for (std::size_t i = 0; i < 5; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t at = 24 * i + 8 * k;
+            CHECK(value_at<double>(points, at) == rows[i].position[k]);
+            CHECK(value_at<double>(normals, at) == static_cast<double>(rows[i].normal[k]));
+            CHECK(value_at<double>(weights, at) == static_cast<double>(rows[i].bary[k]));
+        }
+        CHECK(value_at<std::uint32_t>(faces, 4 * i) == rows[i].face);
+        CHECK(value_at<double>(radii, 8 * i) == rows[i].radius);
+    }
+    CHECK(value_at<double>(check("min_distance", "<f8", "()", 8), 0) == 0.25);
+    CHECK(value_at<std::uint64_t>(check("seed", "<u8", "()", 8), 0) == ~std::uint64_t{0});
+    const Array header = array_of(files.at("header.npy"));
+    std::string text;
+    for (std::size_t at = 0; at < header.content.size(); at += 4) {
+        text += static_cast<char>(value_at<std::uint32_t>(header.content, at));
+    }
+    CHECK(text == R"({"version":"geodisk 0.1.0","mesh":"caf\u00e9.obj",)"
+                  R"("lift":["normals:1","attribute:q:2"],"min_distance":"0.25",)"
+                  R"("seed":"18446744073709551615","device":"not \ufffd UTF-8"})");
+    CHECK(contains(header.description, "'<U" + std::to_string(text.size()) + "'"));
+}
+
+TEST_CASE("NPZ has what coordinates there are") {
+    const auto points_of = [](const std::map<std::string, std::string>& files) {
+        return array_of(files.at("points.npy")).description;
+    };
+    const auto five = files_of_zip(written("a.npz", some_rows(0), 5));
+    CHECK(contains(points_of(five), "(5, 5)"));
+    CHECK_FALSE(five.contains("normals.npy"));
+    CHECK_FALSE(five.contains("radius.npy"));
+    const auto none = files_of_zip(written("a.npz", some_rows(0), 0));
+    CHECK_FALSE(none.contains("points.npy"));
+    CHECK(none.contains("barycentric.npy"));
+    const auto box = files_of_zip(written_box("a.npz", some_rows(0), 2));
+    CHECK(contains(points_of(box), "(5, 2)"));
+    CHECK_FALSE(box.contains("face_index.npy"));
+    CHECK(contains(points_of(files_of_zip(written("a.npz", {}))), "(0, 3)"));
+}
+
+TEST_CASE("a ZIP archive has the checksums of its files") {
+    const TemporaryFolder folder;
+    write_samples(folder / "a.npz", {}, {}, false, 0);
+    const std::string bytes = bytes_of(folder / "a.npz");
+    // The first file is face_index.npy of no faces, whose checksum zlib tells.
+    CHECK(value_at<std::uint32_t>(bytes, 14) == 0x0b353cc8);
+}
+
+#ifdef GEODISK_GLTF
+TEST_CASE("glTF has points with attributes") {
+    const double offset = 1e7;
+    for (const std::string name : {"a.glb", "a.gltf"}) {
+        CAPTURE(name);
+        const std::vector<SampleRow> rows = some_rows(offset, 0.5);
+        const std::string bytes = written(name, rows);
+        tinygltf::Model model;
+        tinygltf::TinyGLTF reader;
+        std::string error, warning;
+        const auto size = static_cast<unsigned>(bytes.size());
+        const bool is_read =
+            name == "a.glb"
+                ? reader.LoadBinaryFromMemory(&model, &error, &warning,
+                                              reinterpret_cast<const unsigned char*>(bytes.data()),
+                                              size)
+                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+        INFO(error);
+        REQUIRE(is_read);
+        CHECK(warning.empty());
+        CHECK(model.asset.extras.Get("min_distance").Get<std::string>() == "0.25");
+        CHECK(model.asset.extras.Get("lift").ArrayLen() == 2);
+        REQUIRE(model.meshes.size() == 1);
+        const tinygltf::Primitive& points = model.meshes[0].primitives.at(0);
+        CHECK(points.mode == TINYGLTF_MODE_POINTS);
+        CHECK(points.attributes.size() == 5);
+        const auto values = [&](const char* attribute, std::size_t components) {
+            const auto& accessor =
+                model.accessors.at(static_cast<std::size_t>(points.attributes.at(attribute)));
+            CHECK(accessor.count == 5);
+            CHECK(accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT);
+            CHECK(accessor.minValues.size() == components);
+            const auto& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
+            std::vector<float> all(5 * components);
+            REQUIRE(view.byteLength == 4 * all.size());
+            std::memcpy(all.data(), model.buffers.at(0).data.data() + view.byteOffset,
+                        view.byteLength);
+            return all;
+        };
+        const std::vector<double>& origin = model.nodes.at(0).translation;
+        REQUIRE(origin.size() == 3);
+        const auto positions = values("POSITION", 3), normals = values("NORMAL", 3),
+                   weights = values("_BARYCENTRIC", 3), faces = values("_FACE_INDEX", 1),
+                   radii = values("_RADIUS", 1);
+        for (std::size_t i = 0; i < 5; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                CHECK(std::abs(origin[k] + static_cast<double>(positions[3 * i + k]) -
+                               rows[i].position[k]) < 1e-6);
+                CHECK(normals[3 * i + k] == rows[i].normal[k]);
+                CHECK(weights[3 * i + k] == rows[i].bary[k]);
+            }
+            CHECK(faces[i] == static_cast<float>(rows[i].face));
+            CHECK(static_cast<double>(radii[i]) == rows[i].radius);
+        }
+    }
+    CHECK_FALSE(contains(written("b.gltf", some_rows(0)), "translation"));
+    CHECK_FALSE(contains(written_box("b.gltf", some_rows(0), 2), "NORMAL"));
+    CHECK_FALSE(contains(written("b.gltf", {}), "accessors"));
+    std::vector<SampleRow> far = some_rows(0);
+    far[3].face = (1u << 24) + 1;
+    check_fails(ExitCode::usage, "up to 16,777,216", [&] { written("b.glb", far); });
+}
+#endif
+
+TEST_CASE("formats refuse what they cannot hold") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"a.xyz", "a.obj"
+#ifdef GEODISK_GLTF
+                                   ,
+                                   "a.gltf", "a.glb"
+#endif
+         }) {
+        check_fails(ExitCode::usage, "holds three coordinates, and these samples have 4",
+                    [&] { check_dimension(sample_target(folder / name), 4); });
+        check_box_dimension(sample_target(folder / name), 2);
+    }
+    check_fails(ExitCode::usage, "these samples have none",
+                [&] { check_dimension(sample_target(folder / "a.pcd"), 0); });
+    check_dimension(sample_target(folder / "a.npz"), 0);
+}
+
+TEST_CASE("a format that is asked for counts more than the extension") {
+    CHECK(sample_target("a.ply", "csv").format == SampleFormat::csv);
+    CHECK(sample_target("a", "npz").format == SampleFormat::npz);
+    CHECK(sample_target("a.NPZ").format == SampleFormat::npz);
+    check_fails(ExitCode::usage, "--format: 'las' is no sample format; known are ply, csv",
+                [] { sample_target("a.ply", "las"); });
+}

@@ -1,0 +1,46 @@
+#include <concepts>
+
+#include "files/ply_file.hpp"
+#include "files/sample_writers.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// As the Point Cloud Library calls it.
+std::string field_name(std::string_view column) {
+    return column.size() == 2 && column[0] == 'n' ? std::string("normal_") + column[1]
+                                                  : std::string(column);
+}
+
+} // namespace
+
+void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               bool is_text, const SampleLayout& layout) {
+    std::string fields, sizes, types, counts;
+    visit_columns({}, layout, [&](std::string_view name, auto value) {
+        fields += ' ' + field_name(name);
+        sizes += ' ' + std::to_string(sizeof value);
+        types += std::floating_point<decltype(value)> ? " F" : " U";
+        counts += " 1";
+    });
+    const std::string count = std::to_string(rows.size());
+    file.write("# .PCD v0.7 - Point Cloud Data file format\n");
+    write_entries(file, header, "# ");
+    file.write("VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" +
+               counts + "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+               count + "\nDATA " + (is_text ? "ascii" : "binary") + '\n');
+    std::string record;
+    for (const SampleRow& row : rows) {
+        record.clear();
+        if (is_text) {
+            append_text_row(record, row, layout, ' ');
+        } else {
+            visit_columns(row, layout, [&](std::string_view, auto value) {
+                append_little_endian(record, value);
+            });
+        }
+        file.write(record);
+    }
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,59 @@
+#include "files/sample_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace geodisk::tools {
+namespace {
+
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+} // namespace
+
+bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
+    double largest = 0;
+    double extent = 0;
+    for (std::uint32_t axis = 0; axis < dimension && !rows.empty(); ++axis) {
+        const auto [low, high] = std::minmax_element(
+            rows.begin(), rows.end(), [axis](const SampleRow& a, const SampleRow& b) {
+                return a.position[axis] < b.position[axis];
+            });
+        const double least = low->position[axis], most = high->position[axis];
+        largest = std::max({largest, std::abs(least), std::abs(most)});
+        extent = std::max(extent, most - least);
+    }
+    constexpr double kSmallestFloat = 1e-30; // Well above where float loses digits.
+    constexpr double kLargestFloat = 1e38;
+    const bool in_range = largest == 0 || (largest > kSmallestFloat && largest < kLargestFloat);
+    return in_range && largest <= 16 * extent;
+}
+
+void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix) {
+    for (const auto& [key, value] : header.entries) {
+        file.write(prefix + one_line(key) + ": " + one_line(value) + "\n");
+    }
+}
+
+std::string json_text(const SampleHeader& header) {
+    nlohmann::ordered_json document = nlohmann::ordered_json::object();
+    for (const auto& [key, value] : header.entries) {
+        nlohmann::ordered_json& known = document[key];
+        if (known.is_null()) {
+            known = value;
+        } else if (known.is_array()) {
+            known.push_back(value);
+        } else {
+            known = {known, value};
+        }
+    }
+    // Paths and driver names may be anything, also what is not UTF-8.
+    return document.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+} // namespace geodisk::tools

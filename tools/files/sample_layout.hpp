@@ -1,0 +1,83 @@
+// The columns of sample files and what else their formats share, for the writers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "files/output_file.hpp"
+#include "files/sample_columns.hpp"
+#include "files/sample_file.hpp"
+#include "program/exact_text.hpp"
+
+namespace geodisk::tools {
+
+/// What the columns of a file are.
+struct SampleLayout {
+    std::uint32_t dimension;
+    std::uint32_t named; ///< How many of the first three coordinates by the names x, y and z.
+    bool has_float_positions;
+    bool has_radius;
+    bool has_polygon = false;
+    bool is_on_surface = true;
+
+    std::size_t numbered() const { return dimension > 3 ? dimension : 0; }
+    bool has_normals() const { return is_on_surface && dimension == 3; }
+};
+
+/// Calls visit(name, value) for each column of a row, in order.
+template <typename Visit>
+void visit_columns(const SampleRow& row, const SampleLayout& layout, const Visit& visit) {
+    const auto visit_position = [&](std::span<const std::string_view> names) {
+        for (std::size_t axis = 0; axis < names.size(); ++axis) {
+            if (layout.has_float_positions) {
+                visit(names[axis], static_cast<float>(row.position[axis]));
+            } else {
+                visit(names[axis], row.position[axis]);
+            }
+        }
+    };
+    const auto name_of = [](SampleColumn first, std::size_t offset = 0) {
+        return kSampleColumnNames[static_cast<std::size_t>(first) + offset];
+    };
+    visit_position(std::span(kSampleColumnNames).first(layout.named));
+    visit_position(std::span(kNumberedColumnNames).first(layout.numbered()));
+    for (std::size_t axis = 0; axis < 3 && layout.has_normals(); ++axis) {
+        visit(name_of(SampleColumn::nx, axis), row.normal[axis]);
+    }
+    if (layout.is_on_surface) {
+        visit(name_of(SampleColumn::face_index), row.face);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            visit(name_of(SampleColumn::bary_u, corner), row.bary[corner]);
+        }
+    }
+    if (layout.has_radius) {
+        visit(name_of(SampleColumn::radius), row.radius);
+    }
+    if (layout.has_polygon) {
+        visit(name_of(SampleColumn::polygon_index), row.polygon.value_or(0));
+    }
+}
+
+/// Whether rounding to float moves no position by more than a millionth of the set's extent.
+bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension);
+
+/// A line "KEY: VALUE" behind `prefix` for each entry.
+void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix);
+
+/// An object of all entries, plain ASCII on one line; a key with several values has an array.
+std::string json_text(const SampleHeader& header);
+
+/// Appends the columns of a row as a line.
+inline void append_text_row(std::string& line, const SampleRow& row, const SampleLayout& layout,
+                            char separator) {
+    visit_columns(row, layout, [&](std::string_view, auto value) {
+        append_number(line, value);
+        line += separator;
+    });
+    line.back() = '\n';
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,29 @@
+// Where samples are written, and in which format.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "program/path.hpp"
+
+namespace geodisk::tools {
+
+enum class SampleFormat { ply, csv, xyz, obj, pcd, npz, gltf, glb };
+
+struct SampleTarget {
+    Path path;
+    SampleFormat format = SampleFormat::ply;
+    bool is_text = false; ///< Of PLY and PCD, which may be binary.
+};
+
+/// The file `path` in the format of that name ("npz"), or in that of its extension for "". Throws
+/// UserError(usage) for a format that is unknown, or that this program was built without.
+SampleTarget sample_target(const Path& path, std::string_view format = {}, bool is_text = false);
+
+/// Whether `name` is that of a format: "npz".
+bool is_sample_format(std::string_view name);
+
+/// ".npz", the extension of files of that format.
+std::string extension_of(SampleFormat format);
+
+} // namespace geodisk::tools

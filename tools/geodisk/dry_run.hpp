@@ -1,0 +1,37 @@
+// What a run would be like, for the commands that sample.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "geodisk/device_run.hpp"
+#include "geodisk/reports/json.hpp"
+
+namespace geodisk::tools {
+
+/// What a job would give and take.
+struct DryRun {
+    DeviceReport device;
+    double min_distance = 0; ///< The first that is tried, where a count chooses it.
+    std::uint64_t seed = 0;
+    double expected = 0;   ///< Samples, about.
+    double candidates = 0; ///< That the pool expects, or darts.
+    std::uint64_t device_bytes = 0;
+    double compile_seconds = 0;
+    double pilot_seconds = 0;
+    double pilot_part = 0;     ///< Of the run, that the pilot did, up to 1.
+    double sample_seconds = 0; ///< Of the run, where the rest goes on as the pilot did.
+};
+
+/// Opens the device of `options`, compiles there what the task needs, and begins the run: a pilot
+/// that ends when it is complete, or after about two seconds. Throws UserError.
+DryRun dry_run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
+                         const Task& task, double min_distance, std::uint64_t seed,
+                         ProgressLine& progress);
+
+/// For programs.
+Json dry_run_json(const DryRun& run);
+/// Lines of a summary, from the samples on.
+std::string dry_run_text(const DryRun& run);
+
+} // namespace geodisk::tools
