@@ -19,12 +19,6 @@ namespace {
 /// Beyond what most meshes make; disks of so many are told of, since they take long.
 constexpr std::uint64_t kManyWindows = 10000;
 
-/// `options` with the tuning that is kept for the device.
-RunnerOptions tuned(RunnerOptions options, const DeviceReport& device) {
-    options.sampler.tuning = load_tuning(device).value_or(Tuning());
-    return options;
-}
-
 /// Draws how far a run is that should give about `expected` samples, and stops it on a signal.
 ProgressCallback show_progress(ProgressLine& progress, double expected) {
     return [&progress, expected](const Progress& state) {
@@ -47,6 +41,11 @@ std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
 }
 
 } // namespace
+
+RunnerOptions tuned(RunnerOptions options, const DeviceReport& device) {
+    options.sampler.tuning = load_tuning(device).value_or(Tuning());
+    return options;
+}
 
 void check_run(const Error& error, bool bounded) {
     if (error.status == Status::workspace_too_small ||

@@ -44,6 +44,9 @@ class DeviceLost : public UserError {
     explicit DeviceLost(const std::string& message) : UserError(ExitCode::internal, message) {}
 };
 
+/// `options` with the tuning that is kept for the device.
+RunnerOptions tuned(RunnerOptions options, const DeviceReport& device);
+
 /// Throws UserError for an error of a run that --memory can help with, which was `bounded` by it,
 /// and DeviceLost.
 void check_run(const Error& error, bool bounded);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "files/tuning_file.hpp"
 #include "geodisk/opened_device.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -87,13 +86,12 @@ DryRun dry_run_on_device(const RunOptions& options, const RunnerOptions& runner_
     dry.device = context.report();
     progress.begin_stage("compiling the shaders");
     const Stopwatch watch;
-    RunnerOptions tuned = runner_options;
-    tuned.sampler.tuning = load_tuning(dry.device).value_or(Tuning());
-    Runner runner = take(Runner::create(context.device(), context.queue(), tuned));
+    const RunnerOptions wanted = tuned(runner_options, dry.device);
+    Runner runner = take(Runner::create(context.device(), context.queue(), wanted));
     take(runner.sampler().prepare(task.domain));
     dry.compile_seconds = watch.seconds();
-    dry.device_bytes = planned_bytes(runner.sampler(), tuned, task.domain);
-    run_pilot(runner, task, tuned.device_bytes != 0, progress, dry);
+    dry.device_bytes = planned_bytes(runner.sampler(), wanted, task.domain);
+    run_pilot(runner, task, wanted.device_bytes != 0, progress, dry);
     check_validation(context);
     return dry;
 }
