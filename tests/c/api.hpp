@@ -26,6 +26,8 @@ struct Release {
     void operator()(geodisk_domain* object) const { geodisk_domain_release(object); }
     void operator()(geodisk_sampler* object) const { geodisk_sampler_release(object); }
     void operator()(geodisk_samples* object) const { geodisk_samples_release(object); }
+    void operator()(geodisk_job* object) const { geodisk_job_release(object); }
+    void operator()(geodisk_placement* object) const { geodisk_placement_release(object); }
     void operator()(geodisk_count_search* object) const { geodisk_count_search_release(object); }
 };
 template <class Object>

@@ -78,7 +78,8 @@ class Program {
   public:
     explicit Program(Bytes bytes) : bytes_(bytes) {}
 
-    void run(geodisk_sampler* sampler) {
+    void run(geodisk_device* device, geodisk_sampler* sampler) {
+        device_ = device;
         sampler_ = sampler;
         for (int calls = 0; calls < 64 && !bytes_.is_empty(); ++calls) {
             call();
@@ -95,7 +96,7 @@ class Program {
         geodisk_error error{};
         error.struct_size = bytes_.below(4) == 0 ? bytes_.below(sizeof error) : sizeof error;
         geodisk_error* const e = bytes_.below(4) == 0 ? nullptr : &error;
-        switch (bytes_.below(16)) {
+        switch (bytes_.below(17)) {
         case 0:
         case 1:
             return make_mesh(e);
@@ -133,6 +134,8 @@ class Program {
             return find_distance(e);
         case 14:
             return save_and_load(e);
+        case 15:
+            return plan_job(e);
         default:
             meshes_.release_one(bytes_);
             radii_.release_one(bytes_);
@@ -297,7 +300,35 @@ class Program {
         meshes_.add(loaded);
     }
 
+    /// All that a job does without buffers: a range must be one of a VkBuffer.
+    void plan_job(geodisk_error* e) {
+        auto options = bytes_.any_struct<geodisk_job_options>();
+        geodisk_job* job = nullptr;
+        geodisk_job_create(device_, domains_.any(bytes_), bytes_.below(2) == 0 ? nullptr : &options,
+                           &job, e);
+        const std::uint32_t buffer = bytes_.next<std::uint8_t>();
+        auto need = bytes_.any_struct<geodisk_buffer_need>();
+        if (geodisk_job_need(job, buffer, &need, e) == GEODISK_OK &&
+            need.struct_size == sizeof need && need.upload_bytes < (1u << 24)) {
+            std::vector<unsigned char> data(need.upload_bytes + 8);
+            geodisk_job_upload(job, buffer, data.data(), need.upload_bytes + bytes_.below(2), e);
+        }
+        const std::array<geodisk_buffer_range, GEODISK_BUFFERS> no_ranges{};
+        geodisk_job_bind(job, no_ranges.data(), e);
+        const std::array<unsigned char, 4096> control{};
+        auto advice = bytes_.any_struct<geodisk_advice>();
+        geodisk_job_advance(job, control.data(), bytes_.next<std::uint16_t>() % control.size(),
+                            &advice, e);
+        geodisk_job_set_seed(job, bytes_.next<std::uint64_t>(), e);
+        auto params = bytes_.any_struct<geodisk_placement_params>();
+        geodisk_placement* placement = nullptr;
+        geodisk_placement_create(job, &params, &placement, e);
+        geodisk_placement_release(placement);
+        geodisk_job_release(job);
+    }
+
     Bytes bytes_;
+    geodisk_device* device_ = nullptr;
     geodisk_sampler* sampler_ = nullptr;
     Objects<geodisk_mesh, geodisk_mesh_release> meshes_;
     Objects<geodisk_radii, geodisk_radii_release> radii_;
@@ -308,21 +339,22 @@ class Program {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static geodisk_device* const device = [] {
+        geodisk_device* opened = nullptr;
+        geodisk_device_open(nullptr, &opened, nullptr);
+        return opened;
+    }();
     static geodisk_sampler* const sampler = [] {
-        geodisk_device* device = nullptr;
         geodisk_sampler* made = nullptr;
-        if (geodisk_device_open(nullptr, &device, nullptr) == GEODISK_OK) {
-            geodisk_sampler_options options{};
-            options.struct_size = sizeof options;
-            options.device_bytes = std::uint64_t{64} << 20;
-            geodisk_sampler_create(device, &options, &made, nullptr);
-        }
-        geodisk_device_release(device);
+        geodisk_sampler_options options{};
+        options.struct_size = sizeof options;
+        options.device_bytes = std::uint64_t{64} << 20;
+        geodisk_sampler_create(device, &options, &made, nullptr);
         return made;
     }();
     if (sampler == nullptr) {
         __builtin_trap(); // Fuzzing nothing finds nothing.
     }
-    Program(Bytes(data, size)).run(sampler);
+    Program(Bytes(data, size)).run(device, sampler);
     return 0;
 }

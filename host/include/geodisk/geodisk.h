@@ -132,6 +132,26 @@ typedef struct geodisk_device_options {
 GEODISK_C_API geodisk_status geodisk_device_open(const geodisk_device_options *options,
                                                  geodisk_device **device, geodisk_error *error);
 
+/* Memory for a buffer, asked of the caller. Flags are VkMemoryPropertyFlags. */
+typedef struct geodisk_memory_request {
+    size_t struct_size;
+    uint64_t buffer; /* VkBuffer, to which geodisk binds it. */
+    uint64_t bytes;
+    uint64_t alignment;
+    uint32_t memory_types; /* Bits of those it may be of. */
+    uint32_t required;     /* Host visible and coherent where the host writes or reads. */
+    uint32_t preferred;    /* Better still. */
+} geodisk_memory_request;
+
+/* What the caller gives. */
+typedef struct geodisk_memory_grant {
+    size_t struct_size;
+    uint64_t memory; /* VkDeviceMemory. */
+    uint64_t offset; /* Aligned as asked. */
+    void *mapped;    /* At `offset`, until freed; not NULL where the host is to see it. */
+    void *allocation;/* The caller's own, for `free`. */
+} geodisk_memory_grant;
+
 /* A device and queue of the caller's, by their Vulkan handles. They must outlive all objects made
  * from them, samples aside, and geodisk destroys none of them. */
 typedef struct geodisk_vulkan_device {
@@ -151,6 +171,12 @@ typedef struct geodisk_vulkan_device {
     void (*lock)(void *lock_user);
     void (*unlock)(void *lock_user);
     const void *host_allocator; /* VkAllocationCallbacks, or NULL. */
+    /* Where runs get the memory of their buffers, such as VMA; NULL for an allocation for each.
+     * `allocate` fills `grant`, or fails as vkAllocateMemory does. */
+    void *memory_user;
+    int32_t (*allocate)(void *memory_user, const geodisk_memory_request *request,
+                        geodisk_memory_grant *grant);
+    void (*free)(void *memory_user, const geodisk_memory_grant *grant);
 } geodisk_vulkan_device;
 
 GEODISK_C_API geodisk_status geodisk_device_borrow(const geodisk_vulkan_device *lent,
@@ -424,6 +450,169 @@ GEODISK_C_API geodisk_status geodisk_samples_report(const geodisk_samples *sampl
                                                     geodisk_report *report, geodisk_error *error);
 
 GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
+
+/* ---- Recording --------------------------------------------------------------------------------- */
+
+/* A run in command buffers and memory of the caller's, on a device that it lent: nothing is
+ * allocated there, submitted or waited for, and the samples stay there. It goes like this:
+ *
+ *     geodisk_job_create    plans the run
+ *     geodisk_job_need      how large each buffer must be
+ *     geodisk_job_bind      takes the caller's buffers
+ *     geodisk_job_upload    what to copy into them before the first commands
+ *     geodisk_job_record    records what comes next, at first GEODISK_BEGIN; submit it, with a copy
+ *                           of the first bytes of GEODISK_CONTROL_BUFFER to where the host reads
+ *     geodisk_job_advance   tells by such a copy what comes next, until GEODISK_COMPLETE
+ *
+ * A job is for one thread at a time, and another gets GEODISK_BUSY. Its command buffers must run one
+ * after the other, and end before the job is released. Recording leaves the compute pipeline,
+ * descriptor set 0 and the push constants changed, and has its own barriers among the job's buffers.
+ * Those against other work are the caller's: the first commands write by transfers, and read and write
+ * in compute shaders; the last ones write in both. */
+typedef struct geodisk_job geodisk_job;
+
+typedef struct geodisk_job_options {
+    size_t struct_size;
+    uint64_t pool_bytes; /* Most for disks in progress; 0 for 256 MiB. */
+    uint32_t stages;     /* Of candidates drawn at once, which take memory; 0 chooses. */
+    uint32_t regrowths;  /* So many times the buffers suffice where disks outgrow the first plan. */
+} geodisk_job_options;
+
+/* `options` may be NULL. Compiles what runs of the domain need. The arithmetic of the device is
+ * not checked, as geodisk_sampler_create does. */
+GEODISK_C_API geodisk_status geodisk_job_create(const geodisk_device *device,
+                                                const geodisk_domain *domain,
+                                                const geodisk_job_options *options,
+                                                geodisk_job **job, geodisk_error *error);
+
+/* The buffers of a job, 0 to GEODISK_BUFFERS - 1. Those to know: */
+enum {
+    GEODISK_POOL_BUFFER = 8,
+    GEODISK_CONTROL_BUFFER = 9,
+    GEODISK_SAMPLES_BUFFER = 12, /* geodisk_sample_record of each sample. */
+    GEODISK_ACCEPTED_BUFFER = 13,
+    GEODISK_BUFFERS = 15
+};
+
+/* VkBufferUsageFlags for all of them: storage, both texel buffers, both transfers, indirect. */
+#define GEODISK_BUFFER_USAGE 0x12fu
+
+typedef struct geodisk_buffer_need {
+    size_t struct_size;
+    uint64_t bytes;        /* At least; 0 where none is needed. */
+    uint64_t upload_bytes; /* To be uploaded at its begin. */
+    uint64_t read_bytes;   /* At its begin, for geodisk_job_advance. */
+} geodisk_buffer_need;
+
+/* What one buffer must have: at first, and where GEODISK_LARGER_POOL, GEODISK_LARGER_SAMPLES or
+ * GEODISK_START_OVER comes next. */
+GEODISK_C_API geodisk_status geodisk_job_need(geodisk_job *job, uint32_t buffer,
+                                              geodisk_buffer_need *need, geodisk_error *error);
+
+/* A range of a VkBuffer, aligned for storage and texel buffers. */
+typedef struct geodisk_buffer_range {
+    uint64_t buffer;
+    uint64_t offset;
+    uint64_t bytes;
+} geodisk_buffer_range;
+
+/* Takes GEODISK_BUFFERS ranges that do not overlap; all 0 where none is needed. Where larger ones
+ * are, the others stay the same; what GEODISK_SAMPLES_BUFFER and GEODISK_ACCEPTED_BUFFER held is
+ * copied by the caller. No command buffer of the job may be pending. */
+GEODISK_C_API geodisk_status geodisk_job_bind(geodisk_job *job, const geodisk_buffer_range *ranges,
+                                              geodisk_error *error);
+
+/* Writes the upload_bytes of a buffer to `data`: `bytes` is as many. */
+GEODISK_C_API geodisk_status geodisk_job_upload(geodisk_job *job, uint32_t buffer, void *data,
+                                                size_t bytes, geodisk_error *error);
+
+/* What comes next for a job. */
+typedef int32_t geodisk_next;
+enum {
+    GEODISK_BEGIN = 0,          /* To draw candidates: the first, more, or those left. */
+    GEODISK_GO_ON = 1,          /* To decide them. */
+    GEODISK_FINISH = 2,         /* To put the samples in order. */
+    GEODISK_LARGER_POOL = 3,    /* geodisk_job_bind, then to record what goes back. */
+    GEODISK_LARGER_SAMPLES = 4, /* The same. */
+    GEODISK_START_OVER = 5,     /* geodisk_job_bind and all uploads anew, then to begin. */
+    GEODISK_COMPLETE = 6        /* The samples are there. */
+};
+
+/* Records it to a VkCommandBuffer, outside of a render pass. `amount`: of GEODISK_GO_ON so many rounds, 0 for one;
+ * of GEODISK_BEGIN and GEODISK_FINISH at most so many dispatches, 0 for all. Writes to `is_last`,
+ * unless it is NULL, whether none of them is left; whatever is recorded next begins with those.
+ *
+ * Rounds that come after the last are empty. GEODISK_FINISH may be recorded at any time: what is
+ * decided so far are the first samples of the set, and stay where they are. */
+GEODISK_C_API geodisk_status geodisk_job_record(geodisk_job *job, void *command_buffer,
+                                                geodisk_next what, uint32_t amount,
+                                                int32_t *is_last, geodisk_error *error);
+
+typedef struct geodisk_advice {
+    size_t struct_size;
+    geodisk_next next;
+    uint32_t ready; /* Samples in order, and final. */
+} geodisk_advice;
+
+/* `control`: the first `bytes` of GEODISK_CONTROL_BUFFER, which are its read_bytes. Copies of any
+ * time will do, so that frames may be in flight: an old one says to go on. */
+GEODISK_C_API geodisk_status geodisk_job_advance(geodisk_job *job, const void *control,
+                                                 size_t bytes, geodisk_advice *advice,
+                                                 geodisk_error *error);
+
+/* Begins anew with another seed, by GEODISK_BEGIN; what was uploaded stays. */
+GEODISK_C_API geodisk_status geodisk_job_set_seed(geodisk_job *job, uint64_t seed,
+                                                  geodisk_error *error);
+
+GEODISK_C_API void geodisk_job_release(geodisk_job *job);
+
+/* The weight of the first corner is 1 less both; of boxes all but the order is internal. */
+typedef struct geodisk_sample_record {
+    uint32_t order, face;
+    float weight1, weight2;
+} geodisk_sample_record;
+
+/* Where samples of a job are drawn: on the device, by the caller's own vertices. */
+typedef struct geodisk_placement geodisk_placement;
+
+/* A sample there. The normal has length 1, or 0 of a face without one; the face is one of `part`. */
+typedef struct geodisk_placed_record {
+    float position[3], radius;
+    float normal[3];
+    uint32_t face;
+    float weight1, weight2;
+    uint32_t part, order;
+} geodisk_placed_record;
+
+/* Ranges are storage buffers; offsets and strides are multiples of 4 bytes. */
+typedef struct geodisk_placement_params {
+    size_t struct_size;
+    geodisk_buffer_range vertices; /* With three floats of a position each. */
+    uint32_t vertex_stride;        /* 0 for 12. */
+    uint32_t position_offset;      /* In a vertex. */
+    int32_t has_normals;           /* Not 0: three floats of them, else those of faces. */
+    uint32_t normal_offset;
+    /* Three for each face; those of several surfaces follow each other. */
+    geodisk_buffer_range indices;
+    geodisk_type index_type; /* GEODISK_UINT32 or GEODISK_UINT16; 0 for GEODISK_UINT32. */
+    uint32_t vertices_each;  /* In `arguments`; 0 for 1. */
+    /* geodisk_placed_record of each sample, as many as GEODISK_SAMPLES_BUFFER has records. */
+    geodisk_buffer_range placed;
+    /* 16 bytes: a VkDrawIndirectCommand with an instance for each sample. */
+    geodisk_buffer_range arguments;
+} geodisk_placement_params;
+
+/* Of a job with buffers, and a surface with geodesic distance. */
+GEODISK_C_API geodisk_status geodisk_placement_create(geodisk_job *job,
+                                                      const geodisk_placement_params *params,
+                                                      geodisk_placement **placement,
+                                                      geodisk_error *error);
+/* Behind GEODISK_FINISH, to the same command buffer or a later one. Where the job has got larger
+ * buffers for its samples, another placement is needed. */
+GEODISK_C_API geodisk_status geodisk_placement_record(const geodisk_placement *placement,
+                                                      geodisk_job *job, void *command_buffer,
+                                                      geodisk_error *error);
+GEODISK_C_API void geodisk_placement_release(geodisk_placement *placement);
 
 /* ---- Finding a distance by a count ------------------------------------------------------------- */
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -28,6 +29,24 @@ geodisk_status answer(geodisk_error* error, Body&& body) noexcept {
     const Result<Done> result = guarded(std::forward<Body>(body));
     return result ? tell_success(error) : tell(error, result.error());
 }
+
+/// Has an object that is for one call at a time.
+class Hold {
+  public:
+    explicit Hold(std::atomic<bool>& is_held) noexcept
+        : held_(is_held.exchange(true) ? nullptr : &is_held) {}
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+    ~Hold() {
+        if (held_ != nullptr) {
+            *held_ = false;
+        }
+    }
+    explicit operator bool() const noexcept { return held_ != nullptr; }
+
+  private:
+    std::atomic<bool>* held_;
+};
 
 /// Copies as much as fits and ends it with 0, not within a character of UTF-8.
 void copy_text(std::string_view text, char* to, std::size_t capacity) noexcept;

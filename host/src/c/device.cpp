@@ -36,7 +36,48 @@ PFN_vkGetInstanceProcAddr loader_of(void (*function)(void)) {
     return reinterpret_cast<PFN_vkGetInstanceProcAddr>(function);
 }
 
+/// A handle as the header has it.
+template <class Handle>
+std::uint64_t number_of(Handle handle) noexcept {
+    std::uint64_t number = 0;
+    std::memcpy(&number, &handle, sizeof handle);
+    return number;
+}
+
 } // namespace
+
+VkResult LentMemory::allocate(void* self, const MemoryRequest& request, MemoryGrant& grant) {
+    const auto& own = *static_cast<const LentMemory*>(self);
+    geodisk_memory_request asked{};
+    asked.struct_size = sizeof asked;
+    asked.buffer = number_of(request.buffer);
+    asked.bytes = request.requirements.size;
+    asked.alignment = request.requirements.alignment;
+    asked.memory_types = request.requirements.memoryTypeBits;
+    asked.required = request.required;
+    asked.preferred = request.preferred;
+    geodisk_memory_grant given{};
+    given.struct_size = sizeof given;
+    const auto result = static_cast<VkResult>(own.allocate_(own.user_, &asked, &given));
+    if (result == VK_SUCCESS) {
+        std::memcpy(&grant.memory, &given.memory, sizeof grant.memory);
+        grant.offset = given.offset;
+        grant.mapped = given.mapped;
+        grant.allocation = given.allocation;
+    }
+    return result;
+}
+
+void LentMemory::free(void* self, const MemoryGrant& grant) {
+    const auto& own = *static_cast<const LentMemory*>(self);
+    geodisk_memory_grant given{};
+    given.struct_size = sizeof given;
+    given.memory = number_of(grant.memory);
+    given.offset = grant.offset;
+    given.mapped = grant.mapped;
+    given.allocation = grant.allocation;
+    own.free_(own.user_, &given);
+}
 
 Result<std::shared_ptr<const Sampler>> Device::sampler(bool count_calls) const {
     const std::lock_guard lock(mutex_);
@@ -138,6 +179,9 @@ geodisk_status geodisk_device_borrow(const geodisk_vulkan_device* lent, geodisk_
         if ((given->lock == nullptr) != (given->unlock == nullptr)) {
             return wrong("lent->lock and lent->unlock go together");
         }
+        if ((given->allocate == nullptr) != (given->free == nullptr)) {
+            return wrong("lent->allocate and lent->free go together");
+        }
         DeviceRefs refs;
         refs.instance = static_cast<VkInstance>(given->instance);
         refs.physical_device = static_cast<VkPhysicalDevice>(given->physical_device);
@@ -159,8 +203,10 @@ geodisk_status geodisk_device_borrow(const geodisk_vulkan_device* lent, geodisk_
         if (!report) {
             return report.error();
         }
-        *device =
-            new geodisk_device{std::make_shared<const Device>(refs, queue, std::move(*report))};
+        auto memory =
+            given->allocate != nullptr ? std::make_unique<const LentMemory>(*given) : nullptr;
+        *device = new geodisk_device{
+            std::make_shared<const Device>(refs, queue, std::move(*report), std::move(memory))};
         return Done{};
     });
 }

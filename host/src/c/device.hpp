@@ -11,14 +11,38 @@
 
 namespace geodisk::c {
 
+/// Device memory by the caller's functions.
+class LentMemory {
+  public:
+    explicit LentMemory(const geodisk_vulkan_device& lent)
+        : user_(lent.memory_user), allocate_(lent.allocate), free_(lent.free) {}
+    LentMemory(const LentMemory&) = delete;
+    LentMemory& operator=(const LentMemory&) = delete;
+
+    const MemoryHooks* hooks() const noexcept { return &hooks_; }
+
+  private:
+    static VkResult allocate(void* self, const MemoryRequest& request, MemoryGrant& grant);
+    static void free(void* self, const MemoryGrant& grant);
+
+    void* user_;
+    decltype(geodisk_vulkan_device::allocate) allocate_;
+    decltype(geodisk_vulkan_device::free) free_;
+    MemoryHooks hooks_{this, &allocate, &free};
+};
+
 /// A device of geodisk's own, or a borrowed one.
 class Device {
   public:
     explicit Device(Context context)
         : context_(std::move(context)), refs_(context_->device()), queue_(context_->queue()),
           report_(context_->report()) {}
-    Device(const DeviceRefs& refs, const QueueRef& queue, DeviceReport report)
-        : refs_(refs), queue_(queue), report_(std::move(report)) {}
+    /// `memory` may be null.
+    Device(const DeviceRefs& refs, const QueueRef& queue, DeviceReport report,
+           std::unique_ptr<const LentMemory> memory)
+        : memory_(std::move(memory)), refs_(refs), queue_(queue), report_(std::move(report)) {
+        refs_.memory_hooks = memory_ ? memory_->hooks() : nullptr;
+    }
 
     const QueueRef& queue() const noexcept { return queue_; }
     const DeviceReport& report() const noexcept { return report_; }
@@ -31,6 +55,7 @@ class Device {
 
   private:
     std::optional<Context> context_;
+    std::unique_ptr<const LentMemory> memory_;
     DeviceRefs refs_;
     QueueRef queue_;
     DeviceReport report_;

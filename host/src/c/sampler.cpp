@@ -9,24 +9,6 @@
 namespace geodisk::c {
 namespace {
 
-/// Has a sampler for as long as a call of it takes.
-class Hold {
-  public:
-    explicit Hold(SamplerState& state) noexcept
-        : state_(state.is_held.exchange(true) ? nullptr : &state) {}
-    Hold(const Hold&) = delete;
-    Hold& operator=(const Hold&) = delete;
-    ~Hold() {
-        if (state_ != nullptr) {
-            state_->is_held = false;
-        }
-    }
-    explicit operator bool() const noexcept { return state_ != nullptr; }
-
-  private:
-    SamplerState* state_;
-};
-
 /// Runs `body(state)` with a sampler that no other call has.
 template <class Body>
 geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, const Body& body) {
@@ -35,7 +17,7 @@ geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, cons
             return wrong("sampler is NULL");
         }
         const std::shared_ptr<SamplerState> state = sampler->shared;
-        const Hold hold(*state);
+        const Hold hold(state->is_held);
         if (!hold) {
             return Error{Status::busy, "another call has the sampler"};
         }

@@ -1,0 +1,411 @@
+// Runs that a program in C records into its own command buffers, in its own memory.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+#include "c/api.hpp"
+#include "c/job.hpp"
+#include "c/lent.hpp"
+#include "device_run.hpp"
+#include "embed/workshop.hpp"
+
+namespace geodisk::test {
+namespace {
+
+geodisk_buffer_range given(const BufferRange& range) {
+    return {number_of(range.buffer), range.offset, range.size};
+}
+
+/// A device that is lent, a job on it, and an engine that records it.
+class Recording {
+  public:
+    Recording(const geodisk_domain* domain, const geodisk_job_options& options)
+        : device_(borrowed(lent_device(shared_context().device(), shared_context().queue()))),
+          job_(owned<geodisk_job>([&](auto** made, geodisk_error* error) {
+              return geodisk_job_create(device_.get(), domain, &options, made, error);
+          })),
+          workshop_(shared_context()) {}
+
+    geodisk_job* job() const { return job_.get(); }
+    Workshop& workshop() { return workshop_; }
+    std::uint32_t times(geodisk_next next) const {
+        return static_cast<std::uint32_t>(std::count(seen_.begin(), seen_.end(), next));
+    }
+
+    geodisk_buffer_need need(std::uint32_t buffer) const {
+        auto need = sized<geodisk_buffer_need>();
+        REQUIRE(geodisk_job_need(job(), buffer, &need, nullptr) == GEODISK_OK);
+        return need;
+    }
+
+    void bind_all() {
+        WorkspaceNeeds needs;
+        for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
+            needs.bytes[i] = need(i).bytes;
+        }
+        workspace_ = workshop_.cut(needs);
+        bind();
+        upload();
+    }
+
+    /// Frames until the samples are there; as many as are returned.
+    std::uint32_t run(std::size_t lag = 0) {
+        std::vector<std::vector<std::byte>> reports(lag + 1,
+                                                    std::vector<std::byte>(control_bytes()));
+        for (std::size_t frame = 0; frame < 10'000; ++frame) {
+            auto advice = sized<geodisk_advice>();
+            auto error = sized<geodisk_error>();
+            const geodisk_status status = geodisk_job_advance(
+                job(), reports[frame].data(), reports[frame].size(), &advice, &error);
+            INFO(error.message);
+            REQUIRE(status == GEODISK_OK);
+            seen_.push_back(advice.next);
+            if (advice.next == GEODISK_COMPLETE) {
+                return advice.ready;
+            }
+            if (advice.next == GEODISK_LARGER_POOL || advice.next == GEODISK_LARGER_SAMPLES) {
+                replace_small();
+            } else if (advice.next == GEODISK_START_OVER) {
+                workshop_.start_over();
+                bind_all();
+            }
+            record(advice.next, advice.next == GEODISK_BEGIN ? 3 : 2);
+            reports.push_back(control_);
+        }
+        FAIL("the rounds lead nowhere");
+        return 0;
+    }
+
+    void record(geodisk_next what, std::uint32_t amount) {
+        workshop_.frame(0, [&](VkCommandBuffer commands) {
+            auto error = sized<geodisk_error>();
+            const geodisk_status status =
+                geodisk_job_record(job(), commands, what, amount, nullptr, &error);
+            INFO(error.message);
+            REQUIRE(status == GEODISK_OK);
+            workshop_.barrier(commands, Sampler::kLastUse, Workshop::kCopied);
+            workshop_.record_download(commands, workspace_[GEODISK_CONTROL_BUFFER],
+                                      control_bytes());
+            workshop_.barrier(commands, Workshop::kCopied, Sampler::kFirstUse);
+        });
+        control_.assign(workshop_.download_bytes().begin(),
+                        workshop_.download_bytes().begin() +
+                            static_cast<std::ptrdiff_t>(control_bytes()));
+    }
+
+    /// What a buffer of the device holds.
+    template <class Value>
+    std::vector<Value> read(const BufferRange& range, std::size_t count) {
+        workshop_.frame(0, [&](VkCommandBuffer commands) {
+            workshop_.barrier(commands, Sampler::kLastUse, Workshop::kCopied);
+            workshop_.record_download(commands, range, count * sizeof(Value));
+        });
+        std::vector<Value> values(count);
+        std::memcpy(values.data(), workshop_.download_bytes().data(), count * sizeof(Value));
+        return values;
+    }
+    const BufferRange& buffer(std::uint32_t which) const { return workspace_[which]; }
+
+    Placed placed(std::uint32_t count) {
+        Placed result;
+        for (const auto& sample :
+             read<geodisk_sample_record>(buffer(GEODISK_SAMPLES_BUFFER), count)) {
+            result.faces.push_back(sample.face);
+            const float first = 1.0f - sample.weight1 - sample.weight2;
+            result.weights.insert(result.weights.end(), {first, sample.weight1, sample.weight2});
+        }
+        return result;
+    }
+
+    void write(const BufferRange& range, const void* data, std::size_t bytes) {
+        std::memcpy(workshop_.upload_bytes().data(), data, bytes);
+        workshop_.frame(0, [&](VkCommandBuffer commands) {
+            workshop_.record_upload(commands, range, 0, bytes);
+            workshop_.barrier(commands, Workshop::kUploaded, Sampler::kFirstUse);
+        });
+    }
+
+  private:
+    std::size_t control_bytes() const { return need(GEODISK_CONTROL_BUFFER).read_bytes; }
+
+    void bind() {
+        std::vector<geodisk_buffer_range> ranges(GEODISK_BUFFERS);
+        std::transform(workspace_.begin(), workspace_.end(), ranges.begin(), given);
+        auto error = sized<geodisk_error>();
+        const geodisk_status status = geodisk_job_bind(job(), ranges.data(), &error);
+        INFO(error.message);
+        REQUIRE(status == GEODISK_OK);
+    }
+
+    void upload() {
+        for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
+            std::vector<std::byte> bytes(need(i).upload_bytes);
+            if (!bytes.empty()) {
+                REQUIRE(geodisk_job_upload(job(), i, bytes.data(), bytes.size(), nullptr) ==
+                        GEODISK_OK);
+                write(workspace_[i], bytes.data(), bytes.size());
+            }
+        }
+    }
+
+    /// Buffers that are too small by now, with what they held.
+    void replace_small() {
+        WorkspaceNeeds needs;
+        for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
+            const std::uint64_t bytes = need(i).bytes;
+            needs.bytes[i] = bytes > workspace_[i].size ? bytes : 0;
+        }
+        const Workspace larger = workshop_.cut(needs);
+        for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
+            if (needs.bytes[i] != 0) {
+                const auto held = read<std::byte>(workspace_[i], workspace_[i].size);
+                workspace_[i] = larger[i];
+                write(workspace_[i], held.data(), held.size());
+            }
+        }
+        bind();
+    }
+
+    Owned<geodisk_device> device_;
+    Owned<geodisk_job> job_;
+    Workshop workshop_;
+    Workspace workspace_;
+    std::vector<std::byte> control_;
+    std::vector<geodisk_next> seen_;
+};
+
+geodisk_job_options small_options() {
+    auto options = sized<geodisk_job_options>();
+    options.pool_bytes = Workshop::kPoolBytes;
+    return options;
+}
+
+const TestMesh& knot() {
+    static const TestMesh mesh = builtin("torus-knot", 8);
+    return mesh;
+}
+
+Owned<geodisk_domain> knot_domain(std::uint64_t seed = 1) {
+    const auto mesh = mesh_of(knot());
+    double distance = 0;
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 200, &distance, nullptr) == GEODISK_OK);
+    return surface_of(mesh.get(), distance, seed);
+}
+
+Placed wanted(const geodisk_domain* domain) {
+    return placed(sample(shared_sampler(), domain).get());
+}
+
+} // namespace
+
+TEST_CASE("a job that is recorded has the samples of one that is run") {
+    const auto domain = knot_domain();
+    Recording recording(domain.get(), small_options());
+    recording.bind_all();
+    CHECK(recording.placed(recording.run()) == wanted(domain.get()));
+    CHECK(recording.workshop().damage() == 0);
+
+    // Another seed in the same buffers, with the host two frames behind.
+    REQUIRE(geodisk_job_set_seed(recording.job(), 7, nullptr) == GEODISK_OK);
+    CHECK(recording.placed(recording.run(2)) == wanted(knot_domain(7).get()));
+    CHECK(recording.workshop().damage() == 0);
+}
+
+TEST_CASE("a job in a box leaves its order on the device") {
+    const double extents[] = {1, 1, 1};
+    auto params = sized<geodisk_box_params>();
+    params.extents = extents;
+    params.dimension = 3;
+    params.is_periodic = 1;
+    params.min_distance = 0.2;
+    const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+        return geodisk_domain_box(&params, made, error);
+    });
+    Recording recording(domain.get(), small_options());
+    recording.bind_all();
+    const std::uint32_t count = recording.run();
+    CHECK(count == geodisk_samples_count(sample(shared_sampler(), domain.get()).get()));
+    const auto records =
+        recording.read<geodisk_sample_record>(recording.buffer(GEODISK_SAMPLES_BUFFER), count);
+    CHECK(std::ranges::is_sorted(records, {}, &geodisk_sample_record::order));
+}
+
+TEST_CASE("buffers of a job that become too small are replaced") {
+    const auto domain = knot_domain();
+    const Placed set = wanted(domain.get());
+
+    Recording pool(domain.get(), small_options());
+    pool.job()->plan = tightened(pool.job()->plan);
+    pool.job()->needed[GEODISK_POOL_BUFFER] = pool.job()->plan.pool_bytes();
+    pool.bind_all();
+    CHECK(pool.placed(pool.run()) == set);
+    CHECK(pool.times(GEODISK_LARGER_POOL) > 1);
+
+    Recording samples(domain.get(), small_options());
+    RunPlan& plan = samples.job()->plan;
+    plan.slots = 16;
+    plan.lanes = std::min(plan.lanes, plan.slots);
+    plan.sample_capacity = 40;
+    const auto bytes =
+        samples.job()->sampler->workspace_needs(*samples.job()->domain->domain, plan, 0);
+    samples.job()->needed = expect(bytes).bytes;
+    samples.bind_all();
+    CHECK(samples.placed(samples.run()) == set);
+    CHECK(samples.times(GEODISK_LARGER_SAMPLES) > 1);
+}
+
+TEST_CASE("a job starts over with the guard that its windows need, and its own seed") {
+    const auto domain = knot_domain(3);
+    Recording recording(domain.get(), small_options());
+    recording.job()->plan.error_bound = std::ldexp(1.0, -24);
+    REQUIRE(geodisk_job_set_seed(recording.job(), 5, nullptr) == GEODISK_OK);
+    recording.bind_all();
+    CHECK(recording.placed(recording.run()) == wanted(knot_domain(5).get()));
+    CHECK(recording.times(GEODISK_START_OVER) > 0);
+}
+
+TEST_CASE("samples of a job are placed on the device, where they are drawn") {
+    const auto domain = knot_domain();
+    const auto set = sample(shared_sampler(), domain.get());
+    const std::size_t count = geodisk_samples_count(set.get());
+    Recording recording(domain.get(), small_options());
+    recording.bind_all();
+    const std::uint32_t ready = recording.run();
+    REQUIRE(ready == count);
+
+    const std::vector<float> positions(knot().positions.begin(), knot().positions.end());
+    const std::size_t capacity =
+        recording.need(GEODISK_SAMPLES_BUFFER).bytes / sizeof(geodisk_sample_record);
+    WorkspaceNeeds needs;
+    needs.bytes[0] = positions.size() * sizeof positions[0];
+    needs.bytes[1] = knot().triangles.size() * sizeof knot().triangles[0];
+    needs.bytes[2] = capacity * sizeof(geodisk_placed_record);
+    needs.bytes[3] = 16;
+    const Workspace drawn = recording.workshop().cut(needs);
+    recording.write(drawn[0], positions.data(), needs.bytes[0]);
+    recording.write(drawn[1], knot().triangles.data(), needs.bytes[1]);
+
+    auto params = sized<geodisk_placement_params>();
+    params.vertices = given(drawn[0]);
+    params.indices = given(drawn[1]);
+    params.placed = given(drawn[2]);
+    params.arguments = given(drawn[3]);
+    params.vertices_each = 4;
+    const auto placement = owned<geodisk_placement>([&](auto** made, geodisk_error* error) {
+        return geodisk_placement_create(recording.job(), &params, made, error);
+    });
+    recording.workshop().frame(0, [&](VkCommandBuffer commands) {
+        REQUIRE(geodisk_placement_record(placement.get(), recording.job(), commands, nullptr) ==
+                GEODISK_OK);
+    });
+    CHECK(recording.read<std::uint32_t>(drawn[3], 4) == std::vector<std::uint32_t>{4, ready, 0, 0});
+
+    std::vector<double> points(3 * count), normals(3 * count), radii(count);
+    const auto copy = [&](geodisk_attribute attribute, std::vector<double>& to) {
+        REQUIRE(geodisk_samples_copy(set.get(), attribute, GEODISK_FLOAT64, to.data(), 0, count,
+                                     nullptr) == GEODISK_OK);
+    };
+    copy(GEODISK_POSITION, points);
+    copy(GEODISK_NORMAL, normals);
+    copy(GEODISK_RADIUS, radii);
+    const auto records = recording.read<geodisk_placed_record>(drawn[2], count);
+    const std::vector<std::uint32_t> faces = placed(set.get()).faces;
+    for (std::size_t i = 0; i < count; ++i) {
+        CHECK(records[i].face == faces[i]);
+        CHECK(records[i].part == 0);
+        CHECK(records[i].radius == doctest::Approx(radii[i]));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            CHECK(records[i].position[axis] == doctest::Approx(points[3 * i + axis]).epsilon(1e-5));
+            CHECK(records[i].normal[axis] == doctest::Approx(normals[3 * i + axis]).epsilon(1e-4));
+        }
+    }
+
+    params.index_type = GEODISK_FLOAT32;
+    geodisk_placement* none = nullptr;
+    CHECK(geodisk_placement_create(recording.job(), &params, &none, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    params.index_type = GEODISK_UINT32;
+    params.vertex_stride = 6;
+    CHECK(geodisk_placement_create(recording.job(), &params, &none, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    CHECK(none == nullptr);
+}
+
+TEST_CASE("calls of a job that come too early, or make no sense, are refused") {
+    const auto domain = knot_domain();
+    Recording recording(domain.get(), small_options());
+    geodisk_job* const job = recording.job();
+    const auto is_wrong = [](const std::string& part,
+                             const std::function<geodisk_status(geodisk_error*)>& call) {
+        auto error = sized<geodisk_error>();
+        CHECK(call(&error) == GEODISK_INVALID_ARGUMENT);
+        INFO(error.message);
+        CHECK(std::string(error.message).find(part) != std::string::npos);
+    };
+    geodisk_job* none = nullptr;
+    is_wrong("NULL",
+             [&](auto* e) { return geodisk_job_create(nullptr, domain.get(), nullptr, &none, e); });
+    is_wrong("NULL", [&](auto* e) {
+        return geodisk_job_create(shared_device(), nullptr, nullptr, &none, e);
+    });
+    is_wrong("job is NULL", [&](auto* e) { return geodisk_job_set_seed(nullptr, 1, e); });
+
+    auto need = sized<geodisk_buffer_need>();
+    is_wrong("there are 15", [&](auto* e) { return geodisk_job_need(job, 15, &need, e); });
+    is_wrong("need is NULL", [&](auto* e) { return geodisk_job_need(job, 0, nullptr, e); });
+    std::vector<std::byte> bytes(8);
+    is_wrong("data is NULL", [&](auto* e) { return geodisk_job_upload(job, 0, nullptr, 0, e); });
+    is_wrong("", [&](auto* e) { return geodisk_job_upload(job, 0, bytes.data(), 8, e); });
+    is_wrong("", [&](auto* e) {
+        return geodisk_job_upload(job, GEODISK_POOL_BUFFER, bytes.data(), 8, e);
+    });
+
+    auto advice = sized<geodisk_advice>();
+    std::vector<std::byte> control(recording.need(GEODISK_CONTROL_BUFFER).read_bytes);
+    const auto advance = [&](std::size_t size, auto* e) {
+        return geodisk_job_advance(job, control.data(), size, &advice, e);
+    };
+    is_wrong("needs buffers", [&](auto* e) { return advance(control.size(), e); });
+    is_wrong("bytes is not", [&](auto* e) { return advance(control.size() - 4, e); });
+    is_wrong("ranges is NULL", [&](auto* e) { return geodisk_job_bind(job, nullptr, e); });
+    const std::vector<geodisk_buffer_range> no_ranges(GEODISK_BUFFERS);
+    is_wrong("", [&](auto* e) { return geodisk_job_bind(job, no_ranges.data(), e); });
+
+    recording.workshop().frame(0, [&](VkCommandBuffer commands) {
+        const auto record = [&](geodisk_next what, auto* e) {
+            return geodisk_job_record(job, commands, what, 0, nullptr, e);
+        };
+        is_wrong("needs buffers", [&](auto* e) { return record(GEODISK_BEGIN, e); });
+    });
+    recording.bind_all();
+    is_wrong("no other buffers",
+             [&](auto* e) { return geodisk_job_bind(job, no_ranges.data(), e); });
+    is_wrong("command_buffer is NULL", [&](auto* e) {
+        return geodisk_job_record(job, nullptr, GEODISK_BEGIN, 0, nullptr, e);
+    });
+    recording.workshop().frame(0, [&](VkCommandBuffer commands) {
+        const auto record = [&](geodisk_next what, auto* e) {
+            return geodisk_job_record(job, commands, what, 0, nullptr, e);
+        };
+        for (const geodisk_next early : {GEODISK_GO_ON, GEODISK_FINISH, GEODISK_LARGER_POOL}) {
+            is_wrong("GEODISK_BEGIN comes first", [&](auto* e) { return record(early, e); });
+        }
+        std::int32_t is_last = 1;
+        CHECK(geodisk_job_record(job, commands, GEODISK_BEGIN, 1, &is_last, nullptr) == GEODISK_OK);
+        CHECK(is_last == 0);
+        is_wrong("no larger buffers", [&](auto* e) { return record(GEODISK_LARGER_POOL, e); });
+        is_wrong("none of geodisk_next", [&](auto* e) { return record(99, e); });
+        CHECK(geodisk_job_record(job, commands, GEODISK_GO_ON, 0, &is_last, nullptr) == GEODISK_OK);
+        CHECK(is_last == 1);
+        job->is_held = true;
+        CHECK(record(GEODISK_GO_ON, static_cast<geodisk_error*>(nullptr)) == GEODISK_BUSY);
+        job->is_held = false;
+    });
+}
+
+} // namespace geodisk::test
