@@ -98,6 +98,24 @@ TEST_CASE("a device that is too weak") {
     CHECK(contains(info.err, "none of the Vulkan devices"));
 }
 
+TEST_CASE("a device that cannot draw may still sample") {
+    const TemporaryFolder folder;
+    std::optional<Setting> setting = with_weak_driver(folder);
+    if (!setting) {
+        return;
+    }
+    setting->environment.emplace_back("GEODISK_TEST_NO_GRAPHICS", "1");
+    const Outcome quick = run(folder, {"builtin:cube"}, *setting);
+    INFO(quick.err);
+    CHECK(quick.status == 0);
+    CHECK(contains(quick.out, "picture       none, the device cannot draw\n"));
+    CHECK(files_in(folder) == std::vector<std::string>{"cube-samples.ply", "weak.json"});
+
+    check_fails(folder, 5, "graphics", joined(kSample, {"--picture", "a.png"}), *setting);
+    check_fails(folder, 5, "graphics",
+                {"render", "builtin:cube", "cube-samples.ply", "-o", "a.png"}, *setting);
+}
+
 #ifdef __linux__
 TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
     const TemporaryFolder folder;

@@ -129,6 +129,25 @@ TEST_CASE("a dry run tells what to expect and writes nothing") {
     check_fails(folder, 6, "--memory", joined(job, {"--dry-run", "--memory", "1"}));
 }
 
+TEST_CASE("what the device does is told on demand, and changes nothing") {
+    const TemporaryFolder folder;
+    const Arguments job{"sample", "builtin:cube", "-n", "300"};
+    const Outcome quiet = run(folder, joined(job, {"-o", "a.ply"}));
+    REQUIRE(quiet.status == 0);
+    CHECK(quiet.err.empty());
+    const Outcome verbose = run(folder, joined(job, {"-o", "b.ply", "--verbose"}));
+    REQUIRE(verbose.status == 0);
+    for (const char* const line :
+         {"device        ", "\nkernels       compiled in ", "\nrun           min distance ",
+          "\nwork          ", "\nplan          ", "\nmemory        ", "\ntime          ",
+          "\non the device "}) {
+        CHECK(contains(verbose.err, line));
+    }
+    CHECK(bytes_of(folder / "a.ply") == bytes_of(folder / "b.ply"));
+    CHECK(
+        contains(run(folder, {"box", "--dim", "2", "-n", "99", "--dry-run", "-v"}).err, "device"));
+}
+
 TEST_CASE("samples name the triangles and faces of the mesh file, whatever of it is dropped") {
     const TemporaryFolder folder;
     // A cube of quads with a line, a copy, and a face that repeats a vertex before most of them.

@@ -1,7 +1,7 @@
 // A Vulkan driver that passes every call on to the driver of GEODISK_TEST_DRIVER, but reports
 // limits too small for geodisk, or does not even come to that, as GEODISK_TEST_CRASH says; or which
 // reports what there is, and loses as many devices, one after the other, as GEODISK_TEST_LOSSES
-// says.
+// says; or which has no queue that draws, where GEODISK_TEST_NO_GRAPHICS is set.
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -33,11 +33,15 @@ int losses() {
     return text != nullptr ? std::atoi(text) : 0;
 }
 
+bool has_no_graphics() {
+    return std::getenv("GEODISK_TEST_NO_GRAPHICS") != nullptr;
+}
+
 int devices = 0;
 int submissions = 0; ///< To the last device; those of several threads are not told apart.
 
 void weaken(VkPhysicalDeviceLimits& limits) {
-    if (losses() > 0) {
+    if (losses() > 0 || has_no_graphics()) {
         return;
     }
     const char* const crash = std::getenv("GEODISK_TEST_CRASH");
@@ -64,6 +68,15 @@ VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice device,
     reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
         real_function(current_instance, "vkGetPhysicalDeviceProperties2"))(device, properties);
     weaken(properties->properties.limits);
+}
+
+VKAPI_ATTR void VKAPI_CALL get_queue_families(VkPhysicalDevice device, std::uint32_t* count,
+                                              VkQueueFamilyProperties* families) {
+    reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(real_function(
+        current_instance, "vkGetPhysicalDeviceQueueFamilyProperties"))(device, count, families);
+    for (std::uint32_t i = 0; families != nullptr && has_no_graphics() && i < *count; ++i) {
+        families[i].queueFlags &= ~VkQueueFlags{VK_QUEUE_GRAPHICS_BIT};
+    }
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
@@ -121,6 +134,9 @@ vk_icdGetInstanceProcAddr(VkInstance instance, const char* name) {
     if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0 ||
         std::strcmp(name, "vkGetPhysicalDeviceProperties2KHR") == 0) {
         return reinterpret_cast<PFN_vkVoidFunction>(get_properties2);
+    }
+    if (std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(get_queue_families);
     }
     if (losses() > 0 && std::strcmp(name, "vkCreateDevice") == 0) {
         return reinterpret_cast<PFN_vkVoidFunction>(create_device);

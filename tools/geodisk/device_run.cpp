@@ -20,8 +20,9 @@ namespace {
 constexpr std::uint64_t kManyWindows = 10000;
 
 /// Draws how far a run is that should give about `expected` samples, and stops it on a signal.
-ProgressCallback show_progress(ProgressLine& progress, double expected) {
-    return [&progress, expected](const Progress& state) {
+ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected) {
+    return [&progress, &log, expected](const Progress& state) {
+        log.tell_progress(state);
         // Work is in the disks of accepted candidates, but only the darts are sure to reach the
         // end.
         const double accepted = std::min(0.99, state.accepted / std::max(1.0, expected));
@@ -42,11 +43,6 @@ std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
 
 } // namespace
 
-RunnerOptions tuned(RunnerOptions options, const DeviceReport& device) {
-    options.sampler.tuning = load_tuning(device).value_or(Tuning());
-    return options;
-}
-
 void check_run(const Error& error, bool bounded) {
     if (error.status == Status::workspace_too_small ||
         (error.status == Status::out_of_device_memory && bounded)) {
@@ -58,7 +54,9 @@ void check_run(const Error& error, bool bounded) {
 }
 
 RunDevice::RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics)
-    : device_(std::move(device)), options_(runner), graphics_(graphics) {}
+    : device_(std::move(device)), options_(runner), graphics_(graphics), log_(device_.verbose) {
+    options_.time_stages = log_.is_enabled();
+}
 
 void RunDevice::open(ProgressLine& progress) {
     if (opened_) {
@@ -70,15 +68,19 @@ void RunDevice::open(ProgressLine& progress) {
 
     progress.begin_stage("compiling the shaders");
     watch = Stopwatch();
-    Runner runner =
-        take(Runner::create(context.device(), context.queue(), tuned(options_, context.report())));
+    RunnerOptions options = options_;
+    options.sampler.tuning = load_tuning(context.report()).value_or(Tuning());
+    Runner runner = take(Runner::create(context.device(), context.queue(), options));
     compile_seconds_ = watch.seconds();
-    opened_.emplace(Opened{std::move(context), std::move(runner)});
+    progress.clear();
+    log_.tell_device(context.report(), runner.sampler().tuning(), open_seconds_, compile_seconds_);
+    opened_.emplace(Opened{std::move(context), std::move(options), std::move(runner)});
 }
 
-SampleSet RunDevice::sample(const Task& task, ProgressLine& progress) {
+SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine& progress) {
+    log_.tell_task(min_distance, task.expected);
     auto result =
-        opened_->runner.sample_and_wait(task.domain, show_progress(progress, task.expected));
+        opened_->runner.sample_and_wait(task.domain, show_progress(progress, log_, task.expected));
     progress.clear();
     check_interrupted();
     if (!result) {
@@ -88,6 +90,7 @@ SampleSet RunDevice::sample(const Task& task, ProgressLine& progress) {
         }
         check_run(error, options_.device_bytes != 0);
     }
+    log_.tell_run(result->report);
     return take(std::move(result));
 }
 
@@ -111,7 +114,7 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double w
     CountSearch search(wanted);
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
-        SampleSet set = sample(task, progress);
+        SampleSet set = sample(task, min_distance, progress);
         ++done.runs;
         seconds.compile += set.report.seconds.compile;
         seconds.upload += set.report.seconds.upload;

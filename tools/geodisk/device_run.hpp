@@ -10,6 +10,7 @@
 #include <geodisk/runner.hpp>
 
 #include "geodisk/options/run_options.hpp"
+#include "geodisk/outputs/device_log.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "program/failure.hpp"
 
@@ -44,9 +45,6 @@ class DeviceLost : public UserError {
     explicit DeviceLost(const std::string& message) : UserError(ExitCode::internal, message) {}
 };
 
-/// `options` with the tuning that is kept for the device.
-RunnerOptions tuned(RunnerOptions options, const DeviceReport& device);
-
 /// Throws UserError for an error of a run that --memory can help with, which was `bounded` by it,
 /// and DeviceLost.
 void check_run(const Error& error, bool bounded);
@@ -70,19 +68,26 @@ class RunDevice {
     /// Frees what runs keep for those to come, so that something else has room.
     void release_memory();
 
-    /// Of a device that is open.
+    // Of a device that is open.
     const Context& context() const { return opened_->context; }
+    Runner& runner() { return opened_->runner; }
+    /// Its runner's, with the tuning that is kept for the device.
+    const RunnerOptions& options() const { return opened_->options; }
+    /// That no run has told of yet.
+    double compile_seconds() const { return compile_seconds_; }
 
   private:
     struct Opened {
         Context context;
+        RunnerOptions options;
         Runner runner;
     };
-    SampleSet sample(const Task& task, ProgressLine& progress);
+    SampleSet sample(const Task& task, double min_distance, ProgressLine& progress);
 
     DeviceOptions device_;
     RunnerOptions options_;
     bool graphics_;
+    DeviceLog log_;
     std::optional<Opened> opened_;
     double open_seconds_ = 0, compile_seconds_ = 0; ///< That no run has told of yet.
 };

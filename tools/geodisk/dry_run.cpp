@@ -74,25 +74,23 @@ std::uint64_t whole(double count) {
 
 } // namespace
 
-DryRun dry_run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
-                         const Task& task, double min_distance, std::uint64_t seed,
-                         ProgressLine& progress) {
+DryRun dry_run_on_device(RunDevice& device, const Task& task, double min_distance,
+                         std::uint64_t seed, ProgressLine& progress) {
     DryRun dry;
     dry.min_distance = min_distance;
     dry.seed = seed;
     dry.expected = task.expected;
     dry.candidates = task.domain.stages().candidates();
-    const Context context = open_device(options.device, false, progress);
-    dry.device = context.report();
+    device.open(progress);
+    dry.device = device.context().report();
     progress.begin_stage("compiling the shaders");
     const Stopwatch watch;
-    const RunnerOptions wanted = tuned(runner_options, dry.device);
-    Runner runner = take(Runner::create(context.device(), context.queue(), wanted));
-    take(runner.sampler().prepare(task.domain));
-    dry.compile_seconds = watch.seconds();
-    dry.device_bytes = planned_bytes(runner.sampler(), wanted, task.domain);
-    run_pilot(runner, task, wanted.device_bytes != 0, progress, dry);
-    check_validation(context);
+    const Sampler& sampler = device.runner().sampler();
+    take(sampler.prepare(task.domain));
+    dry.compile_seconds = device.compile_seconds() + watch.seconds();
+    dry.device_bytes = planned_bytes(sampler, device.options(), task.domain);
+    run_pilot(device.runner(), task, device.options().device_bytes != 0, progress, dry);
+    check_validation(device.context());
     return dry;
 }
 

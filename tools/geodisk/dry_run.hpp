@@ -23,11 +23,10 @@ struct DryRun {
     double sample_seconds = 0; ///< Of the run, where the rest goes on as the pilot did.
 };
 
-/// Opens the device of `options`, compiles there what the task needs, and begins the run: a pilot
-/// that ends when it is complete, or after about two seconds. Throws UserError.
-DryRun dry_run_on_device(const RunOptions& options, const RunnerOptions& runner_options,
-                         const Task& task, double min_distance, std::uint64_t seed,
-                         ProgressLine& progress);
+/// Compiles on the device what the task needs, and begins the run: a pilot that ends when it is
+/// complete, or after about two seconds. Throws UserError.
+DryRun dry_run_on_device(RunDevice& device, const Task& task, double min_distance,
+                         std::uint64_t seed, ProgressLine& progress);
 
 /// For programs.
 Json dry_run_json(const DryRun& run);

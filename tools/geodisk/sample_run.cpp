@@ -88,12 +88,12 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
     write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension());
 }
 
-DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress) {
+DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
+                    ProgressLine& progress) {
     check_space(job, mesh);
     const SampleParams params = params_on(mesh, job);
     const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
-    return dry_run_on_device(job.run, job.runner,
-                             {domain_of(job, mesh, params), job.method.expected(room)},
+    return dry_run_on_device(device, {domain_of(job, mesh, params), job.method.expected(room)},
                              params.min_distance, params.seed, progress);
 }
 

@@ -29,6 +29,7 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
                        const SampleResult& result, const SampleReport& report);
 
 /// The same as a dry run.
-DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
+DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
+                    ProgressLine& progress);
 
 } // namespace geodisk::tools

@@ -123,13 +123,13 @@ void run_box(const BoxOptions& options) {
         job.box.min_distance = min_distance;
         return Task{take(Domain::box(job.box)), job.method.expected(expected_count(job.box))};
     };
+    RunDevice device(job.run.device, job.runner);
     if (job.out.is_dry_run) {
-        const DryRun dry = dry_run_on_device(job.run, job.runner, task_at(job.box.min_distance),
+        const DryRun dry = dry_run_on_device(device, task_at(job.box.min_distance),
                                              job.box.min_distance, job.box.seed, progress);
         publish(job.out, dry_box_json(job, dry), dry_box_text(job, dry));
         return;
     }
-    RunDevice device(job.run.device, job.runner);
     const auto [set, done] = device.run(task_at, job.box.min_distance, job.wanted_count, progress);
     job.box.min_distance = done.min_distance;
     const std::vector<SampleRow> rows = to_rows(set.points, dimension);
@@ -168,6 +168,7 @@ void add_box_command(Command app) {
     add_calls_option(command, options->method);
     add_run_options(command, options->run);
     add_output_options(command, options->out);
+    add_verbose_option(command, options->run.device);
     command.calls([options] { run_box(*options); });
 }
 

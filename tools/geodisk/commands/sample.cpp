@@ -49,13 +49,13 @@ void sample_to_files(const SampleOptions& options) {
     if (!job.picture.empty()) {
         check_visible(job.mesh.mesh, mesh);
     }
+    RunDevice device = device_for(job);
     if (job.out.is_dry_run) {
-        const DryRun dry = try_sampling(job, mesh, progress);
+        const DryRun dry = try_sampling(job, mesh, device, progress);
         publish(job.out, dry_sample_json(job, mesh, dry), dry_sample_text(job, mesh, dry));
         return;
     }
     std::vector<FurtherFile> further;
-    RunDevice device = device_for(job);
     SampleResult result = sample_mesh(job, mesh, device, progress);
     if (!job.picture.empty()) {
         draw_samples(mesh, result, device, progress);

@@ -32,6 +32,7 @@ void add_report_options(Command command, ReportOptions& options) {
     add_job_options(command, options.sample);
     add_json_option(command, options.sample.out);
     command.add_flag("-q,--quiet", options.sample.out.quiet, "No progress and no summary");
+    add_verbose_option(command, options.sample.run.device);
 }
 
 } // namespace geodisk::tools

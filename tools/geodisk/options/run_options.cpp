@@ -59,6 +59,11 @@ void add_validate_option(Command command, DeviceOptions& options) {
                      "Run with the Vulkan validation layer, fail on any message", "Development");
 }
 
+void add_verbose_option(Command command, DeviceOptions& options) {
+    command.add_flag("-v,--verbose", options.verbose,
+                     "Tell on standard error what the device does");
+}
+
 void add_device_options(Command command, DeviceOptions& options) {
     command.add_option("--device", options.device, "NAME|INDEX",
                        "Device by name, index or UUID (geodisk info)");

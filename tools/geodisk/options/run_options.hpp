@@ -56,10 +56,14 @@ void add_output_options(Command command, OutputOptions& options);
 struct DeviceOptions {
     std::string device;
     bool validate = false;
+    bool verbose = false; ///< Tell what it does.
 };
 
 /// Adds --validate.
 void add_validate_option(Command command, DeviceOptions& options);
+
+/// Adds --verbose.
+void add_verbose_option(Command command, DeviceOptions& options);
 
 /// Adds --device and --validate.
 void add_device_options(Command command, DeviceOptions& options);

@@ -80,6 +80,7 @@ void add_sample_options(Command command, SampleOptions& options) {
                        "Draw the samples and their disks as well: *.png; geodisk render\n"
                        "has other styles and views");
     add_output_options(command, options.out);
+    add_verbose_option(command, options.run.device);
 }
 
 void add_subject_options(Command command, SampleOptions& options) {
