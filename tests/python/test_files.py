@@ -132,6 +132,7 @@ def archive(**arrays):
         ("a.csv", b"x,y,z\n1,2,3\n", "neither face_index nor a box"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\n0,1,0\n", "3 columns"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\n0.5,1,0,0\n", "not whole"),
+        ("a.csv", b"face_index,bary_u,bary_v,bary_w\nnan,1,0,0\n", "not whole"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\n0,1,0,x\n", "x"),
         ("a.csv", b"# box: 1 x up\nx,y\n1,2\n", "up"),
         ("a.csv", b"# min_distance: -1\nface_index,bary_u,bary_v,bary_w\n0,1,0,0\n", "positive"),

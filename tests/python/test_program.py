@@ -5,7 +5,6 @@ import os
 import pickle
 import signal
 import stat
-import subprocess
 import tempfile
 import threading
 import time
@@ -239,10 +238,10 @@ def test_interruption(tmp_path):
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         geodisk.verify(many, mesh)
-    assert time.monotonic() - begin < 10
+    assert time.monotonic() - begin < 30
     timer.join()
-    running = subprocess.run(["ps", "--ppid", str(os.getpid()), "-o", "comm="], capture_output=True)
-    assert b"geodisk" not in running.stdout
+    with pytest.raises(ChildProcessError):  # There is no child anymore.
+        os.waitpid(-1, os.WNOHANG)
 
 
 def test_the_program(tmp_path, monkeypatch):

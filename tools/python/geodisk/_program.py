@@ -18,8 +18,8 @@ from . import _library as c
 
 _NAME = "geodisk.exe" if sys.platform == "win32" else "geodisk"
 _HOW_TO_GET_IT = (
-    "the program comes with geodisk's package of the system and its sources (tools/quickstart); it "
-    "is looked for in the environment variable GEODISK_COMMAND, beside Python and in PATH"
+    "it comes with the Debian package geodisk and with a build of the sources (tools/quickstart), "
+    "and is looked for in the environment variable GEODISK_COMMAND, beside Python and in PATH"
 )
 
 # By exit status, as `geodisk --help` has them; 1 means something to verify alone.

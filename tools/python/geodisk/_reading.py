@@ -98,7 +98,8 @@ def _of_columns(columns: Columns, header: Header) -> Samples:
         points = np.ascontiguousarray(points[:, :sides])
     faces = columns.get("face_index")
     if faces is not None and faces.dtype.kind == "f":
-        whole = faces.astype(np.int64)
+        with np.errstate(invalid="ignore"):
+            whole = faces.astype(np.int64)
         if not (whole == faces).all():
             raise ValueError("face_index has numbers that are not whole")
         faces = whole
