@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import zipfile
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -79,6 +80,9 @@ def _samples(header: Header, **arrays: Any) -> Samples:
 
 def _from_npz(file: BinaryIO) -> Samples:
     names = ("points", "normals", "face_index", "barycentric", "radius")
+    if not zipfile.is_zipfile(file):
+        raise ValueError("is no archive of numpy, or is cut off")
+    file.seek(0)
     with np.load(file, allow_pickle=False) as archive:
         header = json.loads(str(archive["header"])) if "header" in archive else {}
         header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
@@ -179,8 +183,8 @@ def _from_ply(file: BinaryIO) -> Samples:
             types.append((words[2], _TYPES[words[1]]))
         else:
             raise ValueError(f"has the header line {' '.join(words)!r}, which samples have not")
-    if order is None or count is None:
-        raise ValueError("has no format, or no element vertex")
+    if order is None or count is None or not types:
+        raise ValueError("has no format, or no element vertex with properties")
     names = [name for name, _ in types]
     if order == "":
         columns = _text_columns(_lines(file), names, None)
