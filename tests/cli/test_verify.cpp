@@ -121,6 +121,9 @@ TEST_CASE("the report has pairs and samples, whatever the exit status") {
     CHECK(bad["violations"]["pairs"] == 3);
     CHECK(bad["violations"]["samples"] == 3);
     CHECK(bad["violations"]["complete"] == true);
+    CHECK(bad["violations"]["rows_a"] == nlohmann::json({7, 7, 9}));
+    CHECK(bad["violations"]["rows_b"] == nlohmann::json({9, 42, 42}));
+    CHECK(bad["violations"]["distances"] == nlohmann::json({0, 0, 0}));
     CHECK(bad["smallest"]["distance"] == 0);
     CHECK(bad["smallest"]["samples"] == nlohmann::json({7, 9}));
 

@@ -11,32 +11,7 @@ import numpy as np
 import pytest
 
 import geodisk
-
-
-def torus(rings=40, sides=20):
-    """A closed surface of 2 * rings * sides faces."""
-    u, v = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
-    a, b = 2 * np.pi * u / rings, 2 * np.pi * v / sides
-    points = np.stack(
-        [(2 + np.cos(b)) * np.cos(a), (2 + np.cos(b)) * np.sin(a), np.sin(b)], axis=-1
-    ).reshape(-1, 3)
-    at = lambda i, j: (i % rings) * sides + j % sides
-    low, right, up, far = at(u, v), at(u + 1, v), at(u, v + 1), at(u + 1, v + 1)
-    faces = np.stack([low, right, far, low, far, up], axis=-1).reshape(-1, 3)
-    return points, faces
-
-
-VERTICES, FACES = torus()
-TETRAHEDRON = (
-    np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], float),
-    np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]),
-)
-
-
-def same(a, b):
-    return np.array_equal(a.face_index, b.face_index) and np.array_equal(
-        a.barycentric, b.barycentric
-    )
+from meshes import FACES, TETRAHEDRON, VERTICES, same
 
 
 def test_samples_are_complete_and_apart():
@@ -263,22 +238,6 @@ def test_threads():
         time.sleep(0.001)
     assert len(found) == 4 and all(same(one, expected) for one in found)
     assert ticks
-
-
-def test_saving(tmp_path):
-    samples = geodisk.sample(VERTICES, FACES, min_distance=0.5)
-    samples.save(tmp_path / "a.npz")
-    with np.load(tmp_path / "a.npz") as file:
-        assert np.array_equal(file["points"], samples.points)
-        assert np.array_equal(file["face_index"], samples.face_index)
-        assert file["min_distance"] == 0.5
-    with pytest.raises(ValueError, match="npz"):
-        samples.save(tmp_path / "a.doc")
-    with pytest.raises(OSError):
-        samples.save(tmp_path / "nowhere" / "a.npz")
-    with pytest.raises(ValueError, match="box"):
-        geodisk.sample_box(min_distance=0.2).save(tmp_path / "box.csv")
-    assert os.listdir(tmp_path) == ["a.npz"]
 
 
 def test_devices_and_children():

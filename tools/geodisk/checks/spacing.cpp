@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "program/human_text.hpp"
 
@@ -99,9 +100,15 @@ Json pair_json(const std::optional<ClosePair>& pair) {
 }
 
 Json violations_json(const SpacingResult& result) {
-    return {{"pairs", result.violations.size()},
-            {"samples", result.violating_samples()},
-            {"complete", result.is_complete}};
+    Json rows_a = Json::array(), rows_b = Json::array(), distances = Json::array();
+    for (const ClosePair& pair : result.violations) {
+        rows_a.push_back(pair.row_a);
+        rows_b.push_back(pair.row_b);
+        distances.push_back(pair.distance);
+    }
+    return {{"pairs", result.violations.size()}, {"samples", result.violating_samples()},
+            {"complete", result.is_complete},    {"rows_a", std::move(rows_a)},
+            {"rows_b", std::move(rows_b)},       {"distances", std::move(distances)}};
 }
 
 } // namespace geodisk::tools

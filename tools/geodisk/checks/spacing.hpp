@@ -75,7 +75,8 @@ std::string violation_text(const SpacingResult& result, const std::string& what)
 
 /// Distance, rows and candidates of a pair; null without one.
 Json pair_json(const std::optional<ClosePair>& pair);
-/// Numbers of pairs and samples.
+/// Numbers of pairs and samples; rows and distance of each pair, column by column, the closest pair
+/// first, for there may be a million.
 Json violations_json(const SpacingResult& result);
 
 } // namespace geodisk::tools

@@ -16,12 +16,17 @@ from ._library import (
     InvalidArgument,
     MeshRejected,
     NoDevice,
+    NoProgram,
     OutOfMemory,
     version,
 )
 from ._mesh import Mesh
+from ._picture import Picture, render
+from ._reading import read
 from ._samples import Samples
 from ._sampling import sample, sample_box
+from ._transfer import transfer
+from ._verification import Verification, verify
 
 __version__ = version()
 __all__ = [
@@ -33,9 +38,16 @@ __all__ = [
     "Mesh",
     "MeshRejected",
     "NoDevice",
+    "NoProgram",
     "OutOfMemory",
+    "Picture",
     "Samples",
+    "Verification",
     "devices",
+    "read",
+    "render",
     "sample",
     "sample_box",
+    "transfer",
+    "verify",
 ]

@@ -34,7 +34,7 @@ class Device:
     driver: str
     type: str
     usable: bool
-    reasons: tuple
+    reasons: tuple[str, ...]
     memory: int
     uuid: str
 
@@ -72,7 +72,7 @@ def devices() -> list[Device]:
 
 
 _lock = threading.Lock()
-_opened: dict = {}  # Handles of devices by name, for all threads.
+_opened: dict[str, c.Handle] = {}  # Handles of devices by name, for all threads.
 _kept = threading.local()  # Samplers by name, of this thread.
 
 
@@ -83,14 +83,14 @@ def _forget_in_child() -> None:
     _lock, _opened, _kept = threading.Lock(), {}, threading.local()
 
 
-_library_objects_of_the_parent: list = []
+_library_objects_of_the_parent: list[object] = []
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget_in_child)
 
 
 def sampler_on(device: str) -> c.Handle:
     """The sampler that this thread has on a device, opened and compiled at the first call."""
-    samplers = _kept.__dict__.setdefault("samplers", {})
+    samplers: dict[str, c.Handle] = _kept.__dict__.setdefault("samplers", {})
     if device not in samplers:
         with _lock:
             if device not in _opened:

@@ -22,6 +22,7 @@ from ctypes import (
     c_void_p,
     sizeof,
 )
+from typing import Any, Iterator
 
 FLOAT64, FLOAT32, UINT32, UINT16 = range(4)
 FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART = range(6)
@@ -32,7 +33,7 @@ NO_ELEMENT = 2**64 - 1
 class _Sized(Structure):
     """A struct that begins with its size."""
 
-    def __init__(self, **fields):
+    def __init__(self, **fields: Any) -> None:
         super().__init__(struct_size=sizeof(type(self)), **fields)
 
 
@@ -179,7 +180,7 @@ class Report(_Sized):
 
 # Name, types of the arguments before the error, and whether it returns a status.
 _HANDLE = POINTER(c_void_p)
-_FALLIBLE = {
+_FALLIBLE: dict[str, list[Any]] = {
     "geodisk_list_devices": [POINTER(DeviceInfo), c_size_t, POINTER(c_size_t)],
     "geodisk_device_open": [POINTER(DeviceOptions), _HANDLE],
     "geodisk_device_describe": [c_void_p, POINTER(DeviceInfo)],
@@ -221,7 +222,9 @@ class Error(Exception):
         The face or vertex at fault, where one is.
     """
 
-    def __init__(self, message: str, status: str = "internal", element: int | None = None):
+    def __init__(
+        self, message: str, status: str = "internal", element: int | None = None
+    ) -> None:
         super().__init__(message)
         self.status = status
         self.element = element
@@ -248,7 +251,11 @@ class DeviceLost(Error):
 
 
 class Cancelled(Error):
-    """A progress callback asked to stop."""
+    """A progress callback asked to stop, or a signal ended the program ``geodisk``."""
+
+
+class NoProgram(Error):
+    """The program ``geodisk``, which some functions run, is not there or of another version."""
 
 
 _ERRORS = {
@@ -265,7 +272,7 @@ _ERRORS = {
 }
 
 
-def _candidates():
+def _candidates() -> Iterator[str]:
     """Where the library may be, in the order of preference."""
     if os.environ.get("GEODISK_LIBRARY"):
         yield os.environ["GEODISK_LIBRARY"]
@@ -283,7 +290,7 @@ def _candidates():
         yield found
 
 
-def _load():
+def _load() -> ctypes.CDLL:
     tried = []
     for path in _candidates():
         try:
@@ -296,7 +303,7 @@ def _load():
 _library = _load()
 for _name, _arguments in _FALLIBLE.items():
     _function = getattr(_library, _name)
-    _function.argtypes = [*_arguments, POINTER(CError)]
+    _function.argtypes = _arguments + [POINTER(CError)]
     _function.restype = c_int32
 for _name in _RELEASES:
     getattr(_library, f"geodisk_{_name}_release").argtypes = [c_void_p]
@@ -313,42 +320,48 @@ _library.geodisk_samples_width.restype = c_uint32
 
 
 def version() -> str:
-    return _library.geodisk_version().decode()
+    name: bytes = _library.geodisk_version()
+    return name.decode()
 
 
-def call(name: str, *arguments) -> None:
+def call(name: str, *arguments: Any) -> None:
     """Calls a function that can fail; raises what it fails with."""
     error = CError()
     status = getattr(_library, name)(*arguments, byref(error))
     if status != 0:
-        kind = _library.geodisk_status_name(status).decode()
+        kind: str = _library.geodisk_status_name(status).decode()
         element = None if error.element == NO_ELEMENT else int(error.element)
         message = error.message.decode("utf-8", "replace")
         raise _ERRORS.get(status, Error)(message, kind, element)
 
 
-def cancel(sampler) -> None:
+def cancel(sampler: c_void_p) -> None:
     _library.geodisk_cancel(sampler)
 
 
-def samples_count(samples) -> int:
-    return _library.geodisk_samples_count(samples)
+def samples_count(samples: c_void_p) -> int:
+    return int(_library.geodisk_samples_count(samples))
 
 
-def samples_width(samples, attribute: int) -> int:
-    return _library.geodisk_samples_width(samples, attribute)
+def samples_width(samples: c_void_p, attribute: int) -> int:
+    return int(_library.geodisk_samples_width(samples, attribute))
+
+
+def invalid(message: str) -> InvalidArgument:
+    """What to raise for an argument that the library does not see."""
+    return InvalidArgument(message, "invalid_argument")
 
 
 class Handle:
     """An object of the library, released with this one."""
 
-    def __init__(self, kind: str, make: str | None = None, *arguments):
+    def __init__(self, kind: str, make: str | None = None, *arguments: Any) -> None:
         self._release = getattr(_library, f"geodisk_{kind}_release")
         self.value = c_void_p()
         if make is not None:
             call(make, *arguments, byref(self.value))
 
-    def __del__(self):
-        value, self.value = getattr(self, "value", None), None
+    def __del__(self) -> None:
+        value, self.value = getattr(self, "value", None), c_void_p()
         if value:
             self._release(value)

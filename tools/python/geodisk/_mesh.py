@@ -3,56 +3,44 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import os
+from dataclasses import dataclass
+from typing import Any, Protocol, Union
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
+from ._arrays import indices, real, rows
 
 
-def _real(array, name: str) -> np.ndarray:
-    """As float64, or float32 where it is that."""
-    array = np.asarray(array)
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name} has to be of real numbers, not of {array.dtype}")
-    if array.dtype not in (np.float64, np.float32):
-        array = array.astype(np.float64)
-    return array
+class HasFaces(Protocol):
+    """A mesh as trimesh has it."""
+
+    vertices: Any
+    faces: Any
 
 
-def _rows(array: np.ndarray) -> np.ndarray:
-    """The same, or a copy of it unless the numbers of a row lie side by side and rows follow."""
-    fine = array.ndim == 2 and (array.shape[1] < 2 or array.strides[1] == array.itemsize)
-    fine = fine and array.strides[0] >= array.shape[1] * array.itemsize
-    fine = fine and array.strides[0] % array.itemsize == 0 and array.flags.aligned
-    fine = fine and array.dtype.isnative
-    return array if fine else np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+class HasTriangles(Protocol):
+    """A mesh as Open3D has it."""
+
+    vertices: Any
+    triangles: Any
 
 
-def _index_array(faces, name: str = "faces") -> np.ndarray:
-    array = np.asarray(faces)
-    if array.size == 0 and array.dtype.kind == "f":  # As numpy has [].
-        array = array.astype(np.uint32)
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"{name} have to be of integers, not of {array.dtype}")
-    if array.dtype in (np.uint32, np.uint16):
-        return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
-    if array.dtype == np.int32 and array.dtype.isnative and array.flags.c_contiguous:
-        view = array.view(np.uint32)
-        if array.size == 0 or array.min() >= 0:
-            return view
-    bad = (array < 0) | (array > 2**32 - 1) if array.size else np.zeros(0, bool)
-    if bad.any():
-        place = np.argwhere(bad)[0]
-        raise c.MeshRejected(
-            f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}, which is no vertex",
-            "mesh_rejected",
-            int(place[0]),
-        )
-    return np.ascontiguousarray(array, dtype=np.uint32)
+class HasTensors(Protocol):
+    """A mesh as Open3D has it in tensors."""
+
+    vertex: Any
+    triangle: Any
 
 
-def _read(path) -> tuple:
+#: What brings its faces.
+MeshLike = Union["Mesh", HasFaces, HasTriangles, HasTensors, str, "os.PathLike[str]"]
+
+
+def _read(path: str | os.PathLike[str]) -> tuple[Any, Any]:
     """Vertices and faces of a file, by trimesh."""
     if not os.path.exists(path):
         raise FileNotFoundError(f"{os.fspath(path)}: no such file")
@@ -67,7 +55,14 @@ def _read(path) -> tuple:
     return loaded.vertices, loaded.faces
 
 
-def _arrays_of(source) -> tuple:
+def is_mesh(source: Any) -> bool:
+    """Whether it brings its faces, rather than being coordinates."""
+    return isinstance(source, (Mesh, str, os.PathLike)) or any(
+        hasattr(source, name) for name in ("vertex", "vertices")
+    )
+
+
+def _arrays_of(source: Any) -> tuple[Any, Any]:
     """Vertices and faces of what is not an array."""
     if isinstance(source, (str, os.PathLike)):
         return _read(source)
@@ -80,6 +75,42 @@ def _arrays_of(source) -> tuple:
         "a mesh is vertices and faces, a geodisk.Mesh, a trimesh.Trimesh, an Open3D mesh or a path, "
         f"not {type(source).__name__}"
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What a mesh was made of, as it was given: arrays are kept by reference."""
+
+    vertices: Any  #: Or their number, where there are lengths.
+    faces: Any
+    edge_lengths: Any = None
+    weld: bool | float = False
+
+    def indices(self) -> NDArray[Any]:
+        """The faces, of uint32 or uint16."""
+        array = indices(self.faces, "faces", c.MeshRejected)
+        if array.ndim != 2 or array.shape[1] != 3:
+            raise c.invalid(f"faces have the shape {array.shape}, not (f, 3)")
+        return array
+
+    def coordinates(self) -> NDArray[Any]:
+        """The vertices, of float64 or float32."""
+        array = rows(real(self.vertices, "vertices"))
+        if array.ndim != 2 or not 2 <= array.shape[1] <= 8:
+            raise c.invalid(f"vertices have the shape {array.shape}, not (v, 2) to (v, 8)")
+        return array
+
+    def lengths(self) -> NDArray[np.float64]:
+        """Those of the edges, by face."""
+        array = np.ascontiguousarray(real(self.edge_lengths, "edge_lengths"), np.float64)
+        shape = np.shape(self.faces)
+        if array.shape != shape:
+            raise c.invalid(f"edge_lengths have the shape {array.shape}, the faces {shape}")
+        return array
+
+    def dimension(self) -> int:
+        """Coordinates of each vertex, 0 without any."""
+        return 0 if self.edge_lengths is not None else int(self.coordinates().shape[1])
 
 
 class Mesh:
@@ -108,8 +139,9 @@ class Mesh:
     Notes
     -----
     float32 and float64 coordinates are read where they are, also with other columns beside them;
-    all else is copied first. Faces may be oriented either way, share an edge by any number and
-    leave borders open.
+    all else is copied first. The mesh and samples on it refer to the arrays, for :func:`verify` and
+    the like: change copies of them. Faces may be oriented either way, share an edge by any number
+    and leave borders open.
 
     Examples
     --------
@@ -119,60 +151,54 @@ class Mesh:
     0.5
     """
 
-    def __init__(self, vertices, faces=None, *, edge_lengths=None, weld=False):
+    def __init__(
+        self,
+        vertices: ArrayLike | MeshLike,
+        faces: ArrayLike | None = None,
+        *,
+        edge_lengths: ArrayLike | None = None,
+        weld: bool | float = False,
+    ) -> None:
         if faces is None:
             vertices, faces = _arrays_of(vertices)
-        indices = _index_array(faces)
-        if indices.ndim != 2 or indices.shape[1] != 3:
-            raise c.InvalidArgument(
-                f"faces have the shape {indices.shape}, not (f, 3)", "invalid_argument"
-            )
+        self._surface = surface = Surface(vertices, faces, edge_lengths, weld)
+        corners = surface.indices()
         params = c.MeshParams(
-            indices=indices.ctypes.data,
-            index_type=c.UINT16 if indices.dtype == np.uint16 else c.UINT32,
-            face_count=len(indices),
+            indices=corners.ctypes.data,
+            index_type=c.UINT16 if corners.dtype == np.uint16 else c.UINT32,
+            face_count=len(corners),
         )
         if weld is not False:
             params.weld = 1
             params.weld_distance = 0.0 if weld is True else float(weld)
         if edge_lengths is None:
-            coordinates = _rows(_real(vertices, "vertices"))
-            if coordinates.ndim != 2 or not 2 <= coordinates.shape[1] <= 8:
-                raise c.InvalidArgument(
-                    f"vertices have the shape {coordinates.shape}, not (v, 2) to (v, 8)",
-                    "invalid_argument",
-                )
+            coordinates = surface.coordinates()
             params.positions = coordinates.ctypes.data
             params.position_type = c.FLOAT32 if coordinates.dtype == np.float32 else c.FLOAT64
             params.dimension = coordinates.shape[1]
             params.vertex_count = len(coordinates)
             params.position_stride = coordinates.strides[0]
         else:
-            lengths = np.ascontiguousarray(_real(edge_lengths, "edge_lengths"), np.float64)
-            if lengths.shape != indices.shape:
-                raise c.InvalidArgument(
-                    f"edge_lengths have the shape {lengths.shape}, the faces {indices.shape}",
-                    "invalid_argument",
-                )
+            lengths = surface.lengths()
             params.edge_lengths = lengths.ctypes.data
-            params.vertex_count = int(vertices)
+            params.vertex_count = _vertex_number(vertices)
         self._handle = c.Handle("mesh", "geodisk_mesh_create", ctypes.byref(params))
         self._info = c.MeshInfo()
         c.call("geodisk_mesh_describe", self._handle.value, ctypes.byref(self._info))
-        self._vertex_count = params.vertex_count
+        self._vertex_count = int(params.vertex_count)
 
     @property
     def area(self) -> float:
         """Of the surface."""
-        return self._info.area
+        return float(self._info.area)
 
     @property
     def diagonal(self) -> float:
         """Of the bounding box; 0 for a mesh of lengths."""
-        return self._info.diagonal
+        return float(self._info.diagonal)
 
     @property
-    def info(self) -> dict:
+    def info(self) -> dict[str, int | float]:
         """Counts of vertices, faces, components, boundary edges and the like."""
         return {
             name: getattr(self._info, name)
@@ -184,14 +210,34 @@ class Mesh:
         return f"<geodisk.Mesh of {self._info.faces} faces, area {self.area:.6g}>"
 
 
-def radii_of(mesh: Mesh, density) -> c.Handle:
-    factors = np.ascontiguousarray(_real(density, "density"))
+def _vertex_number(value: Any) -> int:
+    number = operator.index(value)
+    if not 0 <= number <= 2**32 - 1:
+        raise c.invalid(f"there are {number} vertices, not from 0 to {2**32 - 1}")
+    return number
+
+
+def mesh_of(
+    vertices: ArrayLike | MeshLike,
+    faces: ArrayLike | None,
+    edge_lengths: ArrayLike | None,
+    weld: bool | float,
+) -> Mesh:
+    """The mesh that the arguments of a function name."""
+    if not isinstance(vertices, Mesh):
+        return Mesh(vertices, faces, edge_lengths=edge_lengths, weld=weld)
+    if faces is not None or edge_lengths is not None or weld is not False:
+        raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
+    return vertices
+
+
+def radii_of(mesh: Mesh, density: ArrayLike) -> c.Handle:
+    factors = np.ascontiguousarray(real(density, "density"))
     factors = factors.astype(factors.dtype.newbyteorder("="), copy=False)
     if factors.shape != (mesh._vertex_count,):
-        raise c.InvalidArgument(
+        raise c.invalid(
             f"density has the shape {factors.shape}, not ({mesh._vertex_count},), "
-            "one for each vertex",
-            "invalid_argument",
+            "one for each vertex"
         )
     return c.Handle(
         "radii",
@@ -203,13 +249,10 @@ def radii_of(mesh: Mesh, density) -> c.Handle:
     )
 
 
-def keys_of(mesh: Mesh, face_keys) -> np.ndarray:
-    keys = _index_array(face_keys, "face_keys").astype(np.uint32, copy=False)
+def keys_of(mesh: Mesh, face_keys: ArrayLike) -> NDArray[np.uint32]:
+    keys = indices(face_keys, "face_keys").astype(np.uint32, copy=False)
     if keys.shape != (mesh._info.faces,):
-        raise c.InvalidArgument(
-            f"face_keys have the shape {keys.shape}, not ({mesh._info.faces},)",
-            "invalid_argument",
-        )
+        raise c.invalid(f"face_keys have the shape {keys.shape}, not ({mesh._info.faces},)")
     if len(np.unique(keys)) != len(keys):
-        raise c.InvalidArgument("two face_keys are alike", "invalid_argument")
+        raise c.invalid("two face_keys are alike")
     return keys

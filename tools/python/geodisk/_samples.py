@@ -3,17 +3,38 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import os
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
+from ._arrays import indices, real
+from ._files import complete
+from ._mesh import Surface
+from ._writing import header_of, write_csv, write_npz, write_ply
 
 
-@dataclass(frozen=True)
+def _table(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """As float64 of that shape, all finite."""
+    array = real(values, name).astype(np.float64, copy=False)
+    if array.shape != shape:
+        raise c.invalid(f"{name} have the shape {array.shape}, not {shape}")
+    if not np.isfinite(array).all():
+        place = np.argwhere(~np.isfinite(array))[0]
+        raise c.invalid(f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}")
+    return array
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Samples:
     """Samples, in the order of the darts: the first n of them are the set of the first n.
+
+    :func:`sample`, :func:`sample_box`, :func:`transfer` and :func:`read` make them; those of other
+    programs are made of their arrays, to verify or draw them.
 
     Attributes
     ----------
@@ -30,92 +51,123 @@ class Samples:
     order : ndarray of int64, shape (n,)
         Their places in the order of the darts.
     min_distance : float
-        No two are closer along the surface; where radii vary, two with the largest ones.
-    seed : int
+        No two are closer along the surface; where radii vary, two with the largest ones. NaN where
+        that is not known.
+    seed : int or None
+    extents : tuple of float or None
+        Sides of their box.
+    periodic : bool
+        Whether its opposite sides are glued together.
     report : dict
         How the run went: candidates, disks, windows, rho, bytes and seconds.
+
+    Raises
+    ------
+    InvalidArgument, TypeError
+        For arrays of another kind or shape, and numbers that are not finite.
+
+    Notes
+    -----
+    Samples of a mesh refer to its arrays, so that :func:`verify`, :func:`render` and
+    :func:`transfer` need not be given them again. Files do not have them.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> corner = geodisk.Samples([[0, 0, 0]], face_index=[0], barycentric=[[1, 0, 0]])
+    >>> len(corner)
+    1
     """
 
-    points: np.ndarray | None
-    normals: np.ndarray | None
-    face_index: np.ndarray | None
-    barycentric: np.ndarray | None
-    radius: np.ndarray
-    order: np.ndarray
-    min_distance: float
-    seed: int
-    report: dict = field(repr=False)
+    points: NDArray[np.float64] | None = None
+    normals: NDArray[np.float64] | None = None
+    face_index: NDArray[np.uint32] | None = None
+    barycentric: NDArray[np.float64] | None = None
+    radius: NDArray[np.float64] = None  # type: ignore[assignment]  # Until __post_init__().
+    order: NDArray[np.int64] = None  # type: ignore[assignment]
+    min_distance: float = math.nan
+    seed: int | None = None
+    extents: tuple[float, ...] | None = None
+    periodic: bool = False
+    report: dict[str, Any] = field(default_factory=dict)
+    _surface: Surface | None = None
+
+    def __post_init__(self) -> None:
+        def keep(name: str, value: Any) -> None:
+            object.__setattr__(self, name, value)
+
+        some = self.points if self.points is not None else self.face_index
+        if some is None or (self.face_index is None) != (self.barycentric is None):
+            raise c.invalid("samples have points, or face_index and barycentric, or all of them")
+        n = len(some)
+        if self.points is not None:
+            shape = np.shape(self.points)
+            if len(shape) != 2 or not 1 <= shape[1] <= 8:
+                raise c.invalid(f"points have the shape {shape}, not (n, 1) to (n, 8)")
+            keep("points", _table(self.points, "points", (n, shape[1])))
+        if self.normals is not None:
+            keep("normals", _table(self.normals, "normals", (n, 3)))
+        if self.face_index is not None and self.barycentric is not None:
+            faces = indices(self.face_index, "face_index").astype(np.uint32, copy=False)
+            if faces.shape != (n,):
+                raise c.invalid(f"face_index have the shape {faces.shape}, not {(n,)}")
+            keep("face_index", faces)
+            keep("barycentric", _table(self.barycentric, "barycentric", (n, 3)))
+        distance = float(self.min_distance)
+        if distance < 0 or math.isinf(distance):
+            raise c.invalid(f"the minimum distance is {distance}, not positive")
+        keep("min_distance", distance)
+        if self.radius is None or np.isnan(self.radius).all():
+            keep("radius", np.full(n, distance / 2))
+        else:
+            keep("radius", _table(self.radius, "radius", (n,)))
+            if (self.radius < 0).any():
+                raise c.invalid(f"a radius is {self.radius.min()}, not positive")
+        order = np.arange(n) if self.order is None else np.asarray(self.order, np.int64)
+        if order.shape != (n,):
+            raise c.invalid(f"order has the shape {order.shape}, not {(n,)}")
+        keep("order", order)
+        if self.extents is not None:
+            sides = tuple(float(side) for side in self.extents)
+            if not all(side > 0 and math.isfinite(side) for side in sides):
+                raise c.invalid(f"extents are {sides}, not all positive")
+            if self.points is None or self.points.shape[1] != len(sides):
+                raise c.invalid(f"extents are {len(sides)} sides, not one for each coordinate")
+            keep("extents", sides)
 
     def __len__(self) -> int:
         return len(self.radius)
 
     def __repr__(self) -> str:
-        return f"<geodisk.Samples: {len(self)}, {self.min_distance:.6g} apart, seed {self.seed}>"
+        seed = "" if self.seed is None else f", seed {self.seed}"
+        return f"<geodisk.Samples: {len(self)}, {self.min_distance:.6g} apart{seed}>"
 
-    def save(self, path) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the samples to a file, which is complete or not there.
 
         Parameters
         ----------
         path : str or path-like
-            ``*.npz`` for ``numpy.load``, or ``*.csv``, which ``geodisk verify`` and the other
-            commands read.
+            ``*.npz`` for ``numpy.load``, ``*.csv``, or ``*.ply`` for viewers. :func:`read` reads
+            all of them, ``geodisk verify`` and the other commands CSV and PLY.
 
         Raises
         ------
         ValueError
-            For another kind of file, or samples of a box as CSV.
+            For another kind of file.
+        OSError
+            Where it cannot be written.
         """
         path = os.fspath(path)
-        kind = os.path.splitext(path)[1].lower()
-        if kind not in (".npz", ".csv"):
-            raise ValueError(f"{path}: samples are saved as *.npz or *.csv")
-        if kind == ".csv" and self.face_index is None:
-            raise ValueError(f"{path}: samples of a box are saved as *.npz")
-        partial = f"{path}.{os.getpid()}.tmp"
-        try:
-            with open(partial, "wb") as file:
-                self._write_npz(file) if kind == ".npz" else self._write_csv(file)
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(partial, path)
-        except BaseException:
-            if os.path.exists(partial):
-                os.unlink(partial)
-            raise
-
-    def _write_npz(self, file) -> None:
-        arrays = {
-            "points": self.points,
-            "normals": self.normals,
-            "face_index": self.face_index,
-            "barycentric": self.barycentric,
-            "radius": self.radius,
-            "min_distance": np.float64(self.min_distance),
-            "seed": np.uint64(self.seed),
-        }
-        np.savez(file, **{name: array for name, array in arrays.items() if array is not None})
-
-    def _write_csv(self, file) -> None:
-        varies = len(self) > 0 and np.ptp(self.radius) > 0
-        columns = [("face_index", self.face_index[:, None], "%d")]
-        columns.append(("bary_u,bary_v,bary_w", self.barycentric, "%.9g"))
-        if self.points is not None and self.points.shape[1] == 3:
-            columns.insert(0, ("nx,ny,nz", self.normals, "%.9g"))
-            columns.insert(0, ("x,y,z", self.points, "%.17g"))
-        if varies:
-            columns.append(("radius", self.radius[:, None], "%.17g"))
-        header = (
-            f"# version: geodisk {c.version()}\n# min_distance: {self.min_distance!r}\n"
-            f"# radius: {self.min_distance / 2!r}\n# seed: {self.seed}\n"
-        )
-        header += ",".join(name for name, _, _ in columns) + "\n"
-        file.write(header.encode())
-        formats = [text for _, array, text in columns for _ in range(array.shape[1])]
-        np.savetxt(file, np.hstack([a for _, a, _ in columns]), fmt=formats, delimiter=",")
+        writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
+        write = writers.get(os.path.splitext(path)[1].lower())
+        if write is None:
+            raise c.invalid(f"{path}: samples are saved as *.npz, *.csv or *.ply")
+        with complete(path) as file:
+            write(file, self, header_of(self))
 
 
-def _copied(samples, attribute: int, dtype) -> np.ndarray | None:
+def _copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any] | None:
     width = c.samples_width(samples, attribute)
     if width == 0:
         return None
@@ -126,7 +178,8 @@ def _copied(samples, attribute: int, dtype) -> np.ndarray | None:
     return array
 
 
-def samples_of(handle: c.Handle, seed: int) -> Samples:
+def samples_of(handle: c.Handle, seed: int, **domain: Any) -> Samples:
+    """What a run gave, in a `domain`: the extents of a box, or the surface."""
     samples = handle.value
     report = c.Report()
     c.call("geodisk_samples_report", samples, ctypes.byref(report))
@@ -136,14 +189,16 @@ def samples_of(handle: c.Handle, seed: int) -> Samples:
         if name not in ("struct_size", "calls")
     }
     face = _copied(samples, c.FACE, np.uint32)
+    radius = _copied(samples, c.RADIUS, np.float64)
+    assert radius is not None
     return Samples(
         points=_copied(samples, c.POSITION, np.float64),
         normals=_copied(samples, c.NORMAL, np.float64),
         face_index=None if face is None else face[:, 0],
         barycentric=_copied(samples, c.BARYCENTRIC, np.float64),
-        radius=_copied(samples, c.RADIUS, np.float64)[:, 0],
-        order=np.arange(c.samples_count(samples)),
+        radius=radius[:, 0],
         min_distance=report.min_distance,
         seed=seed,
         report=told,
+        **domain,
     )

@@ -6,13 +6,14 @@ import ctypes
 import math
 import operator
 from ctypes import byref, c_double, c_int32
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _library as c
 from ._devices import forget, sampler_on
-from ._mesh import Mesh, keys_of, radii_of
+from ._mesh import MeshLike, keys_of, mesh_of, radii_of
 from ._samples import Samples, samples_of
 
 _PATIENCE = 100  # Milliseconds, after which Python looks for signals.
@@ -21,34 +22,35 @@ _PATIENCE = 100  # Milliseconds, after which Python looks for signals.
 ProgressCallback = Callable[[float, int], None]
 
 
-def _integer(value, name: str, most: int) -> int:
+def _integer(value: Any, name: str, most: int) -> int:
     number = operator.index(value)
     if not 0 <= number <= most:
-        raise c.InvalidArgument(f"{name} is {number}, not from 0 to {most}", "invalid_argument")
+        raise c.invalid(f"{name} is {number}, not from 0 to {most}")
     return number
 
 
-def _distance(min_distance, radius, count) -> float | None:
+def _distance(
+    min_distance: float | None, radius: float | None, count: float | None
+) -> float | None:
     """The minimum distance, or None where a count chooses it."""
     given = [x is not None for x in (min_distance, radius, count)]
     if sum(given) != 1:
-        raise c.InvalidArgument(
-            "give one of min_distance, radius and count", "invalid_argument"
-        )
-    if count is not None:
+        raise c.invalid("give one of min_distance, radius and count")
+    if min_distance is not None:
+        distance = float(min_distance)
+    elif radius is not None:
+        distance = 2 * float(radius)
+    else:
         return None
-    distance = float(min_distance) if min_distance is not None else 2 * float(radius)
     if not (distance > 0 and math.isfinite(distance)):
-        raise c.InvalidArgument(
-            f"the minimum distance is {distance}, not positive", "invalid_argument"
-        )
+        raise c.invalid(f"the minimum distance is {distance}, not positive")
     return distance
 
 
 class _Bar:
     """Progress by tqdm."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         try:
             from tqdm.auto import tqdm
         except ImportError:
@@ -63,7 +65,9 @@ class _Bar:
         self._bar.close()
 
 
-def _polled(sampler, samples: c.Handle, tell) -> None:
+def _polled(
+    sampler: ctypes.c_void_p, samples: c.Handle, tell: ProgressCallback | None
+) -> None:
     """Goes on with a run until its samples are there. Python acts on signals in between."""
     progress = c.Progress()
     while not samples.value:
@@ -73,7 +77,7 @@ def _polled(sampler, samples: c.Handle, tell) -> None:
             tell(progress.decided / max(1, progress.candidates), progress.accepted)
 
 
-def _end(sampler) -> None:
+def _end(sampler: ctypes.c_void_p) -> None:
     """Stops the run in progress, if there is one."""
     rest = c.Handle("samples")
     c.cancel(sampler)
@@ -84,7 +88,7 @@ def _end(sampler) -> None:
         pass
 
 
-def _run(domain: c.Handle, device: str, tell) -> c.Handle:
+def _run(domain: c.Handle, device: str, tell: ProgressCallback | None) -> c.Handle:
     sampler = sampler_on(device).value
     samples = c.Handle("samples")
     try:
@@ -101,15 +105,21 @@ def _run(domain: c.Handle, device: str, tell) -> c.Handle:
         raise
 
 
-def _sampled(domain_at, first: float, count, seed: int, device, progress) -> Samples:
+def _sampled(
+    domain_at: Callable[[float], c.Handle],
+    first: float,
+    count: float | None,
+    device: str | int | None,
+    progress: bool | ProgressCallback,
+) -> c.Handle:
     """Samples at the first distance, or the one that a search for the count ends with."""
     tell = progress if callable(progress) else _Bar() if progress else None
     device = "" if device is None else str(device)
     try:
         if count is None:
-            return samples_of(_run(domain_at(first), device, tell), seed)
+            return _run(domain_at(first), device, tell)
         search = c.Handle("count_search", "geodisk_count_search_create", float(count))
-        distance, best = c_double(first), None
+        distance, best = c_double(first), c.Handle("samples")
         while distance.value > 0:
             found = _run(domain_at(distance.value), device, tell)
             nearest = c_int32()
@@ -122,27 +132,27 @@ def _sampled(domain_at, first: float, count, seed: int, device, progress) -> Sam
                 byref(nearest),
             )
             best = found if nearest.value else best
-        return samples_of(best, seed)
+        return best
     finally:
         if isinstance(tell, _Bar):
             tell.close()
 
 
 def sample(
-    vertices,
-    faces=None,
+    vertices: ArrayLike | MeshLike,
+    faces: ArrayLike | None = None,
     *,
     min_distance: float | None = None,
     radius: float | None = None,
     count: float | None = None,
     seed: int = 0,
-    density=None,
+    density: ArrayLike | None = None,
     pool_ratio: float = 20,
     throws: int = 0,
     stop_count: int = 0,
-    face_keys=None,
+    face_keys: ArrayLike | None = None,
     metric: str = "geodesic",
-    edge_lengths=None,
+    edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     device: str | int | None = None,
     progress: bool | ProgressCallback = False,
@@ -208,15 +218,8 @@ def sample(
     distance = _distance(min_distance, radius, count)
     seed = _integer(seed, "seed", 2**64 - 1)
     if metric not in c.METRICS:
-        raise c.InvalidArgument(
-            f"metric is {metric!r}, none of {', '.join(c.METRICS)}", "invalid_argument"
-        )
-    if isinstance(vertices, Mesh):
-        if faces is not None or edge_lengths is not None or weld is not False:
-            raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
-        mesh = vertices
-    else:
-        mesh = Mesh(vertices, faces, edge_lengths=edge_lengths, weld=weld)
+        raise c.invalid(f"metric is {metric!r}, none of {', '.join(c.METRICS)}")
+    mesh = mesh_of(vertices, faces, edge_lengths, weld)
     radii = None if density is None else radii_of(mesh, density)
     keys = None if face_keys is None else keys_of(mesh, face_keys)
     params = c.SurfaceParams(
@@ -239,15 +242,16 @@ def sample(
             "geodisk_distance_for_count",
             mesh._handle.value,
             None if radii is None else radii.value,
-            float(count),
+            float(count or 0),
             byref(found),
         )
         distance = found.value
-    return _sampled(domain_at, distance, count, seed, device, progress)
+    made = _sampled(domain_at, distance, count, device, progress)
+    return samples_of(made, seed, _surface=mesh._surface)
 
 
 def sample_box(
-    extents=(1, 1),
+    extents: ArrayLike = (1, 1),
     *,
     periodic: bool = False,
     min_distance: float | None = None,
@@ -282,7 +286,7 @@ def sample_box(
     distance = _distance(min_distance, radius, count)
     sides = np.ascontiguousarray(extents, dtype=np.float64)
     if sides.ndim != 1:
-        raise c.InvalidArgument("extents are one number for each dimension", "invalid_argument")
+        raise c.invalid("extents are one number for each dimension")
     seed = _integer(seed, "seed", 2**64 - 1)
     params = c.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
@@ -300,6 +304,7 @@ def sample_box(
 
     if distance is None:
         found = c_double()
-        c.call("geodisk_box_distance_for_count", byref(params), float(count), byref(found))
+        c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
         distance = found.value
-    return _sampled(domain_at, distance, count, seed, device, progress)
+    made = _sampled(domain_at, distance, count, device, progress)
+    return samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))

@@ -1,0 +1,265 @@
+"""What the program geodisk does for the package: verify, transfer and render."""
+
+import dataclasses
+import os
+import pickle
+import signal
+import stat
+import tempfile
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import geodisk
+from meshes import FACES, LENGTHS, SOUP, TETRAHEDRON, VERTICES, same, torus
+
+pytestmark = pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
+
+SAMPLES = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
+HEAVY = dataclasses.replace(SAMPLES, barycentric=2 * SAMPLES.barycentric)
+
+
+@pytest.fixture(autouse=True)
+def no_file_is_left(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    yield
+    assert not [name for name in os.listdir(tmp_path) if name.startswith("geodisk-")]
+
+
+def test_verify():
+    found = geodisk.verify(SAMPLES)
+    assert found and found.ok and found.complete and found.misplaced == 0
+    assert found.samples == len(SAMPLES) and found.min_distance == 0.3
+    assert 0.3 <= found.smallest < 0.31 and found.smallest_ratio == found.smallest / 0.3
+    assert found.rho == pytest.approx(SAMPLES.report["rho"])
+    assert found.violations.shape == (0, 2) and found.distances.shape == (0,)
+    a, b = found.closest
+    straight = np.linalg.norm(SAMPLES.points[a] - SAMPLES.points[b])
+    assert 0.9 * found.smallest < straight <= found.smallest
+
+    closer = geodisk.verify(SAMPLES, min_distance=0.4)
+    assert not closer and len(closer.violations) > 100 and closer.min_distance == 0.4
+    assert closer.violations.dtype == np.int64 and closer.distances[0] == closer.smallest
+    assert tuple(closer.violations[0]) == closer.closest and np.all(closer.distances < 0.4)
+    assert np.all(np.diff(closer.distances) >= 0)
+    far = geodisk.verify(SAMPLES, min_distance=1e-6)
+    assert far and far.closest is None and far.smallest == np.inf
+
+
+def test_verify_finds_what_was_moved():
+    arrays = {name: getattr(SAMPLES, name).copy() for name in ("points", "face_index")}
+    arrays["barycentric"] = SAMPLES.barycentric.copy()
+    for array in arrays.values():
+        array[7] = array[42]
+    found = geodisk.verify(dataclasses.replace(SAMPLES, **arrays))
+    assert found.violations.tolist() == [[7, 42]] and found.smallest == 0
+    points = SAMPLES.points.copy()
+    points[3] += 0.01
+    moved = geodisk.verify(dataclasses.replace(SAMPLES, points=points))
+    assert not moved and moved.misplaced == 1 and len(moved.violations) == 0
+
+
+def test_meshes_of_all_kinds(tmp_path):
+    class Trimesh:
+        vertices, faces = VERTICES, FACES
+
+    SAMPLES.save(tmp_path / "a.npz")
+    read = geodisk.read(tmp_path / "a.npz")
+    expected = geodisk.verify(SAMPLES).smallest
+    wide = np.zeros((len(VERTICES), 7))
+    wide[:, 2:5] = VERTICES
+    frozen = VERTICES.copy()
+    frozen.setflags(write=False)
+    for mesh in [
+        (VERTICES, FACES),
+        (VERTICES.tolist(), FACES.tolist()),
+        (wide[:, 2:5], np.asfortranarray(FACES.astype(np.uint16))),
+        (frozen.astype(">f8"), FACES.astype(np.int32)),
+        (geodisk.Mesh(VERTICES, FACES),),
+        (Trimesh(),),
+    ]:
+        assert geodisk.verify(read, *mesh).smallest == expected
+    assert geodisk.verify(pickle.loads(pickle.dumps(SAMPLES))).smallest == expected
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"vertices": [[0, 0], [1, 0], [0, 1]], "faces": [[0, 1, 2]], "min_distance": 0.1},
+        {"vertices": VERTICES.astype(np.float32), "faces": FACES, "min_distance": 0.5},
+        {"vertices": np.hstack([VERTICES, VERTICES]), "faces": FACES, "min_distance": 0.9},
+        {"vertices": len(VERTICES), "faces": FACES, "edge_lengths": LENGTHS, "radius": 0.2},
+        {"vertices": SOUP[0], "faces": SOUP[1], "weld": True, "min_distance": 0.5},
+        {"vertices": SOUP[0], "faces": SOUP[1], "weld": 1e-9, "min_distance": 0.5},
+        {"vertices": VERTICES + 1e6, "faces": FACES, "min_distance": 0.5},
+        {
+            "vertices": VERTICES,
+            "faces": FACES,
+            "min_distance": 0.6,
+            "density": np.linspace(0.3, 1, len(VERTICES)),
+        },
+    ],
+)
+def test_surfaces_of_all_kinds(arguments):
+    samples = geodisk.sample(**arguments)
+    found = geodisk.verify(samples)
+    assert found and 1 <= found.smallest_ratio < 1.25 and len(samples) > 30
+    assert np.isnan(found.min_distance) == ("density" in arguments)
+
+
+@pytest.mark.parametrize("sides", range(1, 7))
+def test_boxes(sides):
+    distance = [0.01, 0.1, 0.2, 0.4, 0.5, 0.7][sides - 1]
+    samples = geodisk.sample_box([1] * sides, min_distance=distance, periodic=sides == 2)
+    assert distance <= geodisk.verify(samples).smallest < 1.25 * distance
+    if sides == 2:  # Around the sides they are closer, where these are not glued together.
+        shifted = samples.points.copy()
+        shifted[:, 0] += 0.5
+        outside = geodisk.verify(dataclasses.replace(samples, points=shifted))
+        assert outside.misplaced == np.sum(shifted[:, 0] > 1)
+
+
+def test_transfer():
+    there = geodisk.transfer(SAMPLES, VERTICES * [1, 2, 3])
+    assert same(there, SAMPLES) and np.array_equal(there.order, SAMPLES.order)
+    assert np.allclose(there.points, SAMPLES.points * [1, 2, 3])
+    found = geodisk.verify(there)
+    assert found and found.smallest == pytest.approx(there.min_distance, rel=1e-12)
+    assert there.min_distance > SAMPLES.min_distance
+    assert np.all(there.radius == there.min_distance / 2)
+    # To meshes that have other coordinates, or none.
+    flat = geodisk.sample([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], min_distance=0.1)
+    raised = geodisk.transfer(flat, [[0, 0, 1], [1, 0, 1], [0, 1, 1]])
+    assert raised.points.shape[1] == 3 and np.all(raised.normals == [0, 0, 1])
+    lowered = geodisk.transfer(raised, [[0, 0], [1, 0], [0, 1]])
+    assert np.allclose(lowered.points, flat.points) and lowered.normals is None
+    mesh = geodisk.Mesh(len(VERTICES), FACES, edge_lengths=2 * LENGTHS)
+    longer = geodisk.transfer(SAMPLES, mesh)
+    assert longer.points is None and longer.min_distance >= 0.6
+    soup = geodisk.sample(*SOUP, min_distance=0.5, weld=True)
+    assert geodisk.transfer(soup, 2 * SOUP[0]).min_distance >= 1
+    one = geodisk.sample(VERTICES, FACES, min_distance=0.5, stop_count=1)
+    assert np.isnan(geodisk.transfer(one, VERTICES).min_distance)
+
+
+def test_render(tmp_path):
+    picture = geodisk.render(SAMPLES, size=(64, 48), view=(-30, 20), background="transparent")
+    assert picture.size == (64, 48) and "64 x 48" in repr(picture)
+    assert picture._repr_png_() is picture.png and picture.png.startswith(b"\x89PNG")
+    picture.save(tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes() == picture.png
+    with pytest.raises(ValueError, match="png"):
+        picture.save(tmp_path / "a.jpg")
+    sheet = geodisk.render(SAMPLES, size=(64, 48), view=["front", (1, 2)], up="z", style="points")
+    assert sheet.png != picture.png
+    box = geodisk.sample_box([1, 1, 1], min_distance=0.4)
+    assert geodisk.render(box, size=(32, 32), cut=True).size == (32, 32)
+
+
+@pytest.mark.parametrize(
+    "call, kind, text",
+    [
+        (lambda: geodisk.verify("a.npz"), TypeError, "geodisk.read"),
+        (lambda: geodisk.verify(SAMPLES, VERTICES), TypeError, "a mesh is"),
+        (lambda: geodisk.verify(SAMPLES, faces=FACES), TypeError, "vertices"),
+        (lambda: geodisk.verify(SAMPLES, *TETRAHEDRON), ValueError, "face 129 is out of range"),
+        (lambda: geodisk.verify(SAMPLES, VERTICES, FACES - 1), geodisk.MeshRejected, "-1"),
+        (lambda: geodisk.verify(SAMPLES, VERTICES * np.nan, FACES), geodisk.MeshRejected, "finite"),
+        (lambda: geodisk.verify(SAMPLES, min_distance=np.nan), ValueError, "positive"),
+        (lambda: geodisk.verify(geodisk.Samples([[0, 0]])), ValueError, "do not know their mesh"),
+        (
+            lambda: geodisk.verify(geodisk.Samples([[0, 0]], extents=(1, 1))),
+            ValueError,
+            "give min_distance",
+        ),
+        (lambda: geodisk.verify(HEAVY), ValueError, "weights"),
+        (
+            lambda: geodisk.verify(geodisk.sample_box(min_distance=0.2), VERTICES, FACES),
+            ValueError,
+            "no mesh",
+        ),
+        (lambda: geodisk.transfer(SAMPLES, VERTICES[:-1]), geodisk.MeshRejected, "vertex 799"),
+        (lambda: geodisk.transfer(SAMPLES, VERTICES.ravel()), ValueError, "shape"),
+        (lambda: geodisk.transfer(SAMPLES, geodisk.Mesh(*TETRAHEDRON)), ValueError, "pose: has 4"),
+        (lambda: geodisk.transfer(SAMPLES, VERTICES, VERTICES + 1, FACES), ValueError, "away"),
+        (lambda: geodisk.transfer(geodisk.sample_box(count=9), VERTICES), ValueError, "box"),
+        (lambda: geodisk.render(SAMPLES, VERTICES * 2, FACES), ValueError, "another mesh"),
+        (lambda: geodisk.render(SAMPLES, style="oil"), ValueError, "style takes disks"),
+        (lambda: geodisk.render(SAMPLES, view="above"), ValueError, "view takes"),
+        (lambda: geodisk.render(SAMPLES, size=(0, 1)), ValueError, "size takes"),
+        (lambda: geodisk.render(SAMPLES, device="nowhere"), geodisk.NoDevice, "nowhere"),
+    ],
+)
+def test_bad_arguments(call, kind, text):
+    with pytest.raises(kind, match=text):
+        call()
+
+
+def test_arrays_that_changed_are_noticed():
+    points, vertices = SAMPLES.points.copy(), VERTICES.copy()
+    samples = geodisk.sample(vertices, FACES, min_distance=0.5)
+    vertices[:] *= 2
+    assert not geodisk.verify(samples)
+    damaged = dataclasses.replace(SAMPLES, points=points)
+    points[3, 0] = np.nan
+    with pytest.raises(geodisk.InvalidArgument, match="record 3: x"):
+        geodisk.verify(damaged)
+
+
+def test_threads():
+    expected = geodisk.verify(SAMPLES).smallest
+    found = []
+    threads = [
+        threading.Thread(target=lambda: found.append(geodisk.verify(SAMPLES).smallest))
+        for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [expected] * 4
+
+
+def test_interruption(tmp_path):
+    # A thousand disks that each cover 90,000 faces take minutes.
+    vertices, faces = torus(300, 150)
+    places = np.arange(0, len(faces), len(faces) // 1000)
+    mesh = geodisk.Mesh(vertices, faces)
+    many = geodisk.Samples(
+        vertices[faces[places]].mean(axis=1),
+        face_index=places,
+        barycentric=np.full((len(places), 3), 1 / 3),
+        min_distance=9,
+    )
+    timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        geodisk.verify(many, mesh)
+    assert time.monotonic() - begin < 30
+    timer.join()
+    with pytest.raises(ChildProcessError):  # There is no child anymore.
+        os.waitpid(-1, os.WNOHANG)
+
+
+def test_the_program(tmp_path, monkeypatch):
+    def fails(text):
+        with pytest.raises(geodisk.NoProgram, match=text) as caught:
+            geodisk.verify(SAMPLES)
+        assert caught.value.status == "no_program"
+
+    program = os.environ["GEODISK_COMMAND"]
+    monkeypatch.setenv("GEODISK_COMMAND", str(tmp_path / "nowhere"))
+    fails("nowhere, which is no program")
+    other = tmp_path / "other"
+    other.write_text("#!/bin/sh\necho geodisk 9.9.9\n")
+    other.chmod(stat.S_IRWXU)
+    monkeypatch.setenv("GEODISK_COMMAND", str(other))
+    fails("geodisk 9.9.9, but this package is of geodisk 0")
+    monkeypatch.delenv("GEODISK_COMMAND")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    fails("no program geodisk")
+    (tmp_path / "geodisk").symlink_to(program)
+    assert geodisk.verify(SAMPLES)

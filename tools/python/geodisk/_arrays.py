@@ -1,0 +1,55 @@
+"""Arrays of a caller's as the library takes them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _library as c
+
+
+def real(array: ArrayLike, name: str) -> NDArray[Any]:
+    """As float64, or float32 where it is that."""
+    array = np.asarray(array)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name} has to be of real numbers, not of {array.dtype}")
+    if array.dtype not in (np.float64, np.float32):
+        array = array.astype(np.float64)
+    return array
+
+
+def rows(array: NDArray[Any]) -> NDArray[Any]:
+    """The same, or a copy of it unless the numbers of a row lie side by side and rows follow."""
+    fine = array.ndim == 2 and (array.shape[1] < 2 or array.strides[1] == array.itemsize)
+    fine = fine and array.strides[0] >= array.shape[1] * array.itemsize
+    fine = fine and array.strides[0] % array.itemsize == 0 and array.flags.aligned
+    fine = fine and array.dtype.isnative
+    return array if fine else np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+
+
+def indices(
+    values: ArrayLike, name: str, error: type[c.Error] = c.InvalidArgument
+) -> NDArray[Any]:
+    """As uint32, or uint16 where it is that. Other numbers raise `error`."""
+    array = np.asarray(values)
+    if array.size == 0 and array.dtype.kind == "f":  # As numpy has [].
+        array = array.astype(np.uint32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} have to be of integers, not of {array.dtype}")
+    if array.dtype in (np.uint32, np.uint16):
+        return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+    if array.dtype == np.int32 and array.dtype.isnative and array.flags.c_contiguous:
+        view = array.view(np.uint32)
+        if array.size == 0 or array.min() >= 0:
+            return view
+    bad = (array < 0) | (array > 2**32 - 1) if array.size else np.zeros(0, bool)
+    if bad.any():
+        place = np.argwhere(bad)[0]
+        raise error(
+            f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}, which is no index",
+            "mesh_rejected" if error is c.MeshRejected else "invalid_argument",
+            int(place[0]),
+        )
+    return np.ascontiguousarray(array, dtype=np.uint32)

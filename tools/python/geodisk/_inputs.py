@@ -1,0 +1,101 @@
+"""Meshes and samples as files for the program geodisk, exact to the bit."""
+
+from __future__ import annotations
+
+import pathlib
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _library as c
+from ._mesh import MeshLike, Surface, mesh_of
+from ._samples import Samples
+from ._writing import header_of, write_ply
+
+
+def surface_of(
+    samples: Samples,
+    vertices: ArrayLike | MeshLike | None,
+    faces: ArrayLike | None,
+    edge_lengths: ArrayLike | None,
+    weld: bool | float,
+) -> Surface | None:
+    """The surface that arguments name, else the one of the samples; None for samples in a box."""
+    if not isinstance(samples, Samples):
+        raise TypeError(
+            f"samples are a geodisk.Samples, as geodisk.read has them of a file, not "
+            f"{type(samples).__name__}"
+        )
+    if vertices is not None:
+        if samples.face_index is None:
+            raise c.invalid("samples without face_index and barycentric lie on no mesh")
+        return mesh_of(vertices, faces, edge_lengths, weld)._surface
+    if faces is not None or edge_lengths is not None or weld is not False:
+        raise TypeError("faces, edge_lengths and weld are of a mesh whose vertices are given")
+    if samples._surface is None and samples.extents is None:
+        raise c.invalid("these samples do not know their mesh, so it has to be given")
+    return samples._surface
+
+
+def write_samples(folder: pathlib.Path, samples: Samples) -> str:
+    """Writes them to a file; its name."""
+    with open(folder / "samples.ply", "wb") as file:
+        write_ply(file, samples, header_of(samples))
+    return "samples.ply"
+
+
+def write_subject(folder: pathlib.Path, samples: Samples, surface: Surface | None) -> list[str]:
+    """Writes samples and their surface, where they lie on one; the arguments that name them."""
+    if surface is None:
+        return [write_samples(folder, samples)]
+    mesh, options = write_surface(folder, surface)
+    return [mesh, write_samples(folder, samples), *options]
+
+
+def write_surface(
+    folder: pathlib.Path, surface: Surface, name: str = "mesh", suffix: str = ""
+) -> tuple[str, list[str]]:
+    """Writes it to files; the name of the mesh, and options that end with `suffix`."""
+    faces = surface.indices()
+    options = []
+    if surface.weld is not False:
+        value = "" if surface.weld is True else float(surface.weld)
+        options.append(f"--weld{suffix}={value!r}" if value else f"--weld{suffix}")
+    if surface.edge_lengths is None:
+        columns = _as_columns(surface.coordinates())
+        count = len(surface.coordinates())
+    else:
+        columns, count = {}, int(surface.vertices)
+        lengths = f"{name}-lengths.txt"
+        _write_lengths(folder / lengths, faces, surface.lengths())
+        options += [f"--edge-lengths{suffix}", lengths]
+    with open(folder / f"{name}.ply", "wb") as file:
+        lines = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]
+        lines += [f"property double {axis}" for axis in columns]
+        lines += [f"element face {len(faces)}", "property list uchar uint vertex_indices"]
+        file.write("\n".join([*lines, "end_header\n"]).encode())
+        if columns:
+            file.write(np.stack(list(columns.values()), axis=1).astype("<f8").tobytes())
+        records = np.empty(len(faces), [("corners", "u1"), ("face", "<u4", 3)])
+        records["corners"], records["face"] = 3, faces
+        file.write(records.tobytes())
+    return f"{name}.ply", options
+
+
+def _as_columns(coordinates: NDArray[Any]) -> dict[str, NDArray[Any]]:
+    """By name; a mesh in the plane lies in that of z = 0."""
+    dimension = coordinates.shape[1]
+    names = [f"x{axis}" for axis in range(dimension)] if dimension > 3 else ["x", "y", "z"]
+    columns = dict(zip(names, coordinates.T))
+    return columns if dimension > 2 else {**columns, "z": np.zeros(len(coordinates))}
+
+
+def _write_lengths(
+    path: pathlib.Path, faces: NDArray[Any], lengths: NDArray[np.float64]
+) -> None:
+    """A line for each edge."""
+    ends = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
+    edges, first = np.unique(np.sort(ends, axis=1), axis=0, return_index=True)
+    table = np.column_stack([edges, lengths.ravel()[first]])
+    np.savetxt(path, table, fmt=["%d", "%d", "%.17g"])

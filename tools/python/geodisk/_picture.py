@@ -1,0 +1,129 @@
+"""Pictures of samples."""
+
+from __future__ import annotations
+
+import os
+from typing import Sequence
+
+from numpy.typing import ArrayLike
+
+from . import _library as c
+from ._files import complete
+from ._inputs import surface_of, write_subject
+from ._mesh import MeshLike
+from ._program import folder, run
+from ._samples import Samples
+
+
+
+class Picture:
+    """A picture as PNG, which notebooks show.
+
+    Attributes
+    ----------
+    png : bytes
+        The file. ``matplotlib.pyplot.imread(io.BytesIO(picture.png))`` is an array.
+    """
+
+    def __init__(self, png: bytes) -> None:
+        self.png = png
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return int.from_bytes(self.png[16:20], "big"), int.from_bytes(self.png[20:24], "big")
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes it to a file, ``*.png``, which is complete or not there."""
+        path = os.fspath(path)
+        if os.path.splitext(path)[1].lower() != ".png":
+            raise c.invalid(f"{path}: pictures are saved as *.png")
+        with complete(path) as file:
+            file.write(self.png)
+
+    def _repr_png_(self) -> bytes:
+        return self.png
+
+    def __repr__(self) -> str:
+        return f"<geodisk.Picture of {self.size[0]} x {self.size[1]} pixels>"
+
+
+def render(
+    samples: Samples,
+    vertices: ArrayLike | MeshLike | None = None,
+    faces: ArrayLike | None = None,
+    *,
+    size: tuple[int, int] = (960, 540),
+    style: str = "disks",
+    view: str | tuple[float, float] | Sequence[str | tuple[float, float]] = "auto",
+    up: str | None = None,
+    background: str = "white",
+    cut: bool = False,
+    min_distance: float | None = None,
+    weld: bool | float = False,
+    device: str | int | None = None,
+) -> Picture:
+    """Draws the surface, or a box of two or three dimensions, with the disk of each sample.
+
+    Parameters
+    ----------
+    samples : Samples
+        On a mesh of up to three dimensions, or in a box.
+    vertices, faces, weld
+        Their mesh, as :func:`sample` takes it, where it is not the one that they were made on:
+        for samples that were read from a file.
+    size : (int, int)
+        Width and height in pixels.
+    style : {"disks", "points", "voronoi", "distance", "density"}
+        Geodesic disks, exact in each pixel; or points, cells, how far the nearest sample is, or how
+        dense they are.
+    view : str, (float, float), or several of them
+        ``"front"``, ``"back"``, ``"left"``, ``"right"``, ``"top"``, ``"bottom"``, azimuth and
+        elevation in degrees, or ``"auto"`` for where most is seen from. Several make a sheet.
+    up : {"x", "y", "z"}, optional
+        The axis that points up.
+    background : str
+        ``"white"``, ``"black"``, ``"transparent"`` or ``"RRGGBB"``.
+    cut : bool
+        In a box of three dimensions, do not show the balls nearest to the eye.
+    min_distance : float, optional
+        For disks of half of it, in the unit of the vertices, instead of the samples' radii.
+    device : str or int, optional
+        As :func:`sample` takes it.
+
+    Returns
+    -------
+    Picture
+        Notebooks show it; ``save("a.png")`` writes it to a file.
+
+    Raises
+    ------
+    InvalidArgument
+        For values out of range, and samples that do not lie on this mesh.
+    MeshRejected, TypeError, NoDevice, NoProgram, KeyboardInterrupt
+        As :func:`sample` and :func:`verify` do.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> samples = geodisk.sample_box([1, 1], min_distance=0.1)
+    >>> geodisk.render(samples, size=(320, 240))
+    <geodisk.Picture of 320 x 240 pixels>
+    """
+    surface = surface_of(samples, vertices, faces, None, weld)
+    options = ["--size", "x".join(map(str, size)), "--style", style, "--background", background]
+    for one in [view] if isinstance(view, (str, tuple)) else view:
+        name = one if isinstance(one, str) else ",".join(repr(float(angle)) for angle in one)
+        options.append(f"--view={name}")
+    if up is not None:
+        options += ["--up", up]
+    if cut:
+        options.append("--cut")
+    if min_distance is not None:
+        options += ["--min-distance", repr(float(min_distance))]
+    if device is not None:
+        options += ["--device", str(device)]
+    with folder() as place:
+        files = write_subject(place, samples, surface)
+        run(place, ["render", *files, *options, "--output", "picture.png"])
+        return Picture((place / "picture.png").read_bytes())

@@ -1,0 +1,202 @@
+"""Samples from files that geodisk wrote."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import zipfile
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _library as c
+from ._samples import Samples
+from ._writing import Header
+
+Columns = dict[str, NDArray[Any]]
+
+
+def read(path: str | os.PathLike[str]) -> Samples:
+    """Samples from a file that :meth:`Samples.save` or the program ``geodisk`` wrote.
+
+    Parameters
+    ----------
+    path : str or path-like
+        ``*.npz``, ``*.csv`` or ``*.ply``, the latter as text or binary.
+
+    Returns
+    -------
+    Samples
+        Equal to those that were saved. `min_distance` is NaN and `seed` None where the file does
+        not tell them. They do not know their mesh.
+
+    Raises
+    ------
+    InvalidArgument
+        For a file that is not one of samples, or is damaged or cut off, naming it and the cause.
+    OSError
+        Where it cannot be read.
+
+    Notes
+    -----
+    CSV and PLY of the program hold weights and normals of single precision, and PLY points in
+    float where that is enough; NPZ has all that there is.
+
+    Examples
+    --------
+    >>> import geodisk, os, tempfile
+    >>> samples = geodisk.sample_box([1, 2], min_distance=0.2, periodic=True)
+    >>> path = os.path.join(tempfile.mkdtemp(), "box.csv")
+    >>> samples.save(path)
+    >>> again = geodisk.read(path)
+    >>> bool((again.points == samples.points).all()), again.extents, again.periodic
+    (True, (1.0, 2.0), True)
+    """
+    path = os.fspath(path)
+    readers = {".npz": _from_npz, ".csv": _from_csv, ".ply": _from_ply}
+    reader = readers.get(os.path.splitext(path)[1].lower())
+    if reader is None:
+        raise c.invalid(f"{path}: samples are read from *.npz, *.csv and *.ply")
+    with open(path, "rb") as file:
+        try:
+            return reader(file)
+        except Exception as error:  # Broken archives make numpy raise nearly anything.
+            raise c.invalid(f"{path}: {error or type(error).__name__}") from error
+
+
+def _samples(header: Header, **arrays: Any) -> Samples:
+    """Samples of those arrays, and of what the header tells."""
+    if "box" in header:
+        arrays["extents"] = tuple(float(side) for side in header["box"].split(" x "))
+        arrays["periodic"] = header.get("sides") == "periodic"
+    elif arrays.get("face_index") is None:
+        raise ValueError("has neither face_index nor a box, so these are no samples of geodisk")
+    arrays["min_distance"] = float(header.get("min_distance", math.nan))
+    arrays["seed"] = int(header["seed"]) if "seed" in header else None
+    return Samples(**arrays)
+
+
+def _from_npz(file: BinaryIO) -> Samples:
+    names = ("points", "normals", "face_index", "barycentric", "radius")
+    if not zipfile.is_zipfile(file):
+        raise ValueError("is no archive of numpy, or is cut off")
+    file.seek(0)
+    with np.load(file, allow_pickle=False) as archive:
+        header = json.loads(str(archive["header"])) if "header" in archive else {}
+        header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
+        arrays = {name: archive[name] for name in names if name in archive}
+    return _samples(header, **arrays)
+
+
+def _of_columns(columns: Columns, header: Header) -> Samples:
+    def table(*names: str) -> NDArray[Any] | None:
+        there = [columns[name] for name in names if name in columns]
+        return np.stack(there, axis=1).astype(np.float64) if there else None
+
+    points = table(*(f"x{axis}" for axis in range(8)))
+    points = table("x", "y", "z") if points is None else points
+    if points is not None and ("box" in header or "dimension" in header):
+        sides = len(header["box"].split(" x ")) if "box" in header else int(header["dimension"])
+        points = np.ascontiguousarray(points[:, :sides])
+    faces = columns.get("face_index")
+    if faces is not None and faces.dtype.kind == "f":
+        with np.errstate(invalid="ignore"):
+            whole = faces.astype(np.int64)
+        if not (whole == faces).all():
+            raise ValueError("face_index has numbers that are not whole")
+        faces = whole
+    return _samples(
+        header,
+        points=points,
+        normals=table("nx", "ny", "nz"),
+        face_index=faces,
+        barycentric=table("bary_u", "bary_v", "bary_w"),
+        radius=columns.get("radius"),
+    )
+
+
+def _text_columns(lines: list[str], names: list[str], delimiter: str | None) -> Columns:
+    rows = np.empty((0, len(names)))
+    if lines:
+        rows = np.loadtxt(lines, delimiter=delimiter, comments=None, ndmin=2)
+    if rows.shape[1] != len(names):
+        raise ValueError(f"has {rows.shape[1]} columns, but names of {len(names)}")
+    return dict(zip(names, rows.T))
+
+
+def _add_entry(header: Header, text: str) -> None:
+    key, colon, value = text.partition(": ")
+    if colon:
+        header.setdefault(key.strip(), value.strip())
+
+
+def _lines(file: BinaryIO) -> list[str]:
+    text = file.read().decode("utf-8", "replace")
+    if text and not text.endswith("\n"):
+        raise ValueError("ends within a line")
+    return text.splitlines()
+
+
+def _from_csv(file: BinaryIO) -> Samples:
+    header: Header = {}
+    lines = []
+    for line in _lines(file):
+        if line.startswith("#"):
+            _add_entry(header, line[1:])
+        elif line.strip():
+            lines.append(line)
+    if not lines:
+        raise ValueError("has no names of columns")
+    names = [name.strip() for name in lines[0].split(",")]
+    return _of_columns(_text_columns(lines[1:], names, ","), header)
+
+
+_TYPES = {
+    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
+    "float": "f4", "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2",
+    "int32": "i4", "uint32": "u4", "float32": "f4", "float64": "f8",
+}  # fmt: skip
+
+
+def _from_ply(file: BinaryIO) -> Samples:
+    header: Header = {}
+    orders = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+    order, count, types = None, None, []
+    if file.readline(100).strip() != b"ply":
+        raise ValueError("does not begin as PLY does")
+    while True:
+        line = file.readline()
+        if not line.endswith(b"\n"):
+            raise ValueError("ends within the header")
+        words = line.decode("utf-8", "replace").split()
+        if words == ["end_header"]:
+            break
+        if words[:1] == ["comment"]:
+            _add_entry(header, line.decode("utf-8", "replace").strip()[8:])
+        elif words[:1] == ["format"] and len(words) == 3 and words[1] in orders:
+            order = orders[words[1]]
+        elif words[:2] == ["element", "vertex"] and len(words) == 3 and count is None:
+            count = int(words[2])
+        elif words[:1] == ["property"] and len(words) == 3 and words[1] in _TYPES:
+            types.append((words[2], _TYPES[words[1]]))
+        else:
+            raise ValueError(f"has the header line {' '.join(words)!r}, which samples have not")
+    if order is None or count is None or not types:
+        raise ValueError("has no format, or no element vertex with properties")
+    names = [name for name, _ in types]
+    if order == "":
+        columns = _text_columns(_lines(file), names, None)
+    else:
+        kind = np.dtype([(name, order + scalar) for name, scalar in types])
+        data = file.read()
+        if len(data) != count * kind.itemsize:
+            raise ValueError(
+                f"has {len(data)} bytes of samples instead of {count * kind.itemsize}"
+            )
+        records = np.frombuffer(data, kind)
+        columns = {name: records[name] for name in names}
+    if any(len(column) != count for column in columns.values()):
+        raise ValueError(f"does not have {count} samples, as its header tells")
+    return _of_columns(columns, header)

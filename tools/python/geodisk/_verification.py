@@ -1,0 +1,155 @@
+"""Whether samples are as far apart as they should be."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _library as c
+from ._inputs import surface_of, write_subject
+from ._mesh import MeshLike
+from ._program import folder, run
+from ._samples import Samples
+from ._writing import has_own_radii
+
+
+@dataclass(frozen=True, eq=False)
+class Verification:
+    """What :func:`verify` found. It is true where nothing is wrong.
+
+    Attributes
+    ----------
+    samples : int
+        How many there are.
+    min_distance : float
+        How far apart they should be; NaN where each has a radius of its own.
+    smallest : float
+        The distance of the closest pair, or of the one that is closest for its radii; infinite
+        where all are farther apart than 1.25 times what they should be.
+    smallest_ratio : float
+        What part it is of the distance that it should be.
+    closest : tuple of two int, or None
+        That pair.
+    violations : ndarray of int64, shape (k, 2)
+        Pairs that are too close, by more than a billionth, the closest one first.
+    distances : ndarray of float64, shape (k,)
+        Of these pairs.
+    complete : bool
+        False where the check ended at a million violations.
+    misplaced : int
+        Samples that are not where their face and weights put them, or not in their box.
+    rho : float
+        The packing density; NaN in boxes, and where radii vary.
+    """
+
+    samples: int
+    min_distance: float
+    smallest: float
+    smallest_ratio: float
+    closest: tuple[int, int] | None
+    violations: NDArray[np.int64]
+    distances: NDArray[np.float64]
+    complete: bool
+    misplaced: int
+    rho: float
+
+    @property
+    def ok(self) -> bool:
+        """Whether no pair is too close and no sample misplaced."""
+        return len(self.violations) == 0 and self.misplaced == 0
+
+    def __bool__(self) -> bool:
+        return self.ok
+
+    def __repr__(self) -> str:
+        found = "ok" if self.ok else f"{len(self.violations)} too close, {self.misplaced} misplaced"
+        return (
+            f"<geodisk.Verification: {self.samples} samples, {found}, smallest distance "
+            f"{self.smallest:.9g}, {self.smallest_ratio:.9g} of what it should be>"
+        )
+
+
+def verify(
+    samples: Samples,
+    vertices: ArrayLike | MeshLike | None = None,
+    faces: ArrayLike | None = None,
+    *,
+    min_distance: float | None = None,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+) -> Verification:
+    """Computes the distances of samples anew, on the CPU in double precision.
+
+    This is an implementation of its own, in the program ``geodisk``, which runs by itself.
+
+    Parameters
+    ----------
+    samples : Samples
+        On a mesh or in a box.
+    vertices, faces, edge_lengths, weld
+        Their mesh, as :func:`sample` takes it, where it is not the one that they were made on:
+        for samples that were read from a file.
+    min_distance : float, optional
+        The distance to keep, in the unit of the vertices; without it, each keeps its radius.
+
+    Returns
+    -------
+    Verification
+        Also where samples are too close: nothing is raised for that.
+
+    Raises
+    ------
+    InvalidArgument
+        For samples that cannot lie on this mesh, or without a mesh or distance.
+    MeshRejected, TypeError
+        As :func:`sample` does.
+    NoProgram
+        Where the program ``geodisk`` is not there.
+    KeyboardInterrupt
+        Ctrl-C ends it at once.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> samples = geodisk.sample_box([1, 1], min_distance=0.1, seed=3)
+    >>> found = geodisk.verify(samples)
+    >>> found.ok, found.smallest >= 0.1
+    (True, True)
+    >>> found = geodisk.verify(samples, min_distance=0.15)
+    >>> found.ok, found.violations.shape[1]
+    (False, 2)
+    """
+    surface = surface_of(samples, vertices, faces, edge_lengths, weld)
+    if min_distance is not None:
+        min_distance = float(min_distance)
+        if not (min_distance > 0 and math.isfinite(min_distance)):
+            raise c.invalid(f"the minimum distance is {min_distance}, not positive")
+    elif not has_own_radii(samples) and not samples.min_distance > 0:
+        raise c.invalid(
+            f"the minimum distance of these samples is {samples.min_distance}; give min_distance"
+        )
+    with folder() as place:
+        arguments = [*write_subject(place, samples, surface), "--json", "report.json"]
+        if min_distance is not None:
+            arguments += ["--min-distance", repr(min_distance)]
+        run(place, ["verify", *arguments], accepted=(0, 1))
+        report = json.loads((place / "report.json").read_text("utf-8"))
+    violations, closest = report["violations"], report["smallest"]
+    pairs = np.array([violations["rows_a"], violations["rows_b"]], np.int64).T
+    distance, rho = report["min_distance"], report.get("rho")
+    return Verification(
+        samples=len(samples),
+        min_distance=math.nan if distance is None else distance,
+        smallest=math.inf if closest is None else closest["distance"],
+        smallest_ratio=math.inf if closest is None else report["smallest_ratio"],
+        closest=None if closest is None else (closest["samples"][0], closest["samples"][1]),
+        violations=np.ascontiguousarray(pairs),
+        distances=np.array(violations["distances"], np.float64),
+        complete=violations["complete"],
+        misplaced=report["outside"] if surface is None else report["off_the_mesh"],
+        rho=math.nan if rho is None else rho,
+    )

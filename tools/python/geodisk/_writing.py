@@ -1,0 +1,95 @@
+"""Samples as files, as the program geodisk writes and reads them."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _library as c
+
+if TYPE_CHECKING:
+    from ._samples import Samples
+
+Header = dict[str, str]
+
+
+def header_of(samples: Samples) -> Header:
+    """What files say besides the columns, by key."""
+    header = {"version": f"geodisk {c.version()}"}
+    if not math.isnan(samples.min_distance):
+        header["min_distance"] = repr(samples.min_distance)
+        header["radius"] = repr(samples.min_distance / 2)
+    if samples.seed is not None:
+        header["seed"] = str(samples.seed)
+    if samples.extents is not None:
+        header["box"] = " x ".join(map(repr, samples.extents))
+        header["sides"] = "periodic" if samples.periodic else "open"
+    elif samples.points is not None and samples.points.shape[1] < 3:
+        header["dimension"] = str(samples.points.shape[1])  # Since x y z are there in any case.
+    return header
+
+
+def has_own_radii(samples: Samples) -> bool:
+    """Whether each sample has a radius of its own."""
+    return bool(len(samples) > 0 and np.ptp(samples.radius) > 0)
+
+
+def _columns(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
+    """By name. Coordinates are x y z, and in what is `as_box` no more than there are."""
+    columns: dict[str, NDArray[Any]] = {}
+    if samples.points is not None:
+        dimension = samples.points.shape[1]
+        names = [f"x{axis}" for axis in range(dimension)] if dimension > 3 else list("xyz")
+        columns.update(zip(names, samples.points.T))
+        if not as_box:
+            columns.update({name: np.zeros(len(samples)) for name in names[dimension:]})
+    if samples.normals is not None:
+        columns.update(zip(("nx", "ny", "nz"), samples.normals.T))
+    if samples.face_index is not None and samples.barycentric is not None:
+        columns["face_index"] = samples.face_index
+        columns.update(zip(("bary_u", "bary_v", "bary_w"), samples.barycentric.T))
+    if has_own_radii(samples):
+        columns["radius"] = samples.radius
+    return columns
+
+
+def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
+    arrays = {
+        "points": samples.points,
+        "normals": samples.normals,
+        "face_index": samples.face_index,
+        "barycentric": samples.barycentric,
+        "radius": samples.radius,
+        "min_distance": np.float64(samples.min_distance),
+        "seed": None if samples.seed is None else np.uint64(samples.seed),
+        "header": np.array(json.dumps(header)),
+    }
+    np.savez(file, **{name: array for name, array in arrays.items() if array is not None})
+
+
+def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
+    columns = _columns(samples, as_box=samples.extents is not None)
+    lines = [f"# {key}: {value}\n" for key, value in header.items()]
+    file.write(("".join(lines) + ",".join(columns) + "\n").encode())
+    formats = ["%.17g" if column.dtype.kind == "f" else "%d" for column in columns.values()]
+    np.savetxt(file, np.stack(list(columns.values()), axis=1), fmt=formats, delimiter=",")
+
+
+def write_ply(file: BinaryIO, samples: Samples, header: Header) -> None:
+    columns = _columns(samples, as_box=False)
+    kinds = {"f": ("double", "<f8"), "u": ("uint", "<u4")}
+    lines = ["ply", "format binary_little_endian 1.0"]
+    lines += [f"comment {key}: {value}" for key, value in header.items()]
+    lines += [f"element vertex {len(samples)}"]
+    lines += [f"property {kinds[x.dtype.kind][0]} {name}" for name, x in columns.items()]
+    file.write("\n".join([*lines, "end_header\n"]).encode())
+    records = np.empty(
+        len(samples), [(name, kinds[x.dtype.kind][1]) for name, x in columns.items()]
+    )
+    for name, column in columns.items():
+        records[name] = column
+    file.write(records.tobytes())
