@@ -177,13 +177,15 @@ elseif(CASE STREQUAL "shared")
     run_programs("${work}/shared user")
     use_by_pkg_config("${work}/shared package" "${work}/shared pkg config")
 
-elseif(CASE STREQUAL "add_subdirectory")
-    configure("${package_tests}/add_subdirectory" "${work}/add subdirectory"
+elseif(CASE MATCHES "^(configure|add)_subdirectory$")
+    configure("${package_tests}/add_subdirectory" "${work}/${CASE}"
         -DCMAKE_BUILD_TYPE=
         -DBUILD_SHARED_LIBS=ON
         "-DGEODISK_SOURCE=${source_root}")
-    build("${work}/add subdirectory")
-    run_programs("${work}/add subdirectory")
+    if(CASE STREQUAL "add_subdirectory")
+        build("${work}/${CASE}")
+        run_programs("${work}/${CASE}")
+    endif()
 
 elseif(CASE STREQUAL "c")
     # As installed, since users take it from there.

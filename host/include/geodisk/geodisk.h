@@ -160,7 +160,7 @@ typedef struct geodisk_vulkan_device {
     void *physical_device;                  /* VkPhysicalDevice. */
     void *device;                           /* VkDevice. */
     void (*get_instance_proc_addr)(void);   /* PFN_vkGetInstanceProcAddr. */
-    uint32_t api_version;                   /* The lower of the instance's and the device's; 0 for 1.1. */
+    uint32_t api_version;                   /* The lower of the instance's and device's; 0 for 1.1. */
     uint32_t queue_family;                  /* One with compute. */
     void *queue;                            /* VkQueue. */
     uint64_t pipeline_cache;                /* VkPipelineCache, or 0. */
@@ -464,11 +464,11 @@ GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
  *                           of the first bytes of GEODISK_CONTROL_BUFFER to where the host reads
  *     geodisk_job_advance   tells by such a copy what comes next, until GEODISK_COMPLETE
  *
- * A job is for one thread at a time, and another gets GEODISK_BUSY. Its command buffers must run one
- * after the other, and end before the job is released. Recording leaves the compute pipeline,
- * descriptor set 0 and the push constants changed, and has its own barriers among the job's buffers.
- * Those against other work are the caller's: the first commands write by transfers, and read and write
- * in compute shaders; the last ones write in both. */
+ * A job is for one thread at a time, and another gets GEODISK_BUSY. Its command buffers must run
+ * one after the other, and end before the job is released. Recording leaves the compute pipeline,
+ * descriptor set 0 and the push constants changed, and has its own barriers among the job's
+ * buffers. Those against other work are the caller's: the first commands write by transfers, and
+ * read and write in compute shaders; the last ones write in both. */
 typedef struct geodisk_job geodisk_job;
 
 typedef struct geodisk_job_options {
@@ -538,9 +538,10 @@ enum {
     GEODISK_COMPLETE = 6        /* The samples are there. */
 };
 
-/* Records it to a VkCommandBuffer, outside of a render pass. `amount`: of GEODISK_GO_ON so many rounds, 0 for one;
- * of GEODISK_BEGIN and GEODISK_FINISH at most so many dispatches, 0 for all. Writes to `is_last`,
- * unless it is NULL, whether none of them is left; whatever is recorded next begins with those.
+/* Records it to a VkCommandBuffer, outside of a render pass. `amount`: of GEODISK_GO_ON so many
+ * rounds, 0 for one; of GEODISK_BEGIN and GEODISK_FINISH at most so many dispatches, 0 for all.
+ * Writes to `is_last`, unless it is NULL, whether none of them is left; whatever is recorded next
+ * begins with those.
  *
  * Rounds that come after the last are empty. GEODISK_FINISH may be recorded at any time: what is
  * decided so far are the first samples of the set, and stay where they are. */
@@ -575,7 +576,7 @@ typedef struct geodisk_sample_record {
 /* Where samples of a job are drawn: on the device, by the caller's own vertices. */
 typedef struct geodisk_placement geodisk_placement;
 
-/* A sample there. The normal has length 1, or 0 of a face without one; the face is one of `part`. */
+/* A sample there. The normal has length 1, or 0 of a face without one; the face is of its part. */
 typedef struct geodisk_placed_record {
     float position[3], radius;
     float normal[3];
