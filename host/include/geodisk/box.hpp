@@ -10,6 +10,7 @@
 
 namespace geodisk {
 
+/// Dimensions of a box.
 inline constexpr std::uint32_t kMostBoxDimensions = 6;
 
 /// The guard band of boxes: conflicts are tested against `min_distance * (1 + kBoxGuard)`, which

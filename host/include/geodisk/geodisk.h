@@ -43,6 +43,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Marks what the library exports. */
 #if !defined(_WIN32)
 #define GEODISK_C_API __attribute__((visibility("default")))
 #elif defined(GEODISK_C_EXPORTS)
@@ -57,6 +58,7 @@ extern "C" {
 
 /* ---- Outcomes ---------------------------------------------------------------------------------- */
 
+/* What became of a call: GEODISK_OK, or below 0 why it failed. */
 typedef int32_t geodisk_status;
 enum {
     GEODISK_OK = 0,
@@ -74,6 +76,7 @@ enum {
     GEODISK_BUSY = -12          /* Another thread, or a run in progress, has the sampler. */
 };
 
+/* Of an error that concerns no one face or vertex. */
 #define GEODISK_NO_ELEMENT UINT64_MAX
 
 /* What became of a call. */
@@ -93,8 +96,10 @@ GEODISK_C_API const char *geodisk_version(void);
 
 /* ---- Devices ----------------------------------------------------------------------------------- */
 
+/* A device that is ready to be sampled on, with its pipelines. */
 typedef struct geodisk_device geodisk_device;
 
+/* Where a device has no such family. */
 #define GEODISK_NO_QUEUE_FAMILY UINT32_MAX
 
 /* What is known of a Vulkan device. */
@@ -120,6 +125,7 @@ typedef struct geodisk_device_info {
 GEODISK_C_API geodisk_status geodisk_list_devices(geodisk_device_info *infos, size_t capacity,
                                                   size_t *count, geodisk_error *error);
 
+/* Which device to open, and how. */
 typedef struct geodisk_device_options {
     size_t struct_size;
     /* Part of its name, its index, or its UUID; NULL or "" for the best one. */
@@ -179,6 +185,7 @@ typedef struct geodisk_vulkan_device {
     void (*free)(void *memory_user, const geodisk_memory_grant *grant);
 } geodisk_vulkan_device;
 
+/* A device and queue of the caller's, which must outlive all that is made of them. */
 GEODISK_C_API geodisk_status geodisk_device_borrow(const geodisk_vulkan_device *lent,
                                                    geodisk_device **device, geodisk_error *error);
 
@@ -187,6 +194,7 @@ GEODISK_C_API geodisk_status geodisk_query_device(void (*get_instance_proc_addr)
                                                   void *instance, void *physical_device,
                                                   geodisk_device_info *info, geodisk_error *error);
 
+/* What is known of a device that was opened or borrowed. */
 GEODISK_C_API geodisk_status geodisk_device_describe(const geodisk_device *device,
                                                      geodisk_device_info *info,
                                                      geodisk_error *error);
@@ -199,6 +207,7 @@ GEODISK_C_API void geodisk_device_release(geodisk_device *device);
 typedef int32_t geodisk_type;
 enum { GEODISK_FLOAT64 = 0, GEODISK_FLOAT32 = 1, GEODISK_UINT32 = 2, GEODISK_UINT16 = 3 };
 
+/* A mesh that is prepared for any number of runs. */
 typedef struct geodisk_mesh geodisk_mesh;
 
 /* A triangle mesh in the caller's memory. Faces may be oriented either way, share an edge by any
@@ -235,6 +244,7 @@ GEODISK_C_API geodisk_status geodisk_mesh_save(const geodisk_mesh *mesh, void *b
 GEODISK_C_API geodisk_status geodisk_mesh_load(const void *bytes, size_t size, geodisk_mesh **mesh,
                                                geodisk_error *error);
 
+/* What is known of a mesh. */
 typedef struct geodisk_mesh_info {
     size_t struct_size;
     uint32_t dimension; /* Of its coordinates; 0 where there are none. */
@@ -252,6 +262,7 @@ typedef struct geodisk_mesh_info {
     double longest_edge;
 } geodisk_mesh_info;
 
+/* What became known of a mesh as it was prepared. */
 GEODISK_C_API geodisk_status geodisk_mesh_describe(const geodisk_mesh *mesh,
                                                    geodisk_mesh_info *info, geodisk_error *error);
 
@@ -269,12 +280,14 @@ GEODISK_C_API void geodisk_radii_release(geodisk_radii *radii);
 
 /* ---- Domains: what is sampled ------------------------------------------------------------------ */
 
+/* What is sampled, and how. */
 typedef struct geodisk_domain geodisk_domain;
 
 /* By which distance. All but the first are for comparison. */
 typedef int32_t geodisk_metric;
 enum { GEODISK_GEODESIC = 0, GEODISK_EUCLIDEAN = 1, GEODISK_APPROXIMATE = 2 };
 
+/* How a surface is sampled. */
 typedef struct geodisk_surface_params {
     size_t struct_size;
     double min_distance; /* D > 0: no two samples are closer along the surface. */
@@ -289,6 +302,7 @@ typedef struct geodisk_surface_params {
     geodisk_metric metric; /* Those for comparison take three coordinates and no radii. */
 } geodisk_surface_params;
 
+/* One surface. */
 GEODISK_C_API geodisk_status geodisk_domain_surface(const geodisk_mesh *mesh,
                                                     const geodisk_surface_params *params,
                                                     geodisk_domain **domain, geodisk_error *error);
@@ -320,6 +334,7 @@ typedef struct geodisk_box_params {
     uint32_t stop_count;
 } geodisk_box_params;
 
+/* A box. */
 GEODISK_C_API geodisk_status geodisk_domain_box(const geodisk_box_params *params,
                                                 geodisk_domain **domain, geodisk_error *error);
 
@@ -336,9 +351,13 @@ GEODISK_C_API geodisk_status geodisk_box_distance_for_count(const geodisk_box_pa
 
 /* ---- Sampling ---------------------------------------------------------------------------------- */
 
+/* Memory on a device, and the run in progress, if there is one. */
 typedef struct geodisk_sampler geodisk_sampler;
+
+/* The result of a run. */
 typedef struct geodisk_samples geodisk_samples;
 
+/* What a sampler may take, and how long it waits. */
 typedef struct geodisk_sampler_options {
     size_t struct_size;
     uint64_t device_bytes;     /* Most to take on the device; 0 for no bound. */
@@ -446,6 +465,7 @@ typedef struct geodisk_report {
     uint64_t calls[10]; /* Candidates by CheckStatus calls: 1 to 9, and 10 or more. */
 } geodisk_report;
 
+/* How the run of these samples went. */
 GEODISK_C_API geodisk_status geodisk_samples_report(const geodisk_samples *samples,
                                                     geodisk_report *report, geodisk_error *error);
 
@@ -622,6 +642,7 @@ GEODISK_C_API void geodisk_placement_release(geodisk_placement *placement);
  * not come so close. The nearest set is the answer. */
 typedef struct geodisk_count_search geodisk_count_search;
 
+/* A search for about `wanted` samples, at least 1. */
 GEODISK_C_API geodisk_status geodisk_count_search_create(double wanted,
                                                          geodisk_count_search **search,
                                                          geodisk_error *error);

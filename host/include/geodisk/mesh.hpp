@@ -34,13 +34,16 @@ struct HalfEdge {
 constexpr std::uint32_t around_half_edge(std::uint32_t around) {
     return around >> 1;
 }
+/// Whether that half-edge runs the same way.
 constexpr bool around_same_way(std::uint32_t around) {
     return (around & 1u) != 0;
 }
 
+/// Half-edges of a face, three in a row: the one behind `h`, and the one before.
 constexpr std::uint32_t next_in_face(std::uint32_t h) {
     return h % 3 == 2 ? h - 2 : h + 1;
 }
+/// See next_in_face().
 constexpr std::uint32_t previous_in_face(std::uint32_t h) {
     return h % 3 == 0 ? h + 2 : h - 1;
 }
@@ -53,6 +56,7 @@ struct VertexFan {
     std::uint32_t flags;       ///< `gpu::kFan*` bits of shaders/shared/constants.h.
 };
 
+/// What became known of a mesh as it was prepared. Lengths are in mesh units.
 struct MeshStatistics {
     std::uint64_t vertices = 0; ///< Vertices used by a face.
     std::uint64_t triangles = 0;

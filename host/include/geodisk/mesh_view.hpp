@@ -19,18 +19,22 @@ class PositionView {
     requires std::convertible_to<const Range&, std::span<const double>>
     constexpr PositionView(const Range& packed) noexcept
         : PositionView(std::span<const double>(packed)) {}
+    /// The same, of floats.
     template <class Range>
     requires std::convertible_to<const Range&, std::span<const float>>
     constexpr PositionView(const Range& packed) noexcept
         : PositionView(std::span<const float>(packed)) {}
+    /// The same, by a span.
     constexpr PositionView(std::span<const double> packed) noexcept
         : data_(packed.data()), count_(packed.size()) {}
+    /// The same, by a span of floats.
     constexpr PositionView(std::span<const float> packed) noexcept
         : data_(packed.data()), count_(packed.size()), is_float_(true) {}
     /// `count` vertices, each `stride` bytes after the one before, with its coordinates side by
     /// side. `stride` must be a multiple of the size of a coordinate and hold a vertex.
     constexpr PositionView(const double* first, std::size_t count, std::size_t stride) noexcept
         : data_(first), count_(count), stride_(stride), is_packed_(false) {}
+    /// The same, of floats.
     constexpr PositionView(const float* first, std::size_t count, std::size_t stride) noexcept
         : data_(first), count_(count), stride_(stride), is_float_(true), is_packed_(false) {}
 
@@ -63,18 +67,22 @@ class IndexView {
     requires std::convertible_to<const Range&, std::span<const std::uint32_t>>
     constexpr IndexView(const Range& packed) noexcept
         : IndexView(std::span<const std::uint32_t>(packed)) {}
+    /// The same, of 16 bits.
     template <class Range>
     requires std::convertible_to<const Range&, std::span<const std::uint16_t>>
     constexpr IndexView(const Range& packed) noexcept
         : IndexView(std::span<const std::uint16_t>(packed)) {}
+    /// The same, by a span.
     constexpr IndexView(std::span<const std::uint32_t> packed) noexcept
         : IndexView(packed.data(), packed.size(), sizeof(std::uint32_t)) {}
+    /// The same, by a span of 16 bits.
     constexpr IndexView(std::span<const std::uint16_t> packed) noexcept
         : IndexView(packed.data(), packed.size(), sizeof(std::uint16_t)) {}
     /// `count` indices, each `stride` bytes after the one before, as where an index of something
     /// else lies between. `stride` must be a multiple of the size of an index, and not 0.
     constexpr IndexView(const std::uint32_t* first, std::size_t count, std::size_t stride) noexcept
         : data_(first), count_(count), stride_(stride) {}
+    /// The same, of 16 bits.
     constexpr IndexView(const std::uint16_t* first, std::size_t count, std::size_t stride) noexcept
         : data_(first), count_(count), stride_(stride), is_short_(true) {}
 
@@ -83,6 +91,7 @@ class IndexView {
     constexpr std::size_t stride() const noexcept { return stride_; }
     /// Indices, three per face.
     constexpr std::size_t size() const noexcept { return count_; }
+    /// The index in place `i`, of corner `i % 3` of face `i / 3`.
     std::uint32_t operator[](std::size_t i) const noexcept {
         const auto* const at = static_cast<const std::byte*>(data_) + i * stride_;
         return is_short_ ? *reinterpret_cast<const std::uint16_t*>(at)
@@ -119,6 +128,7 @@ struct MeshView {
                                                       : positions.count();
     }
     std::size_t face_count() const noexcept { return triangles.size() / 3; }
+    /// As the view has it; nothing is checked.
     double coordinate(std::size_t vertex, std::size_t axis) const noexcept {
         const auto* const at =
             static_cast<const std::byte*>(positions.data()) + vertex * positions.stride(dimension);

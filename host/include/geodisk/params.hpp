@@ -14,12 +14,15 @@ namespace geodisk {
 /// Packing density (paper section 5.2) that dart throwing from a pool of the default ratio reaches
 /// on average; used to translate between a count and a distance.
 inline constexpr double kExpectedRho = 0.725;
+/// Samples by which a border adds to a count, for each distance along it.
 inline constexpr double kBorderSamples = 0.174;
+/// Candidates of a pool per expected sample.
 inline constexpr double kDefaultPoolRatio = 20;
 /// Candidates of a job.
 inline constexpr std::uint32_t kMostCandidates = 0xffffffff;
-/// Candidates per expected sample of a stage, see Stages, and the most stages of a pool.
+/// Candidates per expected sample of a stage, see Stages.
 inline constexpr double kStageRatio = 5;
+/// Stages of a pool.
 inline constexpr std::uint32_t kMostPoolStages = 15;
 /// Candidates that one face may expect in one stage.
 inline constexpr double kMostPerFace = 0x1p24;

@@ -34,6 +34,7 @@ enum class Stage : std::uint32_t {
     resolve, ///< Decides the batch.
     gather,  ///< Puts the samples in order.
 };
+/// Of Stage.
 inline constexpr std::size_t kStages = 7;
 /// By Stage.
 using StageSeconds = std::array<double, kStages>;
@@ -92,6 +93,7 @@ struct Progress {
     std::uint64_t windows; ///< Of those disks; with many for each, disks take long.
 };
 
+/// What a Runner may take, how long it waits, and what it tells.
 struct RunnerOptions {
     SamplerOptions sampler;
     /// Most bytes that a run takes on the device, staging included; 0 for no bound of the caller's.

@@ -77,6 +77,7 @@ struct Tuning {
     std::uint32_t batches = 0;
     Reads reads = Reads::automatic;
 };
+/// For Tuning::pool_block.
 inline constexpr std::uint32_t kMostPoolBlock = 128;
 
 /// `tuning` with all that `wanted` does not leave open in place of its own.
@@ -87,6 +88,7 @@ GEODISK_API Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept;
 /// are too small.
 GEODISK_API Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) noexcept;
 
+/// How pipelines are made, and what they count besides.
 struct SamplerOptions {
     Tuning tuning;
     Rounding rounding = Rounding::automatic;
@@ -121,6 +123,7 @@ enum class BufferRole : std::uint32_t {
     axes = fans,     ///< Of the grid.
     points = weights,
 };
+/// Of BufferRole.
 inline constexpr std::size_t kBufferRoles = 15;
 
 /// Name of a role as spelled first, for messages.
@@ -139,6 +142,7 @@ struct BufferRange {
 /// The memory of one job. Owned by the caller; ranges must not overlap while the job runs. Create
 /// the buffers with `kWorkspaceUsage`.
 using Workspace = std::array<BufferRange, kBufferRoles>;
+/// What the buffers of a Workspace are used for.
 inline constexpr VkBufferUsageFlags kWorkspaceUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
     VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
@@ -291,32 +295,42 @@ class GEODISK_API Sampler {
     Result<Job> make_job(const Domain& domain, const RunPlan& plan,
                          const Workspace& workspace) const noexcept;
 
-    // Recording. The command buffer must be in the recording state, outside a render pass, on a
-    // family with compute. Each call leaves compute pipeline, descriptor set 0 and push constants
-    // changed, and begins and ends with its own barriers among the job's buffers.
-    //
-    // The rounds of later stages begin with the disks of all samples so far, which reject the
-    // candidates. The samples are those of all stages at once.
-    //
-    // record_finish may be recorded between any rounds, and as often as is liked: what it leaves is
-    // put in order once and stays, and the rest grows.
-    //
-    // No dispatch grows with the mesh or the candidates: RunPlan::dispatch_items bounds those that
-    // go through them, RunPlan::step_budget and lanes those of disks. record_begin and
-    // record_finish record at most `dispatches` of theirs, clears of memory included, from where
-    // the call before stopped, and return whether those were the last. What they have left is
-    // recorded first by whatever call comes next. A round is 2 dispatches and
-    // RunPlan::detect_passes, and 2 more with SamplerOptions::count_calls.
+    /// @name Recording
+    /// The command buffer must be in the recording state, outside a render pass, on a
+    /// family with compute. Each call leaves compute pipeline, descriptor set 0 and push constants
+    /// changed, and begins and ends with its own barriers among the job's buffers.
+    ///
+    /// The rounds of later stages begin with the disks of all samples so far, which reject the
+    /// candidates. The samples are those of all stages at once.
+    ///
+    /// record_finish may be recorded between any rounds, and as often as is liked: what it leaves
+    /// is put in order once and stays, and the rest grows.
+    ///
+    /// No dispatch grows with the mesh or the candidates: RunPlan::dispatch_items bounds those that
+    /// go through them, RunPlan::step_budget and lanes those of disks. record_begin and
+    /// record_finish record at most `dispatches` of theirs, clears of memory included, from where
+    /// the call before stopped, and return whether those were the last. What they have left is
+    /// recorded first by whatever call comes next. A round is 2 dispatches and
+    /// RunPlan::detect_passes, and 2 more with SamplerOptions::count_calls.
+    /// @{
+
+    /// Draws the candidates of the next stages. Whether that was all of it.
     bool record_begin(VkCommandBuffer commands, Job& job,
                       std::uint32_t dispatches = kAllDispatches) const noexcept;
+    /// So many rounds; those behind the last one that has work cost empty dispatches.
     void record_rounds(VkCommandBuffer commands, Job& job, std::uint32_t rounds) const noexcept;
+    /// Begins the batch in progress anew, with what Job::set_plan or set_samples changed.
     void record_rewind(VkCommandBuffer commands, Job& job) const noexcept;
+    /// Puts what is decided so far in order, as gpu::SampleRec. Whether that was all of it.
     bool record_finish(VkCommandBuffer commands, Job& job,
                        std::uint32_t dispatches = kAllDispatches) const noexcept;
+    /// @}
 
+    /// How a job first touches its workspace: what was written there before must be visible to it.
     static constexpr SyncScope kFirstUse{
         VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+    /// And last: what reads the results must wait for it.
     static constexpr SyncScope kLastUse{VK_PIPELINE_STAGE_TRANSFER_BIT |
                                             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                                         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT};

@@ -50,9 +50,12 @@ struct Error {
 template <class T>
 class [[nodiscard]] Result {
   public:
+    /// Success.
     Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
+    /// Failure.
     Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
+    /// Whether it holds a value.
     explicit operator bool() const noexcept { return content_.index() == 0; }
     T& value() & noexcept {
         assert(*this);

@@ -1,0 +1,86 @@
+"""Pages beside what they quote: programs, messages and files."""
+
+import pathlib
+import re
+
+SOURCE = pathlib.Path(__file__).parents[2]
+GUIDES = SOURCE / "host/docs/guides.md"
+
+
+def lines_of(text):
+    """Lines without their indentation, since a page shows parts of functions."""
+    return [line.strip() for line in text.strip().splitlines()]
+
+
+def test_guides_show_their_programs():
+    """Each block of code is part of the file that was named last, word for word."""
+    program, shown = None, 0
+    token = re.compile(r"`(tools/examples/[\w/.]+\.\w+)`|^```(\w+)\n(.*?)^```$", re.M | re.S)
+    for name, language, block in token.findall(GUIDES.read_text()):
+        if name:
+            program = SOURCE / name
+            assert program.is_file(), name
+        else:
+            lines, part = lines_of(program.read_text()), lines_of(block)
+            places = range(len(lines) - len(part) + 1)
+            assert any(lines[at : at + len(part)] == part for at in places), f"{program}:\n{block}"
+            shown += 1
+    assert shown >= 6
+
+
+def test_every_guide_is_told_of():
+    page = GUIDES.read_text()
+    for program in (SOURCE / "tools/examples/guides").iterdir():
+        assert f"`tools/examples/guides/{program.name}`" in page, program.name
+
+
+def pages():
+    folders = (".github", "host", "kernels_ref", "shaders", "tests", "tools")
+    return [*SOURCE.glob("*.md"), *(page for name in folders for page in (SOURCE / name).rglob("*.md"))]
+
+
+def anchors_of(page):
+    """Anchors of the headings, as GitHub makes them."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(), re.M)
+    plain = (re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower() for heading in headings)
+    return {re.sub(r"[^\w\- ]", "", heading).replace(" ", "-") for heading in plain}
+
+
+def test_links_lead_somewhere():
+    checked = 0
+    for page in pages():
+        for target, anchor in re.findall(r"\]\(([^)#:\s]*)(?:#([^)\s]+))?\)", page.read_text()):
+            there = (page.parent / target).resolve() if target else page
+            assert there.exists(), f"{page.name} links to {target}"
+            if anchor and there.suffix == ".md":
+                assert anchor in anchors_of(there), f"{page.name} links to {target}#{anchor}"
+            checked += 1
+    assert checked > 50
+
+
+def literals_of(path):
+    """What is in quotes, with literals that follow each other in one piece."""
+    text = path.read_text(errors="replace").replace(r"\"", "'")
+    return "\n".join(re.findall(r'"([^"\n]*)"', re.sub(r'"\s*f?"', "", text)))
+
+
+def test_messages_of_troubleshooting_exist():
+    """Each message of the page is in one source file, part by part between its omissions."""
+    endings = {".cpp", ".hpp", ".py", ".cmake", ".txt"}
+    folders = ("host/src", "tools")
+    sources = [
+        literals_of(path)
+        for folder in folders
+        for path in (SOURCE / folder).rglob("*")
+        if path.suffix in endings
+    ]
+    page = (SOURCE / "host/docs/troubleshooting.md").read_text()
+    messages = re.findall(r"^\| `([^`]+)` \|", page, re.M)
+    assert len(messages) > 40
+    gone = []
+    for message in messages:
+        parts = [part.strip() for part in message.split("…")]
+        assert max(map(len, parts)) >= 10, f"too little to look for: {message}"
+        if not any(all(part in source for part in parts) for source in sources):
+            gone.append(message)
+    assert gone == []
