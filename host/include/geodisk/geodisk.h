@@ -491,6 +491,7 @@ GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
  * read and write in compute shaders; the last ones write in both. */
 typedef struct geodisk_job geodisk_job;
 
+/* All may be 0. */
 typedef struct geodisk_job_options {
     size_t struct_size;
     uint64_t pool_bytes; /* Most for disks in progress; 0 for 256 MiB. */
@@ -517,6 +518,7 @@ enum {
 /* VkBufferUsageFlags for all of them: storage, both texel buffers, both transfers, indirect. */
 #define GEODISK_BUFFER_USAGE 0x12fu
 
+/* What a buffer of a job must have. */
 typedef struct geodisk_buffer_need {
     size_t struct_size;
     uint64_t bytes;        /* At least; 0 where none is needed. */
@@ -569,6 +571,7 @@ GEODISK_C_API geodisk_status geodisk_job_record(geodisk_job *job, void *command_
                                                 geodisk_next what, uint32_t amount,
                                                 int32_t *is_last, geodisk_error *error);
 
+/* What geodisk_job_advance tells. */
 typedef struct geodisk_advice {
     size_t struct_size;
     geodisk_next next;
