@@ -1,27 +1,15 @@
 // Devices of a caller's, and handles as the C API has them.
 #pragma once
 
-#include <cstdint>
-#include <cstring>
-
 #include <geodisk/device.hpp>
 
 #include "c/api.hpp"
+#include "c/handles.hpp"
 
 namespace geodisk::test {
 
-template <class Handle>
-std::uint64_t number_of(Handle handle) {
-    std::uint64_t number = 0;
-    std::memcpy(&number, &handle, sizeof handle);
-    return number;
-}
-template <class Handle>
-Handle handle_of(std::uint64_t number) {
-    Handle handle;
-    std::memcpy(&handle, &number, sizeof handle);
-    return handle;
-}
+using c::handle_of;
+using c::number_of;
 
 inline geodisk_vulkan_device lent_device(const DeviceRefs& refs, const QueueRef& queue) {
     auto lent = sized<geodisk_vulkan_device>();

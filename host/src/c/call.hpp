@@ -30,7 +30,7 @@ geodisk_status answer(geodisk_error* error, Body&& body) noexcept {
     return result ? tell_success(error) : tell(error, result.error());
 }
 
-/// Has an object that is for one call at a time.
+/// Has an object that is for one call at a time, as long as a call takes.
 class Hold {
   public:
     explicit Hold(std::atomic<bool>& is_held) noexcept
@@ -47,6 +47,13 @@ class Hold {
   private:
     std::atomic<bool>* held_;
 };
+
+/// Runs `body()` unless another call has the object, "the sampler" or so.
+template <class Body>
+Result<Done> hold(std::atomic<bool>& is_held, const char* name, const Body& body) {
+    const Hold held(is_held);
+    return held ? body() : Error{Status::busy, std::string("another call has ") + name};
+}
 
 /// Copies as much as fits and ends it with 0, not within a character of UTF-8.
 void copy_text(std::string_view text, char* to, std::size_t capacity) noexcept;
@@ -83,6 +90,12 @@ Result<Struct> taken(const Struct* given, const char* name) {
     Struct result{};
     std::memcpy(&result, given, std::min(size, sizeof(Struct)));
     return result;
+}
+
+/// The same of a struct that may be NULL, for all 0.
+template <class Struct>
+Result<Struct> taken_if_any(const Struct* given, const char* name) {
+    return given != nullptr ? taken(given, name) : Struct{};
 }
 
 /// Writes as much as the caller's version of the struct has.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "c/call.hpp"
+#include "c/handles.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -36,14 +37,6 @@ PFN_vkGetInstanceProcAddr loader_of(void (*function)(void)) {
     return reinterpret_cast<PFN_vkGetInstanceProcAddr>(function);
 }
 
-/// A handle as the header has it.
-template <class Handle>
-std::uint64_t number_of(Handle handle) noexcept {
-    std::uint64_t number = 0;
-    std::memcpy(&number, &handle, sizeof handle);
-    return number;
-}
-
 } // namespace
 
 VkResult LentMemory::allocate(void* self, const MemoryRequest& request, MemoryGrant& grant) {
@@ -60,7 +53,7 @@ VkResult LentMemory::allocate(void* self, const MemoryRequest& request, MemoryGr
     given.struct_size = sizeof given;
     const auto result = static_cast<VkResult>(own.allocate_(own.user_, &asked, &given));
     if (result == VK_SUCCESS) {
-        std::memcpy(&grant.memory, &given.memory, sizeof grant.memory);
+        grant.memory = handle_of<VkDeviceMemory>(given.memory);
         grant.offset = given.offset;
         grant.mapped = given.mapped;
         grant.allocation = given.allocation;
@@ -143,15 +136,13 @@ geodisk_status geodisk_device_open(const geodisk_device_options* options, geodis
         if (device == nullptr) {
             return wrong("device is NULL");
         }
-        ContextOptions wanted;
-        if (options != nullptr) {
-            const auto given = taken(options, "options");
-            if (!given) {
-                return given.error();
-            }
-            wanted.device = given->device != nullptr ? given->device : "";
-            wanted.validation = given->validation != 0;
+        const auto given = taken_if_any(options, "options");
+        if (!given) {
+            return given.error();
         }
+        ContextOptions wanted;
+        wanted.device = given->device != nullptr ? given->device : "";
+        wanted.validation = given->validation != 0;
         auto context = Context::create(wanted);
         if (!context) {
             return context.error();
@@ -188,7 +179,7 @@ geodisk_status geodisk_device_borrow(const geodisk_vulkan_device* lent, geodisk_
         refs.device = static_cast<VkDevice>(given->device);
         refs.get_instance_proc_addr = loader_of(given->get_instance_proc_addr);
         refs.api_version = given->api_version != 0 ? given->api_version : VK_API_VERSION_1_1;
-        std::memcpy(&refs.pipeline_cache, &given->pipeline_cache, sizeof refs.pipeline_cache);
+        refs.pipeline_cache = handle_of<VkPipelineCache>(given->pipeline_cache);
         refs.memory_budget = given->memory_budget != 0;
         refs.debug_utils = given->debug_utils != 0;
         refs.host_allocator = static_cast<const VkAllocationCallbacks*>(given->host_allocator);

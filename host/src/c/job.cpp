@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "c/handles.hpp"
 #include "records.h"
 
 namespace geodisk::c {
@@ -124,11 +125,6 @@ Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges) {
     return Done{};
 }
 
-Result<Done> check_bound(const geodisk_job& job) {
-    return job.to_bind ? Result<Done>(wrong("the job needs buffers, by geodisk_job_bind"))
-                       : Result<Done>(Done{});
-}
-
 Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next what,
                     std::uint32_t amount) {
     const std::uint32_t dispatches = amount != 0 ? amount : kAllDispatches;
@@ -221,10 +217,12 @@ Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,
 
 } // namespace
 
+Error needs_buffers() {
+    return wrong("the job needs buffers, by geodisk_job_bind");
+}
+
 BufferRange range_of(const geodisk_buffer_range& given) noexcept {
-    BufferRange range{VK_NULL_HANDLE, given.offset, given.bytes};
-    std::memcpy(&range.buffer, &given.buffer, sizeof range.buffer);
-    return range;
+    return {handle_of<VkBuffer>(given.buffer), given.offset, given.bytes};
 }
 
 } // namespace geodisk::c
@@ -241,15 +239,11 @@ geodisk_status geodisk_job_create(const geodisk_device* device, const geodisk_do
         if (device == nullptr || domain == nullptr || job == nullptr) {
             return wrong("device, domain or job is NULL");
         }
-        geodisk_job_options wanted{};
-        if (options != nullptr) {
-            const auto given = taken(options, "options");
-            if (!given) {
-                return given.error();
-            }
-            wanted = *given;
+        const auto wanted = taken_if_any(options, "options");
+        if (!wanted) {
+            return wanted.error();
         }
-        auto made = make_job(*device, *domain, wanted);
+        auto made = make_job(*device, *domain, *wanted);
         if (!made) {
             return made.error();
         }
@@ -301,8 +295,8 @@ geodisk_status geodisk_job_record(geodisk_job* job, void* command_buffer, geodis
         if (command_buffer == nullptr) {
             return wrong("command_buffer is NULL");
         }
-        if (const auto bound = check_bound(own); !bound) {
-            return bound.error();
+        if (own.to_bind) {
+            return needs_buffers();
         }
         const auto recorded =
             record(own, static_cast<VkCommandBuffer>(command_buffer), what, amount);
@@ -324,7 +318,7 @@ geodisk_status geodisk_job_advance(geodisk_job* job, const void* control, size_t
                          std::to_string(sizeof(gpu::ControlRec)));
         }
         if (!own.recorded) {
-            return check_bound(own);
+            return needs_buffers();
         }
         gpu::ControlRec record;
         std::memcpy(&record, control, sizeof record);

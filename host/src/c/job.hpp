@@ -16,6 +16,9 @@
 
 namespace geodisk::c {
 
+/// A failure for calls that come before geodisk_job_bind.
+Error needs_buffers();
+
 /// A range as C++ has it.
 BufferRange range_of(const geodisk_buffer_range& given) noexcept;
 
@@ -54,11 +57,7 @@ geodisk_status with_job(geodisk_job* job, geodisk_error* error, const Body& body
         if (job == nullptr) {
             return wrong("job is NULL");
         }
-        const Hold hold(job->is_held);
-        if (!hold) {
-            return Error{Status::busy, "another call has the job"};
-        }
-        return body(*job);
+        return hold(job->is_held, "the job", [&]() -> Result<Done> { return body(*job); });
     });
 }
 

@@ -68,7 +68,7 @@ geodisk_status geodisk_placement_create(geodisk_job* job, const geodisk_placemen
             return given.error();
         }
         if (!own.recorded) {
-            return wrong("the job needs buffers, by geodisk_job_bind");
+            return needs_buffers();
         }
         const auto source = source_of(*given);
         if (!source) {
@@ -91,7 +91,7 @@ geodisk_status geodisk_placement_record(const geodisk_placement* placement, geod
             return wrong("placement or command_buffer is NULL");
         }
         if (!own.recorded) {
-            return wrong("the job needs buffers, by geodisk_job_bind");
+            return needs_buffers();
         }
         return placement->recorded.record(static_cast<VkCommandBuffer>(command_buffer),
                                           *own.recorded);

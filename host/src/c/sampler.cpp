@@ -17,11 +17,7 @@ geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, cons
             return wrong("sampler is NULL");
         }
         const std::shared_ptr<SamplerState> state = sampler->shared;
-        const Hold hold(state->is_held);
-        if (!hold) {
-            return Error{Status::busy, "another call has the sampler"};
-        }
-        return body(*state);
+        return hold(state->is_held, "the sampler", [&]() -> Result<Done> { return body(*state); });
     });
 }
 
@@ -66,19 +62,15 @@ geodisk_status geodisk_sampler_create(const geodisk_device* device,
         if (device == nullptr || sampler == nullptr) {
             return wrong("device or sampler is NULL");
         }
-        geodisk_sampler_options wanted{};
-        if (options != nullptr) {
-            const auto given = taken(options, "options");
-            if (!given) {
-                return given.error();
-            }
-            wanted = *given;
+        const auto wanted = taken_if_any(options, "options");
+        if (!wanted) {
+            return wanted.error();
         }
-        const auto shared = device->shared->sampler(wanted.count_calls != 0);
+        const auto shared = device->shared->sampler(wanted->count_calls != 0);
         if (!shared) {
             return shared.error();
         }
-        auto runner = Runner::create(*shared, device->shared->queue(), options_of(wanted));
+        auto runner = Runner::create(*shared, device->shared->queue(), options_of(*wanted));
         if (!runner) {
             return runner.error();
         }
