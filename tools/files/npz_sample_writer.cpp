@@ -2,6 +2,7 @@
 #include "files/ply_file.hpp"
 #include "files/sample_writers.hpp"
 #include "files/zip_writer.hpp"
+#include "program/exact_text.hpp"
 
 namespace geodisk::tools {
 namespace {

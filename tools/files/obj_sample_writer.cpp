@@ -1,4 +1,5 @@
 #include "files/sample_writers.hpp"
+#include "program/exact_text.hpp"
 
 namespace geodisk::tools {
 namespace {

@@ -1,6 +1,5 @@
 #include <concepts>
 
-#include "files/ply_file.hpp"
 #include "files/sample_writers.hpp"
 
 namespace geodisk::tools {
@@ -29,17 +28,10 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     file.write("VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" +
                counts + "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
                count + "\nDATA " + (is_text ? "ascii" : "binary") + '\n');
-    std::string record;
-    for (const SampleRow& row : rows) {
-        record.clear();
-        if (is_text) {
-            append_text_row(record, row, layout, ' ');
-        } else {
-            visit_columns(row, layout, [&](std::string_view, auto value) {
-                append_little_endian(record, value);
-            });
-        }
-        file.write(record);
+    if (is_text) {
+        write_text_rows(file, rows, layout, ' ');
+    } else {
+        write_binary_rows(file, rows, layout);
     }
 }
 

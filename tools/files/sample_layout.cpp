@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/ply_file.hpp"
+#include "program/exact_text.hpp"
+
 namespace geodisk::tools {
 namespace {
 
@@ -37,6 +40,31 @@ bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
 void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix) {
     for (const auto& [key, value] : header.entries) {
         file.write(prefix + one_line(key) + ": " + one_line(value) + "\n");
+    }
+}
+
+void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const SampleLayout& layout,
+                     char separator) {
+    std::string line;
+    for (const SampleRow& row : rows) {
+        line.clear();
+        visit_columns(row, layout, [&](std::string_view, auto value) {
+            append_number(line, value);
+            line += separator;
+        });
+        line.back() = '\n';
+        file.write(line);
+    }
+}
+
+void write_binary_rows(AtomicFile& file, std::span<const SampleRow> rows,
+                       const SampleLayout& layout) {
+    std::string record;
+    for (const SampleRow& row : rows) {
+        record.clear();
+        visit_columns(row, layout,
+                      [&](std::string_view, auto value) { append_little_endian(record, value); });
+        file.write(record);
     }
 }
 

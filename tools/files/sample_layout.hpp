@@ -10,7 +10,6 @@
 #include "files/output_file.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
-#include "program/exact_text.hpp"
 
 namespace geodisk::tools {
 
@@ -70,14 +69,12 @@ void write_entries(AtomicFile& file, const SampleHeader& header, const char* pre
 /// An object of all entries, plain ASCII on one line; a key with several values has an array.
 std::string json_text(const SampleHeader& header);
 
-/// Appends the columns of a row as a line.
-inline void append_text_row(std::string& line, const SampleRow& row, const SampleLayout& layout,
-                            char separator) {
-    visit_columns(row, layout, [&](std::string_view, auto value) {
-        append_number(line, value);
-        line += separator;
-    });
-    line.back() = '\n';
-}
+/// A line for each row.
+void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const SampleLayout& layout,
+                     char separator);
+
+/// A record for each row, its columns side by side, little-endian.
+void write_binary_rows(AtomicFile& file, std::span<const SampleRow> rows,
+                       const SampleLayout& layout);
 
 } // namespace geodisk::tools

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "files/output_file.hpp"
-#include "files/ply_file.hpp"
 #include "files/sample_file.hpp"
 #include "files/sample_layout.hpp"
 #include "files/sample_writers.hpp"
@@ -35,17 +34,10 @@ void write_ply_header(AtomicFile& file, const SampleHeader& header, std::size_t 
 void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                bool ascii, const SampleLayout& layout) {
     write_ply_header(file, header, rows.size(), ascii, layout);
-    std::string record;
-    for (const SampleRow& row : rows) {
-        record.clear();
-        if (ascii) {
-            append_text_row(record, row, layout, ' ');
-        } else {
-            visit_columns(row, layout, [&](std::string_view, auto value) {
-                append_little_endian(record, value);
-            });
-        }
-        file.write(record);
+    if (ascii) {
+        write_text_rows(file, rows, layout, ' ');
+    } else {
+        write_binary_rows(file, rows, layout);
     }
 }
 
@@ -58,11 +50,7 @@ void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const Sam
         line += name;
     });
     file.write(line + "\n");
-    for (const SampleRow& row : rows) {
-        line.clear();
-        append_text_row(line, row, layout, ',');
-        file.write(line);
-    }
+    write_text_rows(file, rows, layout, ',');
 }
 
 void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
