@@ -23,16 +23,12 @@ constexpr std::uint64_t kManyWindows = 10000;
 ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected) {
     return [&progress, &log, expected](const Progress& state) {
         log.tell_progress(state);
-        // Work is in the disks of accepted candidates, but only the darts are sure to reach the
-        // end.
-        const double accepted = std::min(0.99, state.accepted / std::max(1.0, expected));
-        const double passed = static_cast<double>(state.decided) / state.candidates;
         std::string text = grouped(state.accepted) + " samples";
         if (const std::uint64_t each = state.windows / std::max(1u, state.disks);
             each >= kManyWindows) {
             text += ", " + grouped(each) + " windows in each disk";
         }
-        progress.update(std::max(accepted, passed), text);
+        progress.update(part_done(state, expected), text);
         return !is_interrupted();
     };
 }
@@ -42,6 +38,13 @@ std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
 }
 
 } // namespace
+
+double part_done(const Progress& state, double expected) {
+    // Work is in the disks of accepted candidates, but only the darts are sure to reach the end.
+    const double accepted = std::min(0.99, state.accepted / std::max(1.0, expected));
+    const double passed = static_cast<double>(state.decided) / state.candidates;
+    return std::max(accepted, passed);
+}
 
 void check_run(const Error& error, bool bounded) {
     if (error.status == Status::workspace_too_small ||
@@ -77,6 +80,14 @@ void RunDevice::open(ProgressLine& progress) {
     opened_.emplace(Opened{std::move(context), std::move(options), std::move(runner)});
 }
 
+double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
+    open(progress);
+    progress.begin_stage("compiling the shaders");
+    const Stopwatch watch;
+    take(opened_->runner.sampler().prepare(domain));
+    return std::exchange(compile_seconds_, 0) + watch.seconds();
+}
+
 SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine& progress) {
     log_.tell_task(min_distance, task.expected);
     auto result =
@@ -97,15 +108,10 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
 DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double wanted,
                             ProgressLine& progress) {
     Task task = task_at(min_distance); // Fails before a device is needed.
-    open(progress);
     DeviceRun done;
-    done.device = context().report();
-
-    progress.begin_stage("compiling the shaders");
-    const Stopwatch watch;
-    take(opened_->runner.sampler().prepare(task.domain));
+    done.compile_seconds = compile(task.domain, progress);
     done.open_seconds = std::exchange(open_seconds_, 0);
-    done.compile_seconds = std::exchange(compile_seconds_, 0) + watch.seconds();
+    done.device = context().report();
     done.tuning = opened_->runner.sampler().tuning();
     check_interrupted();
 

@@ -39,6 +39,9 @@ struct Task {
 };
 using TaskAt = std::function<Task(double min_distance)>;
 
+/// How far a run is that should give about `expected` samples, up to 1.
+double part_done(const Progress& state, double expected);
+
 /// The device was lost in a run, or has not answered.
 class DeviceLost : public UserError {
   public:
@@ -68,13 +71,15 @@ class RunDevice {
     /// Frees what runs keep for those to come, so that something else has room.
     void release_memory();
 
+    /// Opens the device where need be, and compiles there what the domain needs. The seconds of
+    /// compiling that no run has told of. Throws UserError.
+    double compile(const Domain& domain, ProgressLine& progress);
+
     // Of a device that is open.
     const Context& context() const { return opened_->context; }
     Runner& runner() { return opened_->runner; }
     /// Its runner's, with the tuning that is kept for the device.
     const RunnerOptions& options() const { return opened_->options; }
-    /// That no run has told of yet.
-    double compile_seconds() const { return compile_seconds_; }
 
   private:
     struct Opened {

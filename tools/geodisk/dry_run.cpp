@@ -40,9 +40,7 @@ void run_pilot(Runner& runner, const Task& task, bool is_bounded, ProgressLine& 
     double start_part = 0, start_seconds = 0;
     const Stopwatch watch;
     auto result = runner.sample_and_wait(task.domain, [&](const Progress& state) {
-        const double accepted = std::min(0.99, state.accepted / std::max(1.0, task.expected));
-        const double passed = static_cast<double>(state.decided) / state.candidates;
-        dry.pilot_part = std::max(accepted, passed);
+        dry.pilot_part = part_done(state, task.expected);
         dry.pilot_seconds = watch.seconds();
         if (dry.pilot_seconds < kStartSeconds) {
             start_part = dry.pilot_part;
@@ -81,14 +79,9 @@ DryRun dry_run_on_device(RunDevice& device, const Task& task, double min_distanc
     dry.seed = seed;
     dry.expected = task.expected;
     dry.candidates = task.domain.stages().candidates();
-    device.open(progress);
+    dry.compile_seconds = device.compile(task.domain, progress);
     dry.device = device.context().report();
-    progress.begin_stage("compiling the shaders");
-    const Stopwatch watch;
-    const Sampler& sampler = device.runner().sampler();
-    take(sampler.prepare(task.domain));
-    dry.compile_seconds = device.compile_seconds() + watch.seconds();
-    dry.device_bytes = planned_bytes(sampler, device.options(), task.domain);
+    dry.device_bytes = planned_bytes(device.runner().sampler(), device.options(), task.domain);
     run_pilot(device.runner(), task, device.options().device_bytes != 0, progress, dry);
     check_validation(device.context());
     return dry;

@@ -141,7 +141,7 @@ void add_analyze_command(Command app) {
     command.add_option("--seed", options->seed, "S", "Seed of these places").shows_default();
     add_mesh_options(command, options->mesh);
     add_json_option(command, options->out);
-    command.add_flag("-q,--quiet", options->out.quiet, "No progress and no result");
+    add_quiet_option(command, options->out, "No progress and no result");
     command.calls([options] { run_analyze(*options); });
 }
 

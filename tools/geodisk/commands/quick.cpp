@@ -73,7 +73,7 @@ void add_quick_command(Command app) {
     options->count = "10000";
     add_mesh_argument(command, options->mesh, "Mesh to sample");
     add_device_options(command, options->run.device);
-    command.add_flag("-q,--quiet", options->out.quiet, "No progress and no summary");
+    add_quiet_option(command, options->out);
     add_verbose_option(command, options->run.device);
     command.calls([options] { sample_and_draw(*options); });
 }

@@ -242,8 +242,7 @@ void add_verify_command(Command app) {
     add_mesh_options(command, options->mesh);
     add_density_options(command, options->density);
     add_json_option(command, options->out);
-    command.add_flag("-q,--quiet", options->out.quiet,
-                     "No progress and no result but the exit status");
+    add_quiet_option(command, options->out, "No progress and no result but the exit status");
     command.calls([options] { run_verify(*options); });
 }
 

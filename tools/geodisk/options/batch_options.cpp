@@ -111,7 +111,7 @@ void add_batch_options(Command command, BatchOptions& options) {
     add_limit_options(command, options.sample.run);
     add_json_option(command, options.sample.out);
     add_ascii_option(command, options.sample.out);
-    command.add_flag("-q,--quiet", options.sample.out.quiet, "No progress and no summary");
+    add_quiet_option(command, options.sample.out);
 }
 
 LineOptions parse_line(const SampleOptions& common, const std::vector<std::string>& words,

@@ -56,7 +56,7 @@ void add_render_options(Command command, RenderOptions& options) {
     add_distance_options(command, options.distance);
     add_mesh_options(command, options.mesh);
     add_json_option(command, options.out);
-    command.add_flag("-q,--quiet", options.out.quiet, "No progress and no summary");
+    add_quiet_option(command, options.out);
     add_device_options(command, options.device);
 }
 

@@ -31,7 +31,7 @@ void add_report_options(Command command, ReportOptions& options) {
                        "blue noise takes some five per sample");
     add_job_options(command, options.sample);
     add_json_option(command, options.sample.out);
-    command.add_flag("-q,--quiet", options.sample.out.quiet, "No progress and no summary");
+    add_quiet_option(command, options.sample.out);
     add_verbose_option(command, options.sample.run.device);
 }
 

@@ -28,6 +28,10 @@ void add_json_option(Command command, OutputOptions& options) {
                        "Write a report as JSON, - for standard output");
 }
 
+void add_quiet_option(Command command, OutputOptions& options, const std::string& summary) {
+    command.add_flag("-q,--quiet", options.quiet, summary);
+}
+
 void add_ascii_option(Command command, OutputOptions& options) {
     command.add_flag("--ascii", options.ascii, "Write PLY or PCD as text");
 }
@@ -38,7 +42,7 @@ void add_output_options(Command command, OutputOptions& options) {
                        "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, whatever\n"
                        "the extension of OUT");
     add_ascii_option(command, options);
-    command.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
+    add_quiet_option(command, options);
 }
 
 std::uint64_t RunOptions::parsed_seed() const {

@@ -46,6 +46,10 @@ void check_output_or_dry_run(const OutputOptions& options);
 
 void add_json_option(Command command, OutputOptions& options);
 
+/// Adds --quiet, with what it leaves out.
+void add_quiet_option(Command command, OutputOptions& options,
+                      const std::string& summary = "No progress and no summary");
+
 /// Adds --ascii.
 void add_ascii_option(Command command, OutputOptions& options);
 

@@ -21,7 +21,7 @@ void add_spectrum_options(Command command, SpectrumOptions& options,
     add_distance_options(command, options.distance);
     add_mesh_options(command, options.mesh);
     add_json_option(command, options.out);
-    command.add_flag("-q,--quiet", options.out.quiet, "No progress and no result");
+    add_quiet_option(command, options.out, "No progress and no result");
 }
 
 } // namespace geodisk::tools
