@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <sstream>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -177,15 +176,6 @@ void check_fails(const TemporaryFolder& folder, int status, const std::string& p
     CHECK(lines_of(outcome.err).size() == 1);
     CHECK(outcome.out.empty());
     CHECK(files_in(folder) == before);
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) {
-        lines.push_back(line);
-    }
-    return lines;
 }
 
 } // namespace geodisk::test

@@ -14,6 +14,7 @@ namespace geodisk::test {
 
 using tools::bytes_of;
 using tools::contains;
+using tools::lines_of;
 using tools::TemporaryFolder;
 
 using Arguments = std::vector<std::string>;
@@ -55,7 +56,5 @@ std::vector<std::string> files_in(const TemporaryFolder& folder);
 /// nothing on standard output, and no new file.
 void check_fails(const TemporaryFolder& folder, int status, const std::string& part,
                  const std::vector<std::string>& arguments, const Setting& setting = {});
-
-std::vector<std::string> lines_of(const std::string& text);
 
 } // namespace geodisk::test

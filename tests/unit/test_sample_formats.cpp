@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -81,15 +80,6 @@ Array array_of(const std::string& npy) {
     const auto size = value_at<std::uint16_t>(npy, 8);
     CHECK((10 + size) % 64 == 0);
     return {npy.substr(10, size), npy.substr(10u + size)};
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) {
-        lines.push_back(line);
-    }
-    return lines;
 }
 
 std::string written(const std::string& name, const std::vector<SampleRow>& rows,

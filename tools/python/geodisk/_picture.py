@@ -15,7 +15,6 @@ from ._program import folder, run
 from ._samples import Samples
 
 
-
 class Picture:
     """A picture as PNG, which notebooks show.
 
