@@ -31,17 +31,17 @@ Owned<geodisk_domain> surface_of(const geodisk_mesh* mesh, double min_distance,
 }
 
 geodisk_device* shared_device() {
-    static const auto device = owned<geodisk_device>([](auto** made, geodisk_error* error) {
+    static const auto kDevice = owned<geodisk_device>([](auto** made, geodisk_error* error) {
         return geodisk_device_open(nullptr, made, error);
     });
-    return device.get();
+    return kDevice.get();
 }
 
 geodisk_sampler* shared_sampler() {
-    static const auto sampler = owned<geodisk_sampler>([](auto** made, geodisk_error* error) {
+    static const auto kSampler = owned<geodisk_sampler>([](auto** made, geodisk_error* error) {
         return geodisk_sampler_create(shared_device(), nullptr, made, error);
     });
-    return sampler.get();
+    return kSampler.get();
 }
 
 Owned<geodisk_samples> sample(geodisk_sampler* sampler, const geodisk_domain* domain) {

@@ -40,8 +40,8 @@ void check_wrong(const std::string& part, const Call& call) {
 }
 
 const TestMesh& cube() {
-    static const TestMesh mesh = builtin("cube", 1);
-    return mesh;
+    static const TestMesh kMesh = builtin("cube", 1);
+    return kMesh;
 }
 
 } // namespace
@@ -78,8 +78,8 @@ TEST_CASE("wrong arguments are told of") {
         p.weld_distance = -1;
     });
     mesh_fails("weld needs", [](auto& p) {
-        static const double lengths[36] = {};
-        p.edge_lengths = lengths;
+        static const double kLengths[36] = {};
+        p.edge_lengths = kLengths;
         p.positions = nullptr;
         p.weld = 1;
     });

@@ -186,8 +186,8 @@ geodisk_job_options small_options() {
 }
 
 const TestMesh& knot() {
-    static const TestMesh mesh = builtin("torus-knot", 8);
-    return mesh;
+    static const TestMesh kMesh = builtin("torus-knot", 8);
+    return kMesh;
 }
 
 Owned<geodisk_domain> knot_domain(std::uint64_t seed = 1) {

@@ -28,8 +28,8 @@ Placed placed(const SampleSet& set) {
 }
 
 const TestMesh& knot() {
-    static const TestMesh mesh = builtin("torus-knot", 8);
-    return mesh;
+    static const TestMesh kMesh = builtin("torus-knot", 8);
+    return kMesh;
 }
 
 } // namespace

@@ -88,7 +88,7 @@ Outcome end_midway(const TemporaryFolder& folder, int signal) {
     Setting setting;
     setting.signal_at = "missing.obj";
     setting.signal = signal;
-    const Outcome outcome = run(folder, kSlowList, setting);
+    Outcome outcome = run(folder, kSlowList, setting);
     CHECK(files_below(folder, "out") ==
           std::vector<std::string>{"out/batch.jsonl", "out/cube.ply", "out/torus-knot-24.ply"});
     CHECK(log_of(folder / "out/batch.jsonl").size() == 3);

@@ -77,7 +77,7 @@ void RunDevice::open(ProgressLine& progress) {
     compile_seconds_ = watch.seconds();
     progress.clear();
     log_.tell_device(context.report(), runner.sampler().tuning(), open_seconds_, compile_seconds_);
-    opened_.emplace(Opened{std::move(context), std::move(options), std::move(runner)});
+    opened_.emplace(Opened{std::move(context), options, std::move(runner)});
 }
 
 double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
@@ -95,7 +95,7 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
     progress.clear();
     check_interrupted();
     if (!result) {
-        const Error error = result.error();
+        const Error& error = result.error();
         if (error.status == Status::device_lost) {
             opened_.reset(); // It refuses all further work.
         }

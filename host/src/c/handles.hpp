@@ -1,23 +1,28 @@
 // Vulkan's handles as the C API has them: pointers or numbers of 64 bits, by platform.
 #pragma once
 
+#include <bit>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 
 namespace geodisk::c {
 
 template <class Handle>
 std::uint64_t number_of(Handle handle) noexcept {
-    std::uint64_t number = 0;
-    std::memcpy(&number, &handle, sizeof handle);
-    return number;
+    if constexpr (std::is_pointer_v<Handle>) {
+        return std::bit_cast<std::uintptr_t>(handle);
+    } else {
+        return handle;
+    }
 }
 
 template <class Handle>
 Handle handle_of(std::uint64_t number) noexcept {
-    Handle handle;
-    std::memcpy(&handle, &number, sizeof handle);
-    return handle;
+    if constexpr (std::is_pointer_v<Handle>) {
+        return std::bit_cast<Handle>(static_cast<std::uintptr_t>(number));
+    } else {
+        return number;
+    }
 }
 
 } // namespace geodisk::c

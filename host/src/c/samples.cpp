@@ -189,7 +189,7 @@ Result<Done> copy(const geodisk_samples& samples, geodisk_attribute attribute, g
                          ? "this attribute takes GEODISK_UINT32"
                          : "this attribute takes GEODISK_FLOAT64 or GEODISK_FLOAT32");
     }
-    const std::size_t bytes = width * (type == GEODISK_FLOAT64 ? 8u : 4u);
+    const std::size_t bytes = width * (type == GEODISK_FLOAT64 ? sizeof(double) : sizeof(float));
     if (stride != 0 && stride < bytes) {
         return wrong("stride is " + std::to_string(stride) + ", but a sample takes " +
                      std::to_string(bytes) + " bytes");

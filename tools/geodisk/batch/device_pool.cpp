@@ -40,6 +40,7 @@ std::vector<std::string> chosen_devices(const std::vector<std::string>& given) {
         }
     }
     std::vector<std::string> names;
+    names.reserve(chosen.size());
     for (const std::size_t index : chosen) {
         names.push_back(std::to_string(index));
     }
