@@ -86,7 +86,7 @@ std::string written(const std::string& name, const std::vector<SampleRow>& rows,
                     std::uint32_t dimension = 3, bool is_text = false) {
     const TemporaryFolder folder;
     write_samples(folder / name, kHeader, rows, is_text, dimension);
-    const std::string bytes = bytes_of(folder / name);
+    std::string bytes = bytes_of(folder / name);
     write_samples(folder / name, kHeader, rows, is_text, dimension);
     CHECK(bytes_of(folder / name) == bytes); // Whenever it is written.
     CHECK(folder.file_count() == 1);
@@ -160,11 +160,11 @@ TEST_CASE("NPZ has arrays of numpy") {
         CHECK(array.content.size() == size);
         return array.content;
     };
-    const std::string points = check("points", "<f8", "(5, 3)", 5 * 24);
-    const std::string faces = check("face_index", "<u4", "(5,)", 5 * 4);
-    const std::string weights = check("barycentric", "<f8", "(5, 3)", 5 * 24);
-    const std::string normals = check("normals", "<f8", "(5, 3)", 5 * 24);
-    const std::string radii = check("radius", "<f8", "(5,)", 5 * 8);
+    const std::string points = check("points", "<f8", "(5, 3)", std::size_t{5} * 24);
+    const std::string faces = check("face_index", "<u4", "(5,)", std::size_t{5} * 4);
+    const std::string weights = check("barycentric", "<f8", "(5, 3)", std::size_t{5} * 24);
+    const std::string normals = check("normals", "<f8", "(5, 3)", std::size_t{5} * 24);
+    const std::string radii = check("radius", "<f8", "(5,)", std::size_t{5} * 8);
     for (std::size_t i = 0; i < 5; ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t at = 24 * i + 8 * k;

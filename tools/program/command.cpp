@@ -77,11 +77,11 @@ template Option Command::add_option(const std::string&, std::vector<std::string>
                                     const std::string&, const std::string&,
                                     const std::string&) const;
 
-Option Command::add_reader(const std::string& names, std::function<void(const std::string&)> take,
+Option Command::add_reader(const std::string& names,
+                           const std::function<void(const std::string&)>& take,
                            const std::string& type, const std::string& text,
                            const std::string& group) const {
-    return described(app_->add_option_function<std::string>(names, std::move(take), text), type,
-                     group);
+    return described(app_->add_option_function<std::string>(names, take, text), type, group);
 }
 
 template <class Value>

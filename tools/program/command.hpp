@@ -52,7 +52,7 @@ class Command {
                       const std::string& text, const std::string& group = "Options") const;
 
     /// Adds an option whose value `take` reads; it throws UserError(usage) where that is no value.
-    Option add_reader(const std::string& names, std::function<void(const std::string&)> take,
+    Option add_reader(const std::string& names, const std::function<void(const std::string&)>& take,
                       const std::string& type, const std::string& text,
                       const std::string& group = "Options") const;
 
