@@ -19,8 +19,9 @@ function(geodisk_install_pkg_config)
 
     set(cflags "-I\${includedir}")
     # Headers that the compiler would not find by itself. Vulkan's own pkg-config file would do, but
-    # it links the loader, and is not installed everywhere.
-    if(NOT Vulkan_INCLUDE_DIR IN_LIST CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
+    # it links the loader, and is not installed everywhere. What is built for another system goes there.
+    if(NOT CMAKE_CROSSCOMPILING
+            AND NOT Vulkan_INCLUDE_DIR IN_LIST CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
         string(APPEND cflags " -I\"${Vulkan_INCLUDE_DIR}\"")
     endif()
     get_target_property(type geodisk TYPE)

@@ -53,7 +53,7 @@ constexpr const char* kBashStart =
 
 constexpr const char* kBashEnd = R"(    COMPREPLY=()
     if [[ $kind != files || -z $(compgen -f -- "$word") ]]; then
-        mapfile -t COMPREPLY < <(compgen -W "$offered" -- "$word")
+        COMPREPLY=($(compgen -W "$offered" -- "$word" || true))
     fi
     # bash puts them behind the last ":".
     if [[ $word == *:* && $COMP_WORDBREAKS == *:* ]]; then
