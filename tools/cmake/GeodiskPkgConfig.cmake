@@ -33,6 +33,9 @@ function(geodisk_install_pkg_config)
     foreach(library IN LISTS CMAKE_DL_LIBS)
         list(APPEND context_libs "-l${library}")
     endforeach()
+    if(MINGW)
+        list(APPEND context_libs -lssp) # As geodisk_harden() says.
+    endif()
     list(JOIN context_libs " " context_libs)
 
     set(packages geodisk-cpp)
