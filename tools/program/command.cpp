@@ -96,15 +96,10 @@ bool Option::is_given() const {
     return option_->count() > 0;
 }
 
-Command::Command(CLI::App& app) : Command(app, std::make_shared<Offers>()) {}
-
-Command::Command(CLI::App& app, std::shared_ptr<Offers> offers)
-    : app_(&app), offers_(std::move(offers)) {}
-
 template <class Value>
 Option Command::add_option(const std::string& names, Value& value, const std::string& type,
                            const std::string& text, const std::string& group) const {
-    return {described(app_->add_option(names, value, text), type, group), offers_};
+    return {described(app_->add_option(names, value, text), type, group), *offers_};
 }
 
 template Option Command::add_option(const std::string&, double&, const std::string&,
@@ -124,13 +119,13 @@ Option Command::add_reader(const std::string& names, std::function<void(const st
                            const std::string& group) const {
     return {described(app_->add_option_function<std::string>(names, std::move(take), text), type,
                       group),
-            offers_};
+            *offers_};
 }
 
 template <class Value>
 Option Command::add_flag(const std::string& names, Value& value, const std::string& text,
                          const std::string& group) const {
-    return {app_->add_flag(names, value, text)->group(group), offers_};
+    return {app_->add_flag(names, value, text)->group(group), *offers_};
 }
 
 template Option Command::add_flag(const std::string&, bool&, const std::string&,
@@ -139,11 +134,11 @@ template Option Command::add_flag(const std::string&, std::string&, const std::s
                                   const std::string&) const;
 
 Command Command::add_command(const std::string& name, const std::string& text) const {
-    return {*app_->add_subcommand(name, text), offers_};
+    return {*app_->add_subcommand(name, text), *offers_};
 }
 
 Command Command::add_hidden_command(const std::string& name, const std::string& text) const {
-    return {*app_->add_subcommand(name, text)->group(""), offers_};
+    return {*app_->add_subcommand(name, text)->group(""), *offers_};
 }
 
 bool Command::has_command(const std::string& name) const {
@@ -175,7 +170,7 @@ CommandFacts Command::facts() const {
     }
     for (CLI::App* command : app_->get_subcommands(std::function<bool(CLI::App*)>())) {
         if (!command->get_group().empty()) {
-            facts.commands.push_back(Command(*command, offers_).facts());
+            facts.commands.push_back(Command(*command, *offers_).facts());
         }
     }
     return facts;

@@ -4,9 +4,7 @@
 
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -40,8 +38,7 @@ using Offers = std::map<const CLI::Option*, std::vector<std::string>>;
 class Option {
   public:
     Option() = default;
-    Option(CLI::Option* option, std::shared_ptr<Offers> offers)
-        : option_(option), offers_(std::move(offers)) {}
+    Option(CLI::Option* option, Offers& offers) : option_(option), offers_(&offers) {}
 
     /// It must be given.
     Option required() const;
@@ -64,13 +61,13 @@ class Option {
 
   private:
     CLI::Option* option_ = nullptr;
-    std::shared_ptr<Offers> offers_;
+    Offers* offers_ = nullptr;
 };
 
 /// A program or one of its subcommands: a handle, valid as long as the program parses.
 class Command {
   public:
-    explicit Command(CLI::App& app);
+    Command(CLI::App& app, Offers& offers) : app_(&app), offers_(&offers) {}
 
     /// Adds an option: its names, where its value goes, what help calls the value (TYPE), what it
     /// is for, and under which heading help lists it. Value: double, int, std::uint32_t,
@@ -107,10 +104,8 @@ class Command {
     CommandFacts facts() const;
 
   private:
-    Command(CLI::App& app, std::shared_ptr<Offers> offers);
-
     CLI::App* app_;
-    std::shared_ptr<Offers> offers_;
+    Offers* offers_;
 };
 
 } // namespace geodisk::tools
