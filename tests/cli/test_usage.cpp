@@ -73,6 +73,24 @@ TEST_CASE("a mesh alone is sampled and drawn, and no file replaced") {
     CHECK(bytes_of(folder / "flat-samples.png").starts_with("\x89PNG"));
 }
 
+TEST_CASE("each command has a manual page with its options") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"manual", "-o", "."}).status == 0);
+    const std::string main = bytes_of(folder / "geodisk.1");
+    CHECK(main.starts_with(".TH GEODISK 1 "));
+    CHECK(contains(main, ".SH EXIT STATUS\n.nf\n  0    success\n"));
+    CHECK(contains(main, "\\fBgeodisk\\-sample\\fR(1)"));
+    CHECK_FALSE(contains(main, "completion"));
+    const std::string page = bytes_of(folder / "geodisk-sample.1");
+    CHECK(contains(page, "geodisk\\-sample \\- put samples on a mesh"));
+    CHECK(contains(page, ".TP\n\\fB\\-d\\fR, \\fB\\-\\-min\\-distance\\fR \\fID\\fR\nLeast"));
+    CHECK(contains(page, "Default: psdp.\n"));
+    for (const char* const command : {"batch", "verify", "analyze", "spectrum", "render", "report",
+                                      "transfer", "box", "shapes", "info", "quick"}) {
+        CHECK(bytes_of(folder / (std::string("geodisk-") + command + ".1")).starts_with(".TH "));
+    }
+}
+
 TEST_CASE("the version is one line") {
     const TemporaryFolder folder;
     const Outcome outcome = run(folder, {"--version"});

@@ -116,6 +116,12 @@ if(CASE STREQUAL "install")
     run("${CMAKE_COMMAND}" --install "${build_root}" --prefix "${installed}")
     if(has_tools)
         run("${installed}/bin/geodisk" --version)
+        foreach(written share/man/man1/geodisk.1 share/man/man1/geodisk-sample.1
+                share/bash-completion/completions/geodisk share/zsh/site-functions/_geodisk)
+            if(UNIX AND NOT EXISTS "${installed}/${written}")
+                message(FATAL_ERROR "${written} is not installed")
+            endif()
+        endforeach()
     endif()
     file(GLOB documents RELATIVE "${source_root}" "${source_root}/*.md" "${source_root}/LICENSE"
         "${source_root}/host/docs/*.md" "${source_root}/host/docs/*/*")

@@ -19,8 +19,9 @@ function(geodisk_install_pkg_config)
 
     set(cflags "-I\${includedir}")
     # Headers that the compiler would not find by itself. Vulkan's own pkg-config file would do, but
-    # it links the loader, and is not installed everywhere.
-    if(NOT Vulkan_INCLUDE_DIR IN_LIST CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
+    # it links the loader, and is not installed everywhere. What is built for another system goes there.
+    if(NOT CMAKE_CROSSCOMPILING
+            AND NOT Vulkan_INCLUDE_DIR IN_LIST CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
         string(APPEND cflags " -I\"${Vulkan_INCLUDE_DIR}\"")
     endif()
     get_target_property(type geodisk TYPE)
@@ -32,6 +33,9 @@ function(geodisk_install_pkg_config)
     foreach(library IN LISTS CMAKE_DL_LIBS)
         list(APPEND context_libs "-l${library}")
     endforeach()
+    if(MINGW)
+        list(APPEND context_libs -lssp) # As geodisk_harden() says.
+    endif()
     list(JOIN context_libs " " context_libs)
 
     set(packages geodisk-cpp)

@@ -58,6 +58,10 @@ SampleTarget sample_target(const Path& path, std::string_view format, bool is_te
     return target;
 }
 
+std::vector<std::string> sample_formats() {
+    return {kNames.begin(), kNames.end()};
+}
+
 bool is_sample_format(std::string_view name) {
     return find_format(name).has_value();
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "program/path.hpp"
 
@@ -20,7 +21,10 @@ struct SampleTarget {
 /// UserError(usage) for a format that is unknown, or that this program was built without.
 SampleTarget sample_target(const Path& path, std::string_view format = {}, bool is_text = false);
 
-/// Whether `name` is that of a format: "npz".
+/// The names of all formats: "npz".
+std::vector<std::string> sample_formats();
+
+/// Whether `name` is that of a format.
 bool is_sample_format(std::string_view name);
 
 /// ".npz", the extension of files of that format.

@@ -24,6 +24,10 @@ constexpr double kMargin = 0.03;
 /// Flatter along z than this part of the other extents, a surface is taken for terrain.
 constexpr double kFlat = 0.5;
 
+constexpr std::pair<const char*, View> kNamed[] = {{"front", {0, 0}},  {"back", {180, 0}},
+                                                   {"left", {-90, 0}}, {"right", {90, 0}},
+                                                   {"top", {0, 90}},   {"bottom", {0, -90}}};
+
 /// Axes of the picture's world: right, up, and towards the front.
 struct Axes {
     glm::dvec3 right, up, front;
@@ -86,10 +90,15 @@ Fit fit(const Scene& scene, glm::dvec3 axis, glm::dvec3 front, double t) {
 
 } // namespace
 
+std::vector<std::string> named_views() {
+    std::vector<std::string> names{"auto"};
+    for (const auto& [name, view] : kNamed) {
+        names.emplace_back(name);
+    }
+    return names;
+}
+
 std::optional<View> parse_view(const std::string& option, const std::string& text) {
-    constexpr std::pair<const char*, View> kNamed[] = {{"front", {0, 0}},  {"back", {180, 0}},
-                                                       {"left", {-90, 0}}, {"right", {90, 0}},
-                                                       {"top", {0, 90}},   {"bottom", {0, -90}}};
     if (text == "auto") {
         return std::nullopt;
     }

@@ -21,6 +21,9 @@ struct View {
     double elevation = 0; ///< Above the horizon, -90 to 90.
 };
 
+/// The views that have names: "auto", "front" and so on.
+std::vector<std::string> named_views();
+
 /// A view as the command line names it: "front", "back", "left", "right", "top", "bottom" or
 /// "AZIMUTH,ELEVATION" in degrees; none for "auto". Throws UserError(usage) naming `option`.
 std::optional<View> parse_view(const std::string& option, const std::string& text);

@@ -21,38 +21,75 @@ std::string fault_of_value(const std::string& given) {
     return is_option ? "needs a value before " + given : "";
 }
 
-Option described(CLI::Option* option, const std::string& type, const std::string& group) {
-    return Option(option->type_name(type)->group(group)->check(fault_of_value, "", ""));
+CLI::Option* described(CLI::Option* option, const std::string& type, const std::string& group) {
+    return option->type_name(type)->group(group)->check(fault_of_value, "", "");
+}
+
+OptionFacts facts_of(const CLI::Option& option, const Offers& offers) {
+    OptionFacts facts;
+    facts.is_argument = option.get_positional();
+    if (facts.is_argument) {
+        facts.names.push_back(option.get_name(true));
+    }
+    for (const std::string& name : option.get_snames()) {
+        facts.names.push_back('-' + name);
+    }
+    for (const std::string& name : option.get_lnames()) {
+        facts.names.push_back("--" + name);
+    }
+    facts.is_flag = option.get_items_expected_max() == 0;
+    facts.type = facts.is_flag ? "" : option.get_type_name();
+    facts.usual = option.get_default_str();
+    facts.text = option.get_description();
+    facts.group = option.get_group();
+    facts.is_required = option.get_required();
+    facts.repeats = option.get_expected_max() > 1;
+    if (const auto found = offers.find(&option); found != offers.end()) {
+        facts.offers = found->second;
+    }
+    return facts;
 }
 
 } // namespace
 
 Option Option::required() const {
-    return Option(option_->required());
+    option_->required();
+    return *this;
 }
 
 Option Option::shows_default() const {
-    return Option(option_->capture_default_str());
+    option_->capture_default_str();
+    return *this;
 }
 
 Option Option::shows_default(const std::string& text) const {
-    return Option(option_->default_str(text));
+    option_->default_str(text);
+    return *this;
 }
 
 Option Option::takes_one_value() const {
-    return Option(option_->allow_extra_args(false));
+    option_->allow_extra_args(false);
+    return *this;
 }
 
 Option Option::takes_commas() const {
-    return Option(option_->delimiter(','));
+    option_->delimiter(',');
+    return *this;
 }
 
 Option Option::takes_range(int low, int high) const {
-    return Option(option_->check(CLI::Range(low, high).description("")));
+    option_->check(CLI::Range(low, high).description(""));
+    return *this;
 }
 
 Option Option::needs(Option other) const {
-    return Option(option_->needs(other.option_));
+    option_->needs(other.option_);
+    return *this;
+}
+
+Option Option::offers(std::vector<std::string> values) const {
+    (*offers_)[option_] = std::move(values);
+    return *this;
 }
 
 bool Option::is_given() const {
@@ -62,7 +99,7 @@ bool Option::is_given() const {
 template <class Value>
 Option Command::add_option(const std::string& names, Value& value, const std::string& type,
                            const std::string& text, const std::string& group) const {
-    return described(app_->add_option(names, value, text), type, group);
+    return {described(app_->add_option(names, value, text), type, group), *offers_};
 }
 
 template Option Command::add_option(const std::string&, double&, const std::string&,
@@ -81,13 +118,14 @@ Option Command::add_reader(const std::string& names,
                            const std::function<void(const std::string&)>& take,
                            const std::string& type, const std::string& text,
                            const std::string& group) const {
-    return described(app_->add_option_function<std::string>(names, take, text), type, group);
+    return {described(app_->add_option_function<std::string>(names, take, text), type, group),
+            *offers_};
 }
 
 template <class Value>
 Option Command::add_flag(const std::string& names, Value& value, const std::string& text,
                          const std::string& group) const {
-    return Option(app_->add_flag(names, value, text)->group(group));
+    return {app_->add_flag(names, value, text)->group(group), *offers_};
 }
 
 template Option Command::add_flag(const std::string&, bool&, const std::string&,
@@ -96,7 +134,11 @@ template Option Command::add_flag(const std::string&, std::string&, const std::s
                                   const std::string&) const;
 
 Command Command::add_command(const std::string& name, const std::string& text) const {
-    return Command(*app_->add_subcommand(name, text));
+    return {*app_->add_subcommand(name, text), *offers_};
+}
+
+Command Command::add_hidden_command(const std::string& name, const std::string& text) const {
+    return {*app_->add_subcommand(name, text)->group(""), *offers_};
 }
 
 bool Command::has_command(const std::string& name) const {
@@ -118,6 +160,20 @@ void Command::has_footer(const std::string& text) const {
 
 void Command::calls(std::function<void()> run) const {
     app_->callback(std::move(run));
+}
+
+CommandFacts Command::facts() const {
+    CommandFacts facts{app_->get_name(), app_->get_description(), app_->get_footer(), {}, {}};
+    const CLI::App& app = *app_;
+    for (const CLI::Option* option : app.get_options()) {
+        facts.options.push_back(facts_of(*option, *offers_));
+    }
+    for (CLI::App* command : app_->get_subcommands(std::function<bool(CLI::App*)>())) {
+        if (!command->get_group().empty()) {
+            facts.commands.push_back(Command(*command, *offers_).facts());
+        }
+    }
+    return facts;
 }
 
 } // namespace geodisk::tools

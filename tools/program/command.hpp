@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -12,11 +14,31 @@ class Option;
 
 namespace geodisk::tools {
 
+/// What there is to know of an option, flag or argument, for manuals and completion.
+struct OptionFacts {
+    std::vector<std::string> names; ///< With their dashes, or of an argument its one name.
+    std::string type;               ///< What help calls its value.
+    std::string usual;              ///< The value it has when not given, where help shows it.
+    std::string text, group;
+    bool is_argument = false, is_flag = false, is_required = false, repeats = false;
+    std::vector<std::string> offers; ///< Values to choose from, of those there may be.
+};
+
+/// What there is to know of a program or one of its subcommands.
+struct CommandFacts {
+    std::string name, text, footer;
+    std::vector<OptionFacts> options;
+    std::vector<CommandFacts> commands;
+};
+
+/// Values that completion offers for options.
+using Offers = std::map<const CLI::Option*, std::vector<std::string>>;
+
 /// An option, flag or argument of a command: a handle, valid as long as the program parses.
 class Option {
   public:
     Option() = default;
-    explicit Option(CLI::Option* option) : option_(option) {}
+    Option(CLI::Option* option, Offers& offers) : option_(option), offers_(&offers) {}
 
     /// It must be given.
     Option required() const;
@@ -31,18 +53,21 @@ class Option {
     Option takes_range(int low, int high) const;
     /// It may be given only where `other` is.
     Option needs(Option other) const;
+    /// Completion offers these values; others may be right as well.
+    Option offers(std::vector<std::string> values) const;
 
     /// Whether it was on the command line; known once parsed.
     bool is_given() const;
 
   private:
     CLI::Option* option_ = nullptr;
+    Offers* offers_ = nullptr;
 };
 
 /// A program or one of its subcommands: a handle, valid as long as the program parses.
 class Command {
   public:
-    explicit Command(CLI::App& app) : app_(&app) {}
+    Command(CLI::App& app, Offers& offers) : app_(&app), offers_(&offers) {}
 
     /// Adds an option: its names, where its value goes, what help calls the value (TYPE), what it
     /// is for, and under which heading help lists it. Value: double, int, std::uint32_t,
@@ -63,6 +88,8 @@ class Command {
                     const std::string& group = "Options") const;
 
     Command add_command(const std::string& name, const std::string& text) const;
+    /// The same, of no interest to most: help, manuals and completion do not tell of it.
+    Command add_hidden_command(const std::string& name, const std::string& text) const;
     bool has_command(const std::string& name) const;
     /// One of its subcommands must be given.
     void needs_command() const;
@@ -74,8 +101,11 @@ class Command {
     /// Does its work, once all is parsed.
     void calls(std::function<void()> run) const;
 
+    CommandFacts facts() const;
+
   private:
     CLI::App* app_;
+    Offers* offers_;
 };
 
 } // namespace geodisk::tools

@@ -65,13 +65,13 @@ void check_values(const std::vector<std::string>& arguments) {
     }
 }
 
-int parse(CLI::App& app, int argc, char** argv, Rewrite rewrite) {
+int parse(CLI::App& app, Command program, int argc, char** argv, Rewrite rewrite) {
     const char* const name = app.get_name().c_str();
     try {
         std::vector<std::string> arguments = utf8_arguments(argc, argv);
         noted_command = command_text(name, arguments);
         if (rewrite != nullptr) {
-            rewrite(Command(app), arguments);
+            rewrite(program, arguments);
         }
         check_values(arguments);
         std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
@@ -96,8 +96,10 @@ int run(const char* name, const char* description, SetUp set_up, int argc, char*
         Rewrite rewrite) {
     try {
         CLI::App app(description, name);
-        set_up(Command(app));
-        return parse(app, argc, argv, rewrite);
+        Offers offers;
+        const Command program(app, offers);
+        set_up(program);
+        return parse(app, program, argc, argv, rewrite);
     } catch (const std::bad_alloc&) {
         return fail(name, ExitCode::out_of_memory, "the memory of this machine does not suffice");
     } catch (const std::exception& error) {
@@ -114,7 +116,8 @@ const std::string& given_command() {
 void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::string> arguments) {
     CLI::App app;
     app.set_help_flag();
-    set_up(Command(app));
+    Offers offers;
+    set_up(Command(app, offers));
     check_values(arguments);
     std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
     try {

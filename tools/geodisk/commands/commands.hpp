@@ -71,6 +71,12 @@ void add_shapes_command(Command app);
 /// Lists the Vulkan devices and whether they can run geodisk. UserError(no_device) if none can.
 void add_info_command(Command app);
 
+/// Prints the script by which a shell completes the program's commands and options. Hidden.
+void add_completion_command(Command app);
+
+/// Writes the manual pages of the program and its commands to a folder. Hidden.
+void add_manual_command(Command app);
+
 /// Which kernels `info --kernels` is about.
 struct KernelsOptions {
     std::string device;

@@ -167,6 +167,7 @@ void add_info_command(Command app) {
         .add_option("--reads", options->of_kernels.reads, "WAY",
                     "Kernels that read storage or texels, instead of what suits the device",
                     "Development")
+        .offers({"auto", "storage", "texels"})
         .needs(kernels);
     command
         .add_flag("--count-calls", options->of_kernels.count_calls,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "files/mesh_file.hpp"
+#include "files/sample_target.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -83,6 +84,7 @@ void add_batch_options(Command command, BatchOptions& options) {
         .required();
     command
         .add_option("--format", options.format, "NAME", "Of the samples, as geodisk sample has it")
+        .offers(sample_formats())
         .shows_default();
     const char* const group = "Batch";
     command

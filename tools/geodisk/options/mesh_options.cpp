@@ -1,7 +1,10 @@
 #include "geodisk/options/mesh_options.hpp"
 
+#include <utility>
+
 #include "program/command.hpp"
 #include "program/failure.hpp"
+#include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -60,9 +63,14 @@ HeaderEntries MeshOptions::additions() const {
 
 void add_mesh_argument(Command command, MeshOptions& options, const std::string& summary,
                        const std::string& name) {
+    std::vector<std::string> shapes;
+    for (const BuiltinShape& shape : builtin_shapes()) {
+        shapes.push_back("builtin:" + std::string(shape.name));
+    }
     command
         .add_option(name, options.mesh, "",
                     summary + ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME")
+        .offers(std::move(shapes))
         .required();
 }
 

@@ -122,6 +122,7 @@ void add_method_options(Command command, MethodOptions& options, const std::stri
                     "psdp: from a pool of candidates; pdts: throw darts until\n"
                     "there are --count samples or --throws darts were thrown",
                     kMethodGroup)
+        .offers({"psdp", "pdts"})
         .shows_default();
     command.add_option("--throws", options.throws, "K",
                        "Most darts of pdts, up to 4294967295; fewer samples than\n"

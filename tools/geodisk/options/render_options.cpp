@@ -37,18 +37,23 @@ void add_render_options(Command command, RenderOptions& options) {
                     "distance  how far the nearest sample is; where another one\n"
                     "          would have room, orange\n"
                     "density   how dense they are, dark for few, light for many")
+        .offers({"disks", "points", "voronoi", "distance", "density"})
         .shows_default();
     command
         .add_option("--view", options.views, "VIEW",
                     "Where to look from: front, back, left, right, top, bottom,\n"
                     "AZIMUTH,ELEVATION in degrees, or auto for where most is\n"
                     "seen from; several make a sheet")
+        .offers(picture::named_views())
         .takes_one_value();
-    command.add_option("--up", options.up, "AXIS",
-                       "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
+    command
+        .add_option("--up", options.up, "AXIS",
+                    "Axis that points up: x, y or z (y; z where a mesh is flat along it)")
+        .offers({"x", "y", "z"});
     command
         .add_option("--background", options.background, "COLOR",
                     "white, black, transparent or RRGGBB")
+        .offers({"white", "black", "transparent"})
         .shows_default();
     command.add_flag("--cut", options.cuts,
                      "Of a box of 3 dimensions, do not show the balls in the\n"

@@ -22,9 +22,12 @@ void add_report_options(Command command, ReportOptions& options) {
                     "Where to look from at first: front, back, left, right,\n"
                     "top, bottom, AZIMUTH,ELEVATION in degrees, or auto for\n"
                     "where most is seen from")
+        .offers(picture::named_views())
         .shows_default();
-    command.add_option("--up", options.up, "AXIS",
-                       "Axis that points up: x, y or z (y; z where a mesh is flat along it)");
+    command
+        .add_option("--up", options.up, "AXIS",
+                    "Axis that points up: x, y or z (y; z where a mesh is flat along it)")
+        .offers({"x", "y", "z"});
     add_probes_option(command, options.probes);
     command.add_option("--harmonics", options.harmonics, "K",
                        "Show the power spectrum, by K waves of the surface (none);\n"

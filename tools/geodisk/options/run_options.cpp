@@ -1,5 +1,6 @@
 #include "geodisk/options/run_options.hpp"
 
+#include "files/sample_target.hpp"
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
@@ -38,9 +39,11 @@ void add_ascii_option(Command command, OutputOptions& options) {
 
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
-    command.add_option("--format", options.format, "NAME",
-                       "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, whatever\n"
-                       "the extension of OUT");
+    command
+        .add_option("--format", options.format, "NAME",
+                    "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, whatever\n"
+                    "the extension of OUT")
+        .offers(sample_formats());
     add_ascii_option(command, options);
     add_quiet_option(command, options);
 }

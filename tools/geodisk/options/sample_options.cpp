@@ -104,6 +104,7 @@ void add_subject_options(Command command, SampleOptions& options) {
                     "geodesic: exact, along the surface. For comparison alone,\n"
                     "euclidean: straight through space; approximate: a closed\n"
                     "form by normals (Bowers et al. 2010)")
+        .offers({"geodesic", "euclidean", "approximate"})
         .shows_default();
     add_method_options(command, options.method, "the surface");
     add_seed_option(command, options.run);

@@ -1,0 +1,112 @@
+# Debian packages: one for each component of the installation. Of what Debian asks for, this adds
+# what an installation elsewhere has no use for.
+if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    message(FATAL_ERROR "geodisk: Debian packages are for CMAKE_INSTALL_PREFIX=/usr")
+endif()
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL program library development python)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/compress.cmake")
+
+# Who answers for the packages, as Debian's own tools are told.
+set(name "$ENV{DEBFULLNAME}")
+set(address "$ENV{DEBEMAIL}")
+if(NOT name)
+    set(name "geodisk maintainers")
+endif()
+if(NOT address)
+    set(address "maintainers@geodisk.invalid")
+endif()
+set(CPACK_PACKAGE_CONTACT "${name} <${address}>")
+
+set(version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
+set(soversion "${PROJECT_VERSION_MAJOR}")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # Each package has its own, the first line of these.
+set(about "geodisk scatters random points over a triangle mesh so that no two are closer
+than a minimum distance, measured exactly along the surface. It runs in Vulkan
+compute shaders, on any GPU or on the CPU.
+")
+# What dlopen() finds at run time, and no tool does.
+set(vulkan "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME geodisk)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Poisson-disk samples of triangle meshes, along the surface
+${about}
+This package has the program, which also verifies, measures and draws samples,
+and the documentation.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME "libgeodisk${soversion}")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Poisson-disk samples of triangle meshes, C library
+${about}
+This package has the library for programs in C and languages that call C.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgeodisk-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libgeodisk${soversion} (= ${version}), libvulkan-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS geodisk)
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Poisson-disk samples of triangle meshes, development files
+${about}
+This package has what programs in C and C++ are compiled with: headers, the C++
+library, CMake and pkg-config files, and examples.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-geodisk)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "libgeodisk${soversion} (= ${version}), python3 (>= 3.9), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "geodisk (= ${version})") # For verify, transfer and render.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-tqdm, python3-trimesh")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Poisson-disk samples of triangle meshes, Python package
+${about}
+This package has the modules for Python.")
+
+# The package for Python, over the library of the system. A wheel has its metadata from pyproject.toml.
+set(modules lib/python3/dist-packages)
+install(DIRECTORY tools/python/geodisk DESTINATION "${modules}" COMPONENT python
+    FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+set(written "${PROJECT_BINARY_DIR}/deb")
+file(WRITE "${written}/METADATA" "Metadata-Version: 2.1\nName: geodisk\nVersion: ${PROJECT_VERSION}\n"
+    "Summary: ${PROJECT_DESCRIPTION}\nRequires-Dist: numpy\n")
+install(FILES "${written}/METADATA" COMPONENT python
+    DESTINATION "${modules}/geodisk-${PROJECT_VERSION}.dist-info")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    "${CMAKE_CURRENT_LIST_DIR}/postinst" "${CMAKE_CURRENT_LIST_DIR}/prerm")
+
+# Who links the library depends on its package, and the linker's cache is to know it.
+file(WRITE "${written}/shlibs" "libgeodisk ${soversion} libgeodisk${soversion} (>= ${PROJECT_VERSION})\n")
+file(WRITE "${written}/triggers" "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${written}/shlibs" "${written}/triggers")
+
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE "${written}/changelog.Debian" "geodisk (${version}) unstable; urgency=medium
+
+  * geodisk ${PROJECT_VERSION}, whose changes CHANGELOG.md of the package geodisk lists.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${date}
+")
+set(overrides_of_program
+    "# README.md links to it.\ngeodisk: wrong-name-for-upstream-changelog *\n")
+set(overrides_of_library
+    "# CPack adds the calls.\nlibgeodisk${soversion}: maintscript-calls-ldconfig *\n")
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+    string(TOUPPER "${component}" key)
+    set(package "${CPACK_DEBIAN_${key}_PACKAGE_NAME}")
+    set(folder "share/doc/${package}")
+    install(FILES "${CMAKE_CURRENT_LIST_DIR}/copyright" "${written}/changelog.Debian"
+        DESTINATION "${folder}" COMPONENT ${component})
+    file(WRITE "${written}/overrides/${package}"
+        "# Not made for Debian's archive.\n${package}: initial-upload-closes-no-bugs *\n"
+        ${overrides_of_${component}})
+    install(FILES "${written}/overrides/${package}"
+        DESTINATION share/lintian/overrides COMPONENT ${component})
+endforeach()
