@@ -243,6 +243,21 @@ TEST_CASE("wrong lines of a manifest are told before any work") {
     check_fails(folder, 2, "would both write out/a.ply", {"batch", "two", "-o", "out", "-n", "9"});
 }
 
+TEST_CASE("samples whose names differ by case alone are told where they would be one file") {
+    const TemporaryFolder folder;
+    folder.write("list.txt", "builtin:cube -o a\nbuiltin:icosphere:2 -o A\n");
+    const Arguments batch{"batch", "list.txt", "-o", "out", "-n", "30"};
+    std::filesystem::create_directory(folder / "out");
+    // The folder answers to both names, as with a file system that ignores case.
+    std::filesystem::create_directory_symlink("out", folder / "OUT");
+    check_fails(folder, 2, "list.txt: line 1 and list.txt: line 2 would both write out/A.ply",
+                batch);
+    std::filesystem::remove(folder / "OUT");
+    CHECK(run(folder, batch).status == 0);
+    CHECK(files_below(folder, "out") ==
+          std::vector<std::string>{"out/A.ply", "out/a.ply", "out/batch.jsonl"});
+}
+
 TEST_CASE("shards of a batch do each mesh once and share no log") {
     const TemporaryFolder folder;
     folder.write("list.txt", "builtin:cube\nbuiltin:cube:2\nbuiltin:cube:3\nbuiltin:cube:4\n"

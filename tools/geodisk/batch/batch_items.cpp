@@ -9,6 +9,7 @@
 
 #include "files/input_file.hpp"
 #include "files/mesh_file.hpp"
+#include "files/name_case.hpp"
 #include "files/sample_target.hpp"
 #include "geodisk/inputs/manifest.hpp"
 #include "geodisk/inputs/mesh_folder.hpp"
@@ -107,11 +108,16 @@ std::filesystem::path identity(const std::string& path) {
     return found.empty() ? whole.lexically_normal() : found;
 }
 
-/// Each file is written once, and none is written that is read.
-void check_files(const std::vector<BatchItem>& items) {
+/// Each file in `folder` is written once, and none is written that is read.
+void check_files(const std::vector<BatchItem>& items, const std::string& folder) {
+    const bool one_case = ignores_case(Path(folder));
+    const auto identity_there = [&](const std::string& file) {
+        const std::filesystem::path path = identity(file);
+        return one_case ? small_letters(path) : path;
+    };
     std::map<std::filesystem::path, const BatchItem*> written;
     for (const BatchItem& item : items) {
-        const auto [other, is_new] = written.emplace(identity(item.job.out.output), &item);
+        const auto [other, is_new] = written.emplace(identity_there(item.job.out.output), &item);
         if (!is_new) {
             fail_usage(other->second->place + " and " + item.place + " would both write " +
                        item.job.out.output + "; a line of a manifest gives another name by -o");
@@ -122,7 +128,7 @@ void check_files(const std::vector<BatchItem>& items) {
             if (is_builtin(file.path)) {
                 continue;
             }
-            const auto writer = written.find(identity(file.path));
+            const auto writer = written.find(identity_there(file.path));
             if (writer != written.end()) {
                 fail_usage(writer->second->place + ": its samples would replace " + file.path +
                            "; give another folder");
@@ -144,7 +150,7 @@ std::vector<BatchItem> batch_items(const BatchOptions& options) {
                    is_folder ? "holds no mesh (*.gltf, *.glb, *.obj, *.off, *.ply or *.stl)"
                              : "names no mesh");
     }
-    check_files(items);
+    check_files(items, options.folder);
     return items;
 }
 
