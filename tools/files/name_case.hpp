@@ -9,7 +9,4 @@ namespace geodisk::tools {
 /// its own name in the other case.
 bool ignores_case(const std::filesystem::path& path);
 
-/// `path` with its ASCII letters small.
-std::filesystem::path small_letters(const std::filesystem::path& path);
-
 } // namespace geodisk::tools

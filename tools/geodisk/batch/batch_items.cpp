@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -101,23 +102,22 @@ std::vector<BatchItem> items_in_manifest(const BatchOptions& batch) {
 }
 
 /// What is the same for two paths to one file, be it there or not.
-std::filesystem::path identity(const std::string& path) {
+std::string identity(const std::string& path, bool one_case) {
     std::error_code ignored;
     const std::filesystem::path whole = std::filesystem::absolute(Path(path), ignored);
     const std::filesystem::path found = std::filesystem::weakly_canonical(whole, ignored);
-    return found.empty() ? whole.lexically_normal() : found;
+    const std::u8string text = (found.empty() ? whole.lexically_normal() : found).u8string();
+    std::string name(text.begin(), text.end());
+    return one_case ? lower_case(std::move(name)) : name;
 }
 
 /// Each file in `folder` is written once, and none is written that is read.
 void check_files(const std::vector<BatchItem>& items, const std::string& folder) {
     const bool one_case = ignores_case(Path(folder));
-    const auto identity_there = [&](const std::string& file) {
-        const std::filesystem::path path = identity(file);
-        return one_case ? small_letters(path) : path;
-    };
-    std::map<std::filesystem::path, const BatchItem*> written;
+    std::map<std::string, const BatchItem*> written;
     for (const BatchItem& item : items) {
-        const auto [other, is_new] = written.emplace(identity_there(item.job.out.output), &item);
+        const auto [other, is_new] =
+            written.emplace(identity(item.job.out.output, one_case), &item);
         if (!is_new) {
             fail_usage(other->second->place + " and " + item.place + " would both write " +
                        item.job.out.output + "; a line of a manifest gives another name by -o");
@@ -128,7 +128,7 @@ void check_files(const std::vector<BatchItem>& items, const std::string& folder)
             if (is_builtin(file.path)) {
                 continue;
             }
-            const auto writer = written.find(identity_there(file.path));
+            const auto writer = written.find(identity(file.path, one_case));
             if (writer != written.end()) {
                 fail_usage(writer->second->place + ": its samples would replace " + file.path +
                            "; give another folder");
