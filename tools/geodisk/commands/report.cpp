@@ -50,7 +50,7 @@ void run_report(const ReportOptions& options) {
     PageResult page;
     page.views = options.first_views();
     page.command = given_command();
-    const auto up = options.parsed_up();
+    const auto up = options.up.parsed();
     probes_for(options.probes, 1); // Before the files are read.
     parse_harmonics(options.harmonics);
     check_outputs(job.out, "the page", files_read(job), check_page_path);

@@ -46,10 +46,7 @@ void add_render_options(Command command, RenderOptions& options) {
                     "seen from; several make a sheet")
         .offers(picture::named_views())
         .takes_one_value();
-    command
-        .add_option("--up", options.up, "AXIS",
-                    "Axis that points up: x, y or z (y; z where a mesh is flat along it)")
-        .offers({"x", "y", "z"});
+    add_up_option(command, options.up);
     command
         .add_option("--background", options.background, "COLOR",
                     "white, black, transparent or RRGGBB")
@@ -74,9 +71,7 @@ picture::PictureParams parse_picture(const RenderOptions& options) {
     params.style = picture::parse_style("--style", options.style);
     params.background = picture::parse_background("--background", options.background);
     params.cuts = options.cuts;
-    if (!options.up.empty()) {
-        params.up = picture::parse_up("--up", options.up);
-    }
+    params.up = options.up.parsed();
     if (!options.views.empty()) {
         params.views.clear();
         for (const std::string& view : options.views) {

@@ -7,6 +7,7 @@
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
+#include "geodisk/options/up_option.hpp"
 #include "picture/picture.hpp"
 
 namespace geodisk::tools {
@@ -17,7 +18,8 @@ struct RenderOptions {
     std::string samples;
     OutputOptions out;
     DeviceOptions device;
-    std::string size = "1920x1080", style = "disks", up, background = "white";
+    std::string size = "1920x1080", style = "disks", background = "white";
+    UpOption up;
     DistanceOptions distance;
     std::vector<std::string> views;
     bool cuts = false;

@@ -10,10 +10,6 @@ std::vector<picture::View> ReportOptions::first_views() const {
     return given ? std::vector{*given} : picture::views_to_try();
 }
 
-std::optional<picture::Up> ReportOptions::parsed_up() const {
-    return up.empty() ? std::nullopt : std::optional(picture::parse_up("--up", up));
-}
-
 void add_report_options(Command command, ReportOptions& options) {
     add_mesh_argument(command, options.sample.mesh, "Mesh to sample");
     add_output_argument(command, options.sample.out, "Page to write: *.html");
@@ -24,10 +20,7 @@ void add_report_options(Command command, ReportOptions& options) {
                     "where most is seen from")
         .offers(picture::named_views())
         .shows_default();
-    command
-        .add_option("--up", options.up, "AXIS",
-                    "Axis that points up: x, y or z (y; z where a mesh is flat along it)")
-        .offers({"x", "y", "z"});
+    add_up_option(command, options.up);
     add_probes_option(command, options.probes);
     command.add_option("--harmonics", options.harmonics, "K",
                        "Show the power spectrum, by K waves of the surface (none);\n"
