@@ -53,8 +53,8 @@ void add_render_options(Command command, RenderOptions& options) {
         .offers({"white", "black", "transparent"})
         .shows_default();
     command.add_flag("--cut", options.cuts,
-                     "Of a box of 3 dimensions, do not show the balls in the\n"
-                     "eighth nearest to the eye");
+                     "Of a box of 3 dimensions, cut away the eighth nearest to\n"
+                     "the eye, and show sections of balls");
     add_distance_options(command, options.distance);
     add_mesh_options(command, options.mesh);
     add_json_option(command, options.out);

@@ -8,8 +8,6 @@ layout(push_constant, std430) uniform Push {
     mat4 to_clip;
     float eye_x; float eye_y; float eye_z;
     float light_x; float light_y; float light_z;
-    float high;
-    uint cuts;
 };
 
 layout(location = 0) out vec3 place;
@@ -23,11 +21,6 @@ void main() {
     const BallRec ball = balls[ball_index];
     const vec3 center = vec3(ball.x, ball.y, ball.z);
     const vec3 eye = vec3(eye_x, eye_y, eye_z);
-    if (cuts != 0u && all(greaterThan(center * sign(eye), vec3(0)))) {
-        place = center;
-        gl_Position = vec4(0, 0, 2, 1); // Not in the picture.
-        return;
-    }
     // What is seen of a ball lies within the circle in which lines from the eye touch it.
     const vec3 way = center - eye;
     const float distance = length(way);

@@ -63,7 +63,7 @@ struct PushRec {
     float eye_x; float eye_y; float eye_z; // in the scene
     float light_x; float light_y; float light_z; // the direction it comes from
     float high; // the end of the scale: a point's radius in radii, or a density
-    uint cuts;  // not 0: without balls in the eighth of the box nearest to the eye
+    uint cuts;  // not 0: without the eighth of the box nearest to the eye
 };
 
 #ifdef __cplusplus
