@@ -116,7 +116,7 @@ std::string script_of(const LinePlot& plot) {
            std::to_string(500 + 20 * rows) + " font 'sans-serif,13' background 'white'\n" +
            "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) +
            "\nset ylabel " + quoted(plot.y_label) +
-           "\nset grid\nset key below maxcols 2 Left reverse\n" +
+           "\nset grid\nset key below height 1 maxcols 2 Left reverse\n" +
            (plot.is_linear_x ? linear_axis : log_axis)('x', x, "") +
            (plot.is_linear_y ? linear_axis : log_axis)('y', y, unit) + data + "plot NaN notitle" +
            lines + '\n';
