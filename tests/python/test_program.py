@@ -18,6 +18,8 @@ from meshes import FACES, LENGTHS, SOUP, TETRAHEDRON, VERTICES, same, torus
 pytestmark = pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
 
 SAMPLES = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
+ONES = np.ones(len(VERTICES))
+SQUARE = geodisk.sample_box([1, 1], min_distance=0.2)
 HEAVY = dataclasses.replace(SAMPLES, barycentric=2 * SAMPLES.barycentric)
 
 
@@ -46,6 +48,22 @@ def test_verify():
     assert np.all(np.diff(closer.distances) >= 0)
     far = geodisk.verify(SAMPLES, min_distance=1e-6)
     assert far and far.closest is None and far.smallest == np.inf
+
+
+def test_verify_computes_radii_again():
+    density = np.linspace(0.3, 1, len(VERTICES))
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, density=density, seed=2)
+    found = geodisk.verify(samples, density=density)
+    assert found and found.min_distance == 0.6 and found.wrong_radii == 0
+    assert found.smallest_ratio == geodisk.verify(samples).smallest_ratio
+    assert found.rho == pytest.approx(samples.report["rho"])
+    flatter = geodisk.verify(samples, density=density.astype(np.float32) ** 0.9)
+    assert not flatter and flatter.wrong_radii > 0.9 * len(samples) and len(flatter.violations) > 0
+    assert f"{flatter.wrong_radii} of wrong radius" in repr(flatter)
+    # Samples without radii of their own take those that the density gives.
+    assert geodisk.verify(SAMPLES, density=density).smallest_ratio > 1
+    larger = geodisk.verify(samples, density=density, min_distance=0.7)
+    assert not larger and larger.min_distance == 0.7
 
 
 def test_verify_finds_what_was_moved():
@@ -168,6 +186,11 @@ def test_render(tmp_path):
         (lambda: geodisk.verify(SAMPLES, VERTICES, FACES - 1), geodisk.MeshRejected, "-1"),
         (lambda: geodisk.verify(SAMPLES, VERTICES * np.nan, FACES), geodisk.MeshRejected, "finite"),
         (lambda: geodisk.verify(SAMPLES, min_distance=np.nan), ValueError, "positive"),
+        (lambda: geodisk.verify(SAMPLES, density=[1, 1]), ValueError, "one for each vertex"),
+        (lambda: geodisk.verify(SAMPLES, density="flat"), TypeError, "density"),
+        (lambda: geodisk.verify(SAMPLES, density=2 * ONES), ValueError, "density"),
+        (lambda: geodisk.verify(SAMPLES, density=np.nan * ONES), ValueError, "density"),
+        (lambda: geodisk.verify(SQUARE, density=ONES), ValueError, "box"),
         (lambda: geodisk.verify(geodisk.Samples([[0, 0]])), ValueError, "do not know their mesh"),
         (
             lambda: geodisk.verify(geodisk.Samples([[0, 0]], extents=(1, 1))),

@@ -83,6 +83,12 @@ def write_surface(
     return f"{name}.ply", options
 
 
+def write_density(folder: pathlib.Path, surface: Surface, density: ArrayLike) -> list[str]:
+    """Writes the factors of radii at vertices; the option that names them."""
+    np.savetxt(folder / "density.txt", surface.factors(density), fmt="%.17g")
+    return ["--density-file", "density.txt"]
+
+
 def _as_columns(coordinates: NDArray[Any]) -> dict[str, NDArray[Any]]:
     """By name; a mesh in the plane lies in that of z = 0."""
     dimension = coordinates.shape[1]

@@ -112,6 +112,21 @@ class Surface:
         """Coordinates of each vertex, 0 without any."""
         return 0 if self.edge_lengths is not None else int(self.coordinates().shape[1])
 
+    def vertex_count(self) -> int:
+        if self.edge_lengths is not None:
+            return _vertex_number(self.vertices)
+        return len(self.coordinates())
+
+    def factors(self, density: ArrayLike) -> NDArray[Any]:
+        """One of float64 or float32 for each vertex."""
+        array = np.ascontiguousarray(real(density, "density"))
+        if array.shape != (self.vertex_count(),):
+            raise c.invalid(
+                f"density has the shape {array.shape}, not ({self.vertex_count()},), "
+                "one for each vertex"
+            )
+        return array.astype(array.dtype.newbyteorder("="), copy=False)
+
 
 class Mesh:
     """A triangle mesh, prepared for any number of runs.
@@ -181,11 +196,10 @@ class Mesh:
         else:
             lengths = surface.lengths()
             params.edge_lengths = lengths.ctypes.data
-            params.vertex_count = _vertex_number(vertices)
+            params.vertex_count = surface.vertex_count()
         self._handle = c.Handle("mesh", "geodisk_mesh_create", ctypes.byref(params))
         self._info = c.MeshInfo()
         c.call("geodisk_mesh_describe", self._handle.value, ctypes.byref(self._info))
-        self._vertex_count = int(params.vertex_count)
 
     @property
     def area(self) -> float:
@@ -232,13 +246,7 @@ def mesh_of(
 
 
 def radii_of(mesh: Mesh, density: ArrayLike) -> c.Handle:
-    factors = np.ascontiguousarray(real(density, "density"))
-    factors = factors.astype(factors.dtype.newbyteorder("="), copy=False)
-    if factors.shape != (mesh._vertex_count,):
-        raise c.invalid(
-            f"density has the shape {factors.shape}, not ({mesh._vertex_count},), "
-            "one for each vertex"
-        )
+    factors = mesh._surface.factors(density)
     return c.Handle(
         "radii",
         "geodisk_radii_create",

@@ -84,7 +84,7 @@ def render(
     background : str
         ``"white"``, ``"black"``, ``"transparent"`` or ``"RRGGBB"``.
     cut : bool
-        In a box of three dimensions, do not show the balls nearest to the eye.
+        Of a box of three dimensions, cut away the eighth nearest to the eye.
     min_distance : float, optional
         For disks of half of it, in the unit of the vertices, instead of the samples' radii.
     device : str or int, optional

@@ -105,4 +105,4 @@ def _in_python(told: str) -> str:
     message = " ".join(lines).replace("geodisk: ", "", 1)
     message = re.sub(r" \(see geodisk \w+ --help\)", "", message)
     message = re.sub(r"--([a-z-]+)", lambda option: option[1].replace("-", "_"), message)
-    return message.replace(".ply", "")  # Files are called after what they hold.
+    return re.sub(r"\.(ply|txt)\b", "", message)  # Files are called after what they hold.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
-from ._inputs import surface_of, write_subject
+from ._inputs import surface_of, write_density, write_subject
 from ._mesh import MeshLike
 from ._program import folder, run
 from ._samples import Samples
@@ -26,7 +26,8 @@ class Verification:
     samples : int
         How many there are.
     min_distance : float
-        How far apart they should be; NaN where each has a radius of its own.
+        How far apart they should be, or where a density was given those of the largest radius;
+        NaN where each keeps the radius that it has.
     smallest : float
         The distance of the closest pair, or of the one that is closest for its radii; infinite
         where all are farther apart than 1.25 times what they should be.
@@ -42,8 +43,10 @@ class Verification:
         False where the check ended at a million violations.
     misplaced : int
         Samples that are not where their face and weights put them, or not in their box.
+    wrong_radii : int
+        Samples whose radius is not what the density gives.
     rho : float
-        The packing density; NaN in boxes, and where radii vary.
+        The packing density; NaN in boxes, and without a minimum distance.
     """
 
     samples: int
@@ -55,18 +58,23 @@ class Verification:
     distances: NDArray[np.float64]
     complete: bool
     misplaced: int
+    wrong_radii: int
     rho: float
 
     @property
     def ok(self) -> bool:
-        """Whether no pair is too close and no sample misplaced."""
-        return len(self.violations) == 0 and self.misplaced == 0
+        """Whether no pair is too close, no sample misplaced and no radius wrong."""
+        return len(self.violations) == 0 and self.misplaced == 0 and self.wrong_radii == 0
 
     def __bool__(self) -> bool:
         return self.ok
 
     def __repr__(self) -> str:
-        found = "ok" if self.ok else f"{len(self.violations)} too close, {self.misplaced} misplaced"
+        found = "ok"
+        if not self.ok:
+            found = f"{len(self.violations)} too close, {self.misplaced} misplaced"
+            if self.wrong_radii > 0:
+                found += f", {self.wrong_radii} of wrong radius"
         return (
             f"<geodisk.Verification: {self.samples} samples, {found}, smallest distance "
             f"{self.smallest:.9g}, {self.smallest_ratio:.9g} of what it should be>"
@@ -79,6 +87,7 @@ def verify(
     faces: ArrayLike | None = None,
     *,
     min_distance: float | None = None,
+    density: ArrayLike | None = None,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
 ) -> Verification:
@@ -95,6 +104,9 @@ def verify(
         for samples that were read from a file.
     min_distance : float, optional
         The distance to keep, in the unit of the vertices; without it, each keeps its radius.
+    density : array_like of float, shape (v,), optional
+        As :func:`sample` takes it: radii are computed again from it and the minimum distance, that
+        of the samples if none is given, and those of the samples are compared with them.
 
     Returns
     -------
@@ -128,12 +140,16 @@ def verify(
         min_distance = float(min_distance)
         if not (min_distance > 0 and math.isfinite(min_distance)):
             raise c.invalid(f"the minimum distance is {min_distance}, not positive")
-    elif not has_own_radii(samples) and not samples.min_distance > 0:
+    elif (density is not None or not has_own_radii(samples)) and not samples.min_distance > 0:
         raise c.invalid(
             f"the minimum distance of these samples is {samples.min_distance}; give min_distance"
         )
+    if density is not None and surface is None:
+        raise c.invalid("a density is of a mesh, and these samples are in a box")
     with folder() as place:
         arguments = [*write_subject(place, samples, surface), "--json", "report.json"]
+        if density is not None and surface is not None:
+            arguments += write_density(place, surface, density)
         if min_distance is not None:
             arguments += ["--min-distance", repr(min_distance)]
         run(place, ["verify", *arguments], accepted=(0, 1))
@@ -151,5 +167,6 @@ def verify(
         distances=np.array(violations["distances"], np.float64),
         complete=violations["complete"],
         misplaced=report["outside"] if surface is None else report["off_the_mesh"],
+        wrong_radii=report.get("wrong_radii", 0),
         rho=math.nan if rho is None else rho,
     )
