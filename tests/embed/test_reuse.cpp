@@ -323,6 +323,12 @@ TEST_SUITE("reuse") {
         };
         run.begin();
         check();
+        // Of another job in these buffers, what the host still has of this one tells nothing.
+        const gpu::ControlRec before = run.control();
+        Job other = expect(run.sampler().make_job(expect(Domain::surface(mesh, params)), run.plan(),
+                                                  Job::Impl::of(run.job()).workspace));
+        run.submit([&](VkCommandBuffer commands) { run.sampler().record_begin(commands, other); });
+        CHECK(expect(other.advance(before)).next == Next::go_on);
         for (const std::uint64_t seed : {std::uint64_t{5}, std::uint64_t{1} << 40}) {
             params.seed = seed;
             run.job().set_seed(seed);
@@ -333,6 +339,7 @@ TEST_SUITE("reuse") {
         params.seed = 3;
         params.stop_count = 20;
         expect(run.job().renew(expect(Domain::surface(mesh, params)), run.plan()));
+        CHECK(expect(run.job().advance(before)).next == Next::begin);
         run.begin();
         check();
         // A larger domain does not fit, and the job can still be renewed.

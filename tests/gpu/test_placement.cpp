@@ -286,6 +286,14 @@ TEST_SUITE("placement") {
         const Domain foreign = expect(Domain::surface(other, params_for(other, 30)));
         CHECK_FALSE(
             Placement::create(scene.run.sampler(), foreign, scene.run.job(), source, target));
+        const Placement of_before = expect(scene.place());
+        expect(scene.run.job().renew(scene.domain, scene.run.plan()));
+        scene.run.submit([&](VkCommandBuffer commands) {
+            const auto recorded = of_before.record(commands, scene.run.job());
+            REQUIRE_FALSE(recorded);
+            CHECK(recorded.error().message ==
+                  "the job is another, or was renewed: make a new placement");
+        });
         const Placement stale = expect(scene.place());
         scene.run.begin();
         scene.run.enlarge_samples(scene.run.plan().sample_capacity * 2);

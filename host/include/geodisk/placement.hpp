@@ -57,7 +57,7 @@ class GEODISK_API Placement {
     /// record_finish, in the same command buffer or a later one. Coordinates are rounded alike on
     /// all devices. Begins with a barrier behind what the job has recorded; Sampler::kLastUse has
     /// the access to wait for before `placed` and `arguments` are used. Errors: `invalid_argument`
-    /// where the job has other buffers by now.
+    /// for another job, or one that has other buffers by now or was renewed.
     Result<Done> record(VkCommandBuffer commands, const Job& job) const noexcept;
 
     struct Impl; ///< Internal.

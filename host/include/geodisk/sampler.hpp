@@ -354,8 +354,8 @@ class GEODISK_API Job {
     const RunPlan& plan() const noexcept;
     /// Makes it one of another domain, in the same workspace, whose buffers must still be what they
     /// were; nothing is allocated if it is of the same kind. What write_upload() gives for that
-    /// domain is to be uploaded. No command buffer of the job may be pending. Errors: as
-    /// make_job(); after one it can only be renewed again.
+    /// domain is to be uploaded, and a Placement is to be made anew. No command buffer of the job
+    /// may be pending. Errors: as make_job(); after one it can only be renewed again.
     Result<Done> renew(const Domain& domain, const RunPlan& plan) noexcept;
     /// Begins anew with another seed; what was uploaded stays.
     void set_seed(std::uint64_t seed) noexcept;

@@ -356,6 +356,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     if (auto chosen = choose_kernels(sampler->variant_for(of_domain), new_plan); !chosen) {
         return chosen;
     }
+    number = ++sampler->last_number;
     const bool has_sets = sets_for == variant.domain;
     const bool had_single = push.all_single != 0;
     most_slots = new_plan.slots;

@@ -91,7 +91,8 @@ struct Placement::Impl {
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
     gpu::PlacePush push{};
-    Workspace workspace; ///< As the set has it.
+    Workspace workspace;      ///< As the set has it.
+    std::uint32_t number = 0; ///< Of the job.
 
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -169,6 +170,7 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
         made->sampler = &with;
         made->pipeline = (**pipelines)[kPlace];
         made->workspace = own.workspace;
+        made->number = own.number;
         const bool has_normals = source.normal != PlacementSource::kNoNormals;
         const VkDeviceSize first = vertex_bytes(source, 1);
         made->push.most = own.plan.sample_capacity;
@@ -194,9 +196,12 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
 Result<Done> Placement::record(VkCommandBuffer commands, const Job& job) const noexcept {
     return guarded([&]() -> Result<Done> {
         const Sampler::Impl& with = *impl_->sampler;
-        const Workspace& now = Job::Impl::of(job).workspace;
+        const Job::Impl& own = Job::Impl::of(job);
+        if (own.number != impl_->number) {
+            return invalid("the job is another, or was renewed: make a new placement");
+        }
         for (const std::uint32_t binding : kRead) {
-            if (now[binding] != impl_->workspace[binding]) {
+            if (own.workspace[binding] != impl_->workspace[binding]) {
                 return invalid("the job's buffer " +
                                std::string(to_string(static_cast<BufferRole>(binding))) +
                                " is another by now: make a new placement");
