@@ -81,6 +81,23 @@ class Recording {
         return 0;
     }
 
+    /// Makes the job one of another domain, in the buffers it has if they are large enough.
+    bool renew(const geodisk_domain* domain) {
+        REQUIRE(geodisk_job_renew(job(), domain, nullptr) == GEODISK_OK);
+        bool is_enough = true;
+        for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
+            is_enough &= need(i).bytes <= workspace_[i].size;
+        }
+        if (is_enough) {
+            bind();
+            upload();
+        } else {
+            workshop_.start_over();
+            bind_all();
+        }
+        return is_enough;
+    }
+
     void record(geodisk_next what, std::uint32_t amount) {
         workshop_.frame(0, [&](VkCommandBuffer commands) {
             auto error = sized<geodisk_error>();
@@ -197,6 +214,18 @@ Owned<geodisk_domain> knot_domain(std::uint64_t seed = 1) {
     return surface_of(mesh.get(), distance, seed);
 }
 
+Owned<geodisk_domain> cube_domain() {
+    const double extents[] = {1, 1, 1};
+    auto params = sized<geodisk_box_params>();
+    params.extents = extents;
+    params.dimension = 3;
+    params.is_periodic = 1;
+    params.min_distance = 0.2;
+    return owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+        return geodisk_domain_box(&params, made, error);
+    });
+}
+
 Placed wanted(const geodisk_domain* domain) {
     return placed(sample(shared_sampler(), domain).get());
 }
@@ -216,16 +245,46 @@ TEST_CASE("a job that is recorded has the samples of one that is run") {
     CHECK(recording.workshop().damage() == 0);
 }
 
+TEST_CASE("a job becomes one of another domain, in the same buffers or larger ones") {
+    const auto domain = knot_domain();
+    Recording recording(domain.get(), small_options());
+    recording.bind_all();
+    REQUIRE(geodisk_job_set_seed(recording.job(), 7, nullptr) == GEODISK_OK);
+    recording.run();
+
+    const auto again = knot_domain(3);
+    CHECK(recording.renew(again.get()));
+    CHECK(recording.placed(recording.run()) == wanted(again.get()));
+
+    // In the middle of a run, before anything of it is decided.
+    const auto mesh = mesh_of(builtin("icosphere", 2));
+    double distance = 0;
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 100, &distance, nullptr) == GEODISK_OK);
+    const auto sphere = surface_of(mesh.get(), distance, 9);
+    REQUIRE(geodisk_job_set_seed(recording.job(), 8, nullptr) == GEODISK_OK);
+    recording.record(GEODISK_BEGIN, 1);
+    recording.renew(sphere.get());
+    CHECK(recording.placed(recording.run()) == wanted(sphere.get()));
+
+    // With other kernels.
+    const auto cube = cube_domain();
+    recording.renew(cube.get());
+    CHECK(recording.run() == geodisk_samples_count(sample(shared_sampler(), cube.get()).get()));
+
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 3000, &distance, nullptr) ==
+            GEODISK_OK);
+    const auto many = surface_of(mesh.get(), distance, 9);
+    CHECK_FALSE(recording.renew(many.get()));
+    CHECK(recording.placed(recording.run()) == wanted(many.get()));
+    CHECK(recording.workshop().damage() == 0);
+
+    CHECK(geodisk_job_renew(recording.job(), nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_job_renew(nullptr, domain.get(), nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(recording.placed(recording.run()) == wanted(many.get())); // As it was.
+}
+
 TEST_CASE("a job in a box leaves its order on the device") {
-    const double extents[] = {1, 1, 1};
-    auto params = sized<geodisk_box_params>();
-    params.extents = extents;
-    params.dimension = 3;
-    params.is_periodic = 1;
-    params.min_distance = 0.2;
-    const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
-        return geodisk_domain_box(&params, made, error);
-    });
+    const auto domain = cube_domain();
     Recording recording(domain.get(), small_options());
     recording.bind_all();
     const std::uint32_t count = recording.run();
@@ -327,6 +386,16 @@ TEST_CASE("samples of a job are placed on the device, where they are drawn") {
 
     params.index_type = GEODISK_FLOAT32;
     geodisk_placement* none = nullptr;
+    REQUIRE(geodisk_job_renew(recording.job(), domain.get(), nullptr) == GEODISK_OK);
+    CHECK(geodisk_placement_create(recording.job(), &params, &none, nullptr) ==
+          GEODISK_INVALID_ARGUMENT); // Until it has buffers.
+    CHECK(recording.renew(knot_domain(2).get()));
+    recording.run();
+    recording.workshop().frame(0, [&](VkCommandBuffer commands) {
+        CHECK(geodisk_placement_record(placement.get(), recording.job(), commands, nullptr) ==
+              GEODISK_INVALID_ARGUMENT);
+    });
+
     CHECK(geodisk_placement_create(recording.job(), &params, &none, nullptr) ==
           GEODISK_INVALID_ARGUMENT);
     params.index_type = GEODISK_UINT32;

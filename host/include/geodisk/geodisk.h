@@ -588,6 +588,12 @@ GEODISK_C_API geodisk_status geodisk_job_advance(geodisk_job *job, const void *c
 GEODISK_C_API geodisk_status geodisk_job_set_seed(geodisk_job *job, uint64_t seed,
                                                   geodisk_error *error);
 
+/* Makes it a job of another domain, with the options that it was created with: GEODISK_START_OVER
+ * comes next, for which the same buffers do where they are large enough. Nothing is allocated then,
+ * unless the domain is of another kind. After an error it is as it was. */
+GEODISK_C_API geodisk_status geodisk_job_renew(geodisk_job *job, const geodisk_domain *domain,
+                                               geodisk_error *error);
+
 GEODISK_C_API void geodisk_job_release(geodisk_job *job);
 
 /* The weight of the first corner is 1 less both; of boxes all but the order is internal. */
@@ -631,8 +637,8 @@ GEODISK_C_API geodisk_status geodisk_placement_create(geodisk_job *job,
                                                       const geodisk_placement_params *params,
                                                       geodisk_placement **placement,
                                                       geodisk_error *error);
-/* Behind GEODISK_FINISH, to the same command buffer or a later one. Where the job has got larger
- * buffers for its samples, another placement is needed. */
+/* Behind GEODISK_FINISH, to the same command buffer or a later one. Where the job has started over
+ * or has larger buffers for its samples, another placement is needed. */
 GEODISK_C_API geodisk_status geodisk_placement_record(const geodisk_placement *placement,
                                                       geodisk_job *job, void *command_buffer,
                                                       geodisk_error *error);

@@ -36,8 +36,8 @@ std::uint64_t& needed_by(geodisk_job& job, BufferRole role) {
 }
 
 /// Plans for whole buffers, as at first.
-Result<Done> plan_buffers(geodisk_job& job, const RunPlan& plan) {
-    const auto needs = job.sampler->workspace_needs(*job.domain->domain, plan, job.regrowths);
+Result<Done> plan_buffers(geodisk_job& job, const Domain& domain, const RunPlan& plan) {
+    const auto needs = job.sampler->workspace_needs(domain, plan, job.regrowths);
     if (!needs) {
         return needs.error();
     }
@@ -58,7 +58,7 @@ Result<Done> ask_for_buffers(geodisk_job& job, const Advice& advice) {
         needed_by(job, BufferRole::accepted) = bytes[1];
         needed_by(job, BufferRole::buckets) = bytes[2];
     } else if (advice.next == Next::start_over) {
-        if (const auto planned = plan_buffers(job, advice.plan); !planned) {
+        if (const auto planned = plan_buffers(job, *job.domain->domain, advice.plan); !planned) {
             return planned.error();
         }
     } else {
@@ -77,11 +77,18 @@ bool is_larger(BufferRole role, Next next) noexcept {
 }
 
 Result<Done> bind_all(geodisk_job& job, const Workspace& workspace) {
-    auto made = job.sampler->make_job(*job.domain->domain, job.plan, workspace);
-    if (!made) {
-        return made.error();
+    const Domain& domain = *job.domain->domain;
+    if (job.recorded && workspace == job.workspace) {
+        if (const auto renewed = job.recorded->renew(domain, job.plan); !renewed) {
+            return renewed.error();
+        }
+    } else {
+        auto made = job.sampler->make_job(domain, job.plan, workspace);
+        if (!made) {
+            return made.error();
+        }
+        job.recorded.emplace(std::move(*made));
     }
-    job.recorded.emplace(std::move(*made));
     job.is_begun = false;
     if (job.seed) {
         job.recorded->set_seed(*job.seed);
@@ -186,30 +193,40 @@ Result<BufferRole> role_of(std::uint32_t buffer) {
     return static_cast<BufferRole>(buffer);
 }
 
+/// Plans a run of the domain, which is the job's then; after an error all is as it was.
+Result<Done> plan_domain(geodisk_job& job, std::shared_ptr<const DomainState> state) {
+    const Domain& domain = *state->domain;
+    if (const auto prepared = job.sampler->prepare(domain); !prepared) {
+        return prepared.error();
+    }
+    auto plan = job.sampler->plan_run(domain, job.pool_bytes);
+    if (!plan) {
+        return plan.error();
+    }
+    if (job.stages != 0) {
+        plan->stages = std::min(job.stages, plan->stages);
+    }
+    if (const auto planned = plan_buffers(job, domain, *plan); !planned) {
+        return planned.error();
+    }
+    job.domain = std::move(state);
+    return Done{};
+}
+
 Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,
                                               const geodisk_domain& domain,
                                               const geodisk_job_options& options) {
     auto job = std::make_unique<geodisk_job>();
     job->device = device.shared;
-    job->domain = domain.shared;
     job->pool_bytes = options.pool_bytes != 0 ? options.pool_bytes : kPoolBytes;
+    job->stages = options.stages;
     job->regrowths = options.regrowths;
     auto sampler = device.shared->sampler(false);
     if (!sampler) {
         return sampler.error();
     }
     job->sampler = std::move(*sampler);
-    if (const auto prepared = job->sampler->prepare(*domain.shared->domain); !prepared) {
-        return prepared.error();
-    }
-    auto plan = job->sampler->plan_run(*domain.shared->domain, job->pool_bytes);
-    if (!plan) {
-        return plan.error();
-    }
-    if (options.stages != 0) {
-        plan->stages = std::min(options.stages, plan->stages);
-    }
-    if (const auto planned = plan_buffers(*job, *plan); !planned) {
+    if (const auto planned = plan_domain(*job, domain.shared); !planned) {
         return planned.error();
     }
     return job;
@@ -334,6 +351,23 @@ geodisk_status geodisk_job_set_seed(geodisk_job* job, uint64_t seed, geodisk_err
             own.recorded->set_seed(seed);
             own.is_begun = false;
         }
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_job_renew(geodisk_job* job, const geodisk_domain* domain,
+                                 geodisk_error* error) {
+    return with_job(job, error, [&](geodisk_job& own) -> Result<Done> {
+        if (domain == nullptr) {
+            return wrong("domain is NULL");
+        }
+        if (const auto planned = plan_domain(own, domain->shared); !planned) {
+            return planned.error();
+        }
+        own.seed.reset();
+        own.to_bind = Next::start_over;
+        own.to_record.reset();
+        own.is_begun = false;
         return Done{};
     });
 }

@@ -29,6 +29,7 @@ struct geodisk_job {
     std::shared_ptr<const geodisk::Sampler> sampler;
     std::shared_ptr<const geodisk::c::DomainState> domain;
     std::uint64_t pool_bytes = 0;
+    std::uint32_t stages = 0; ///< At once, or 0.
     std::uint32_t regrowths = 0;
     std::optional<std::uint64_t> seed; ///< Another than the domain's.
 
@@ -46,6 +47,9 @@ struct geodisk_job {
     bool is_begun = false; ///< With these buffers and this seed.
 
     std::atomic<bool> is_held = false; ///< A call has it.
+
+    /// Whether it has buffers for its domain, though maybe some that are to become larger.
+    bool is_bound() const { return to_bind != geodisk::Next::start_over; }
 };
 
 namespace geodisk::c {

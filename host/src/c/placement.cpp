@@ -67,7 +67,7 @@ geodisk_status geodisk_placement_create(geodisk_job* job, const geodisk_placemen
         if (!given) {
             return given.error();
         }
-        if (!own.recorded) {
+        if (!own.is_bound()) {
             return needs_buffers();
         }
         const auto source = source_of(*given);
@@ -90,7 +90,7 @@ geodisk_status geodisk_placement_record(const geodisk_placement* placement, geod
         if (placement == nullptr || command_buffer == nullptr) {
             return wrong("placement or command_buffer is NULL");
         }
-        if (!own.recorded) {
+        if (!own.is_bound()) {
             return needs_buffers();
         }
         return placement->recorded.record(static_cast<VkCommandBuffer>(command_buffer),
