@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <string>
 #include <utility>
@@ -314,6 +315,11 @@ Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples
     });
 }
 
+std::uint32_t next_number() noexcept {
+    static std::atomic<std::uint32_t> last = 0;
+    return ++last;
+}
+
 Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
                               const Workspace& workspace) const noexcept {
     return guarded([&]() -> Result<Job> {
@@ -356,7 +362,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     if (auto chosen = choose_kernels(sampler->variant_for(of_domain), new_plan); !chosen) {
         return chosen;
     }
-    number = ++sampler->last_number;
+    number = next_number();
     const bool has_sets = sets_for == variant.domain;
     const bool had_single = push.all_single != 0;
     most_slots = new_plan.slots;

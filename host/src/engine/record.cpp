@@ -228,7 +228,7 @@ class Recorder {
 
 bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     if (job.begun.is_at_start() && !budget.is_spent()) {
-        job.begin_generation();
+        job.generation = next_number();
         job.is_begin_due = false;
     }
     Recorder recorder(commands, job, job.begun, budget);
@@ -325,7 +325,7 @@ void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
 
 void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
     record_rest(commands, *job.impl_);
-    job.impl_->begin_generation();
+    job.impl_->generation = next_number();
     // The batch was selected with the slots of an earlier plan, never fewer than now.
     Recorder recorder(commands, *job.impl_);
     const gpu::Push& push = job.impl_->push;

@@ -28,9 +28,6 @@ struct Sampler::Impl {
     std::atomic<bool> abandoned = false;
     /// Whether its arithmetic was found to be as decisions need.
     mutable std::atomic<bool> rounds_well = false;
-    /// Of jobs, and of what they begin: no two are alike, whose copies of a control record may be
-    /// of the same buffer.
-    mutable std::atomic<std::uint32_t> last_number = 0;
 
     Impl(const DeviceRefs& refs, DeviceReport of_device, const DeviceTable& table,
          const KernelChoices& chosen, Events order)
@@ -66,9 +63,13 @@ struct Cursor {
     bool is_at_start() const { return step == 0 && done == 0; }
 };
 
+/// Numbers that no two jobs of the process have, nor what they begin: memory of one may become
+/// another's, and a copy of the control record there is then to tell nothing.
+std::uint32_t next_number() noexcept;
+
 struct Job::Impl {
     const Sampler::Impl* sampler = nullptr;
-    std::uint32_t number = 0;    ///< Another one with each domain.
+    std::uint32_t number = 0;    ///< Of next_number(), another one with each domain.
     StageClock* clock = nullptr; ///< Where recording marks the stages, if anywhere.
     VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
     std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
@@ -104,8 +105,6 @@ struct Job::Impl {
     }
     void begin_stages(std::uint32_t first, std::uint32_t count);
     void begin_first_stages();
-    /// Tells what is recorded from now on from all before.
-    void begin_generation() { generation = ++sampler->last_number; }
     void set_seed(std::uint64_t seed);
     /// Candidates of the stages at hand that take part.
     std::uint64_t darts(const gpu::ControlRec& control) const {
