@@ -189,6 +189,7 @@ def test_render(tmp_path):
         (lambda: geodisk.verify(SAMPLES, density=[1, 1]), ValueError, "one for each vertex"),
         (lambda: geodisk.verify(SAMPLES, density="flat"), TypeError, "density"),
         (lambda: geodisk.verify(SAMPLES, density=2 * ONES), ValueError, "density"),
+        (lambda: geodisk.verify(SAMPLES, density=ONES / 2000), ValueError, "vertex 0 is 0.0005"),
         (lambda: geodisk.verify(SAMPLES, density=np.nan * ONES), ValueError, "density"),
         (lambda: geodisk.verify(SQUARE, density=ONES), ValueError, "box"),
         (lambda: geodisk.verify(geodisk.Samples([[0, 0]])), ValueError, "do not know their mesh"),

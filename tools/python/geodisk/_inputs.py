@@ -85,7 +85,12 @@ def write_surface(
 
 def write_density(folder: pathlib.Path, surface: Surface, density: ArrayLike) -> list[str]:
     """Writes the factors of radii at vertices; the option that names them."""
-    np.savetxt(folder / "density.txt", surface.factors(density), fmt="%.17g")
+    factors = surface.factors(density)
+    corners = surface.indices()
+    small = corners[factors[corners] < 0.001]  # Which the program raises, and the library refuses.
+    if small.size > 0:
+        raise c.invalid(f"the density of vertex {small[0]} is {factors[small[0]]}, below 0.001")
+    np.savetxt(folder / "density.txt", factors, fmt="%.17g")
     return ["--density-file", "density.txt"]
 
 
