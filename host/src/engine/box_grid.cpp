@@ -98,7 +98,8 @@ BoxGrid::BoxGrid(const BoxParams& box, const DrawAxes& lattice, std::uint32_t ca
         axes[i].per_step = cells > 1 ? static_cast<std::uint32_t>(per_step) : 0;
         axes[i].width = static_cast<float>(cells > 1 ? 0x1p32 / per_step * step : side);
     }
-    const auto most = static_cast<double>(kHeadsPerCandidate * candidates);
+    // A power of two of 32 bits, though no device binds as many.
+    const double most = std::min(double{kHeadsPerCandidate} * candidates, 0x1p31);
     heads = std::bit_ceil(static_cast<std::uint32_t>(std::min(all_cells, most)));
     const bool fits = all_cells <= heads;
     std::uint32_t cells_before = 1;
