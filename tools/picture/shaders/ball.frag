@@ -31,7 +31,7 @@ void main() {
     }
     const float half_chord = sqrt(squared);
     vec3 hit = eye + (middle - half_chord) * ray;
-    vec3 normal = normalize(hit - vec3(ball.x, ball.y, ball.z));
+    vec3 normal = hit - vec3(ball.x, ball.y, ball.z); // Of any length.
     bool is_section = false;
     if (cuts != 0u) {
         // The ray leaves the eye's eighth where it first comes to a plane of two axes.
