@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -476,6 +478,27 @@ TEST_SUITE("boxes") {
             runner.sample_and_wait(square, [](const Progress&) { return false; });
         REQUIRE(!cancelled);
         CHECK(cancelled.error().status == Status::cancelled);
+    }
+
+    TEST_CASE("distances for counts of boxes that cannot be are 0") {
+        // All bits set as well: what is not initialized may look like that.
+        for (const double side : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                                  std::bit_cast<double>(~std::uint64_t{0})}) {
+            BoxParams box;
+            box.extents = {side, 1};
+            CHECK(distance_for_count(box, 100) == 0);
+        }
+        BoxParams none;
+        none.extents.clear();
+        CHECK(distance_for_count(none, 100) == 0);
+    }
+
+    TEST_CASE("a grid has at most 2^31 heads, however many candidates") {
+        BoxParams box;
+        box.extents = {1, 1};
+        box.min_distance = 1e-5;
+        const BoxGrid grid(box, draw_axes(box), 3'000'000'000, 1e-4);
+        CHECK(grid.heads == 1u << 31);
     }
 
     TEST_CASE("the validation layer has nothing to say about a run") {

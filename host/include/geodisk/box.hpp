@@ -37,7 +37,7 @@ GEODISK_API double expected_count(const BoxParams& box) noexcept;
 
 /// The distance that should give about `count` samples, at least 1; `box.min_distance` does not
 /// enter. A periodic box with much shorter sides than others may be too thin for it, as pool_size()
-/// tells. 0 for a box without sides.
+/// tells. 0 for a box without sides, or with one that is no positive finite number.
 GEODISK_API double distance_for_count(const BoxParams& box, double count) noexcept;
 
 /// Candidates of a job: `throws`, or those that a pool expects, about pool_ratio times the expected

@@ -33,6 +33,10 @@ constexpr double kHalfStep = 1.4142135623730951;
 // A distance then still has 256 steps of a coordinate.
 constexpr double kLongestSide = 0x1p24;
 
+bool is_length(double side) {
+    return side > 0 && std::isfinite(side);
+}
+
 double shortest_side(const BoxParams& box) {
     return *std::min_element(box.extents.begin(), box.extents.end());
 }
@@ -42,7 +46,7 @@ Result<Done> check_sides(const BoxParams& box) {
         return invalid("a box must have 1 to 6 sides, not " + std::to_string(box.extents.size()));
     }
     for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
-        if (!(box.extents[axis] > 0) || !std::isfinite(box.extents[axis])) {
+        if (!is_length(box.extents[axis])) {
             return invalid("side " + std::to_string(axis + 1) +
                            " of the box must be a positive finite number");
         }
@@ -83,7 +87,7 @@ double expected_count(const BoxParams& box) noexcept {
 }
 
 double distance_for_count(const BoxParams& box, double count) noexcept {
-    if (box.extents.empty()) {
+    if (box.extents.empty() || !std::all_of(box.extents.begin(), box.extents.end(), is_length)) {
         return 0;
     }
     const auto [shortest, longest] = std::minmax_element(box.extents.begin(), box.extents.end());
