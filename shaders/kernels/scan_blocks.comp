@@ -8,7 +8,7 @@
 
 layout(local_size_x = 128) in;
 
-GEODISK_BUFFER(kBindCells, , uint, words);
+GEODISK_WORDS_BEFORE(kBindCells, kBindCellsTexels, words);
 GEODISK_WORDS(kBindSums, sums);
 
 void main() {
@@ -18,7 +18,7 @@ void main() {
     uint count = min(push.scan_count - begin, kScanBlock);
     for (uint k = 0u; k < kScanPerLane; ++k) {
         uint i = k * kScanLanes + lane;
-        block_words[block_index(i)] = i < count ? words[begin + i] : 0u;
+        block_words[block_index(i)] = i < count ? word_before(words, begin + i) : 0u;
     }
     block_exclusive_scan(lane, count > 0u ? word_at(sums, block) : 0u);
     for (uint i = lane; i < count; i += kScanLanes) {

@@ -1,4 +1,4 @@
-// How kernels declare the buffers they touch. `detect` is compiled twice: with GEODISK_TEXELS it
+// How kernels declare the buffers they touch. Many are compiled twice: with GEODISK_TEXELS a kernel
 // reads through texel buffers what no invocation of the dispatch writes, or only itself. On lavapipe
 // a load from a storage buffer is a loop over lanes and words, and a texel fetch a few gathers at
 // less than half the price.
@@ -32,6 +32,17 @@
 #else
 #define GEODISK_OWN_ROWS(number, texels_number, name) GEODISK_BUFFER(number, , uvec4, name)
 #define own_row_at(name, i) name[i]
+#endif
+
+// Words that are read, by word_before, before any invocation of the dispatch writes them.
+#ifdef GEODISK_TEXELS
+#define GEODISK_WORDS_BEFORE(number, texels_number, name)                                          \
+    layout(set = 0, binding = number, std430) buffer name##_buffer { uint name[]; };               \
+    layout(set = 0, binding = texels_number) uniform usamplerBuffer name##_texels
+#define word_before(name, i) texelFetch(name##_texels, int(i)).x
+#else
+#define GEODISK_WORDS_BEFORE(number, texels_number, name) GEODISK_BUFFER(number, , uint, name)
+#define word_before(name, i) name[i]
 #endif
 
 // The run's record with the slots behind it; shared by all work groups of a dispatch, so only atomics

@@ -9,8 +9,8 @@
 
 layout(local_size_x = kSelectLanes) in;
 
-GEODISK_BUFFER(kBindStates, , uint, states);
-GEODISK_BUFFER(kBindOrders, , uint, orders);
+GEODISK_WORDS_BEFORE(kBindStates, kBindStatesTexels, states);
+GEODISK_WORDS_BEFORE(kBindOrders, kBindOrdersTexels, orders);
 GEODISK_BUFFER(kBindSamples, readonly, uvec4, samples);
 GEODISK_CONTROL;
 
@@ -39,7 +39,7 @@ void select_settled(uint begin) {
     }
 }
 
-bool is_idle(uint place) { return (states[place] & kStateMask) == kIdle; }
+bool is_idle(uint place) { return (word_before(states, place) & kStateMask) == kIdle; }
 
 void list_one(uint place, uint order) {
     uint head = list_head(range_of(order));
@@ -61,7 +61,7 @@ void list_idle(uint begin) {
         uint bits = 0u;
         uint place = first;
         for (uint i = 0u; i < 32u && place < end; ++i) {
-            uint order = orders[place];
+            uint order = word_before(orders, place);
             bits |= order >= first_order && order < list_end ? 1u << i : 0u;
             place += kSelectLanes;
         }
@@ -69,7 +69,7 @@ void list_idle(uint begin) {
             place = first + uint(findLSB(bits)) * kSelectLanes;
             bits &= bits - 1u;
             if (is_idle(place)) {
-                list_one(place, orders[place]);
+                list_one(place, word_before(orders, place));
             }
         }
     }
@@ -82,14 +82,14 @@ void find_due(uint head) {
     uint bits = 0u;
     for (uint i = 0u; i * kSelectLanes + gl_LocalInvocationID.x < count; ++i) {
         uint place = list[first + i * kSelectLanes];
-        uint order = orders[place];
+        uint order = word_before(orders, place);
         bool is_due = order >= control.first_order && order < control.batch_end && is_idle(place);
         bits |= is_due ? 1u << i : 0u;
     }
     uint at = atomicAdd(group_due, uint(bitCount(bits)));
     while (bits != 0u) {
         uint place = list[first + uint(findLSB(bits)) * kSelectLanes];
-        uint order = orders[place];
+        uint order = word_before(orders, place);
         if (at < kListRange) {
             group_places[at] = place;
             group_orders[at] = order;

@@ -42,14 +42,17 @@ GEODISK_CONST uint kBindSamples = 12u;   // SampleRec per accepted candidate, in
 GEODISK_CONST uint kBindAccepted = 13u;  // the same as they were accepted
 GEODISK_CONST uint kBindBuckets = 14u;   // while samples are put in order: where the samples of each
                                          // range of orders start; then the samples by range
-// The pool a second time, as a texel buffer, see lib/buffers.glsl.
+// Buffers a second time, as texel buffers, see lib/buffers.glsl.
 GEODISK_CONST uint kBindPoolTexels = 15u;
+GEODISK_CONST uint kBindStatesTexels = 16u;
+GEODISK_CONST uint kBindOrdersTexels = 17u;
+GEODISK_CONST uint kBindCellsTexels = 18u;
 // Of the caller alone.
-GEODISK_CONST uint kBindVertices = 16u;  // floats
-GEODISK_CONST uint kBindIndices = 17u;   // three of 16 or 32 bits per face
-GEODISK_CONST uint kBindPlaced = 18u;    // PlacedRec per sample
-GEODISK_CONST uint kBindArguments = 19u; // of an indirect draw: four words
-GEODISK_CONST uint kBindCount = 20u;
+GEODISK_CONST uint kBindVertices = 19u;  // floats
+GEODISK_CONST uint kBindIndices = 20u;   // three of 16 or 32 bits per face
+GEODISK_CONST uint kBindPlaced = 21u;    // PlacedRec per sample
+GEODISK_CONST uint kBindArguments = 22u; // of an indirect draw: four words
+GEODISK_CONST uint kBindCount = 23u;
 
 GEODISK_END_SHARED
 

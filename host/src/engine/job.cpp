@@ -127,7 +127,7 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
 
 /// The buffer behind a binding; the scan kernels work on whatever is bound as cells.
 std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
-    if (binding == gpu::kBindCells) {
+    if (binding == gpu::kBindCells || binding == gpu::kBindCellsTexels) {
         switch (role) {
         case SetRole::workspace:
         case SetRole::cell_scan:
@@ -138,7 +138,16 @@ std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
             return gpu::kBindBuckets;
         }
     }
-    return binding == gpu::kBindPoolTexels ? gpu::kBindPool : binding;
+    switch (binding) {
+    case gpu::kBindPoolTexels:
+        return gpu::kBindPool;
+    case gpu::kBindStatesTexels:
+        return gpu::kBindStates;
+    case gpu::kBindOrdersTexels:
+        return gpu::kBindOrders;
+    default:
+        return binding;
+    }
 }
 
 /// Whether some kernel reads this buffer as texels, by whatever binding.

@@ -9,61 +9,80 @@ namespace {
 
 #include "begin_chunk.spv.inc"
 #include "bin.spv.inc"
+#include "bin_texels.spv.inc"
 #include "box_bin.spv.inc"
+#include "box_bin_texels.spv.inc"
 #include "box_count.spv.inc"
+#include "box_count_texels.spv.inc"
 #include "box_draw.spv.inc"
+#include "box_draw_texels.spv.inc"
 #include "box_select.spv.inc"
+#include "box_select_texels.spv.inc"
 #include "count.spv.inc"
 #include "count_calls.spv.inc"
 #include "count_orders.spv.inc"
+#include "count_texels.spv.inc"
 #include "detect.spv.inc"
 #include "detect_texels.spv.inc"
 #include "draw.spv.inc"
+#include "draw_texels.spv.inc"
 #include "grid_detect.spv.inc"
+#include "grid_detect_texels.spv.inc"
 #include "order_count.spv.inc"
+#include "order_count_texels.spv.inc"
 #include "order_place.spv.inc"
+#include "order_place_texels.spv.inc"
 #include "order_write.spv.inc"
+#include "order_write_texels.spv.inc"
 #include "place.spv.inc"
 #include "resolve.spv.inc"
 #include "resume.spv.inc"
 #include "rewind.spv.inc"
 #include "scan_blocks.spv.inc"
+#include "scan_blocks_texels.spv.inc"
 #include "scan_sums.spv.inc"
 #include "select.spv.inc"
+#include "select_texels.spv.inc"
 #include "self_test.spv.inc"
 #include "space_bin.spv.inc"
+#include "space_bin_texels.spv.inc"
 #include "space_count.spv.inc"
+#include "space_count_texels.spv.inc"
 #include "space_draw.spv.inc"
+#include "space_draw_texels.spv.inc"
 #include "space_select.spv.inc"
+#include "space_select_texels.spv.inc"
 #include "sum_blocks.spv.inc"
+#include "sum_blocks_texels.spv.inc"
 
 using namespace gpu;
 
 using enum Access;
 
-constexpr Binding kCount[] = {{kBindFaces, storage},
-                              {kBindFans, storage},
-                              {kBindKeys, storage},
+constexpr Binding kCount[] = {{kBindFaces, read},
+                              {kBindFans, read},
+                              {kBindKeys, read},
                               {kBindCells, storage},
                               {kBindStarts, storage}};
-constexpr Binding kSumBlocks[] = {{kBindCells, storage}, {kBindSums, storage}};
+constexpr Binding kSumBlocks[] = {{kBindCells, read}, {kBindSums, storage}};
 constexpr Binding kScanSums[] = {{kBindSums, storage}};
-constexpr Binding kScanBlocks[] = {{kBindCells, storage}, {kBindSums, storage}};
-constexpr Binding kBin[] = {{kBindFaces, storage},
-                            {kBindFans, storage},
-                            {kBindKeys, storage},
+constexpr Binding kScanBlocks[] = {
+    {kBindCells, storage}, {kBindSums, read}, {kBindCellsTexels, read_before}};
+constexpr Binding kBin[] = {{kBindFaces, read},
+                            {kBindFans, read},
+                            {kBindKeys, read},
                             {kBindCells, storage},
-                            {kBindStarts, storage}};
-constexpr Binding kDraw[] = {{kBindFaces, storage},  {kBindFans, storage},
-                             {kBindKeys, storage},   {kBindCells, storage},
-                             {kBindStates, storage}, {kBindWeights, storage},
-                             {kBindOrders, storage}, {kBindStarts, storage}};
+                            {kBindStarts, read}};
+constexpr Binding kDraw[] = {
+    {kBindFaces, read},     {kBindFans, read},       {kBindKeys, read},      {kBindCells, storage},
+    {kBindStates, storage}, {kBindWeights, storage}, {kBindOrders, storage}, {kBindStarts, read}};
 constexpr Binding kBeginChunk[] = {
     {kBindStarts, storage}, {kBindControl, storage}, {kBindList, storage}};
-constexpr Binding kSelect[] = {{kBindStates, storage},  {kBindWeights, storage},
-                               {kBindOrders, storage},  {kBindStarts, storage},
-                               {kBindControl, storage}, {kBindList, storage},
-                               {kBindSamples, storage}};
+constexpr Binding kSelect[] = {{kBindStates, storage},          {kBindWeights, read},
+                               {kBindOrders, storage},          {kBindStarts, read},
+                               {kBindControl, storage},         {kBindList, storage},
+                               {kBindSamples, storage},         {kBindStatesTexels, read_before},
+                               {kBindOrdersTexels, read_before}};
 constexpr Binding kDetect[] = {
     {kBindFaces, read},   {kBindFans, read},       {kBindCells, read},
     {kBindStates, read},  {kBindWeights, read},    {kBindOrders, read},
@@ -81,70 +100,87 @@ constexpr Binding kRewind[] = {
 constexpr Binding kResume[] = {{kBindControl, storage}, {kBindList, storage}};
 constexpr Binding kCountOrders[] = {{kBindOrders, storage}, {kBindControl, storage}};
 constexpr Binding kOrderCount[] = {
-    {kBindControl, storage}, {kBindAccepted, storage}, {kBindBuckets, storage}};
+    {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
 constexpr Binding kOrderPlace[] = {
-    {kBindControl, storage}, {kBindAccepted, storage}, {kBindBuckets, storage}};
+    {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
 constexpr Binding kOrderWrite[] = {{kBindControl, storage},
                                    {kBindSamples, storage},
-                                   {kBindAccepted, storage},
-                                   {kBindBuckets, storage}};
+                                   {kBindAccepted, read},
+                                   {kBindBuckets, read}};
 constexpr Binding kPlace[] = {{kBindFans, storage},     {kBindKeys, storage},
                               {kBindControl, storage},  {kBindSamples, storage},
                               {kBindVertices, storage}, {kBindIndices, storage},
                               {kBindPlaced, storage},   {kBindArguments, storage}};
 constexpr Binding kSelfTest[] = {{kBindSums, storage}};
-constexpr Binding kBoxCount[] = {{kBindAxes, storage}, {kBindStarts, storage}};
-constexpr Binding kBoxBin[] = {{kBindAxes, storage}, {kBindCells, storage}, {kBindStarts, storage}};
-constexpr Binding kBoxDraw[] = {{kBindAxes, storage},   {kBindCells, storage},
+constexpr Binding kBoxCount[] = {{kBindAxes, read}, {kBindStarts, storage}};
+constexpr Binding kBoxBin[] = {{kBindAxes, read}, {kBindCells, storage}, {kBindStarts, read}};
+constexpr Binding kBoxDraw[] = {{kBindAxes, read},      {kBindCells, storage},
                                 {kBindStates, storage}, {kBindPoints, storage},
-                                {kBindOrders, storage}, {kBindStarts, storage}};
-constexpr Binding kBoxSelect[] = {{kBindAxes, storage},   {kBindStates, storage},
-                                  {kBindPoints, storage}, {kBindOrders, storage},
-                                  {kBindStarts, storage}, {kBindControl, storage},
-                                  {kBindList, storage},   {kBindSamples, storage}};
-constexpr Binding kSpaceCount[] = {{kBindFaces, storage}, {kBindStarts, storage}};
+                                {kBindOrders, storage}, {kBindStarts, read}};
+constexpr Binding kBoxSelect[] = {{kBindAxes, read},
+                                  {kBindStates, storage},
+                                  {kBindPoints, storage},
+                                  {kBindOrders, storage},
+                                  {kBindStarts, read},
+                                  {kBindControl, storage},
+                                  {kBindList, storage},
+                                  {kBindSamples, storage},
+                                  {kBindStatesTexels, read_before},
+                                  {kBindOrdersTexels, read_before}};
+constexpr Binding kSpaceCount[] = {{kBindFaces, read}, {kBindStarts, storage}};
 constexpr Binding kSpaceBin[] = {
-    {kBindFaces, storage}, {kBindAxes, storage}, {kBindCells, storage}, {kBindStarts, storage}};
+    {kBindFaces, read}, {kBindAxes, read}, {kBindCells, storage}, {kBindStarts, read}};
 constexpr Binding kSpaceDraw[] = {
-    {kBindFaces, storage},  {kBindAxes, storage},   {kBindCells, storage}, {kBindStates, storage},
-    {kBindPoints, storage}, {kBindOrders, storage}, {kBindStarts, storage}};
-constexpr Binding kSpaceSelect[] = {{kBindFaces, storage},  {kBindStates, storage},
-                                    {kBindPoints, storage}, {kBindOrders, storage},
-                                    {kBindStarts, storage}, {kBindControl, storage},
-                                    {kBindList, storage},   {kBindSamples, storage}};
+    {kBindFaces, read},     {kBindAxes, read},      {kBindCells, storage}, {kBindStates, storage},
+    {kBindPoints, storage}, {kBindOrders, storage}, {kBindStarts, read}};
+constexpr Binding kSpaceSelect[] = {{kBindFaces, read},
+                                    {kBindStates, storage},
+                                    {kBindPoints, storage},
+                                    {kBindOrders, storage},
+                                    {kBindStarts, read},
+                                    {kBindControl, storage},
+                                    {kBindList, storage},
+                                    {kBindSamples, storage},
+                                    {kBindStatesTexels, read_before},
+                                    {kBindOrdersTexels, read_before}};
 constexpr Binding kGridDetect[] = {
-    {kBindAxes, storage},   {kBindCells, storage}, {kBindStates, storage}, {kBindPoints, storage},
-    {kBindOrders, storage}, {kBindPool, storage},  {kBindControl, storage}};
+    {kBindAxes, read},   {kBindCells, read},   {kBindStates, read},    {kBindPoints, read},
+    {kBindOrders, read}, {kBindPool, storage}, {kBindControl, storage}};
 
 const std::array<KernelInfo, kKernels> kTable{{
-    {"count", k_count_spirv, kCount, false, DomainKind::surface},
-    {"sum_blocks", k_sum_blocks_spirv, kSumBlocks, false},
-    {"scan_sums", k_scan_sums_spirv, kScanSums, false},
-    {"scan_blocks", k_scan_blocks_spirv, kScanBlocks, false},
-    {"bin", k_bin_spirv, kBin, false, DomainKind::surface},
-    {"draw", k_draw_spirv, kDraw, false, DomainKind::surface},
-    {"begin_chunk", k_begin_chunk_spirv, kBeginChunk, true},
-    {"select", k_select_spirv, kSelect, true, DomainKind::surface},
-    {"detect", k_detect_spirv, kDetect, true, DomainKind::surface, k_detect_texels_spirv},
-    {"resolve", k_resolve_spirv, kResolve, true},
-    {"count_calls", k_count_calls_spirv, kCountCalls, true},
-    {"rewind", k_rewind_spirv, kRewind, true},
-    {"resume", k_resume_spirv, kResume, true},
-    {"count_orders", k_count_orders_spirv, kCountOrders, false},
-    {"order_count", k_order_count_spirv, kOrderCount, false},
-    {"order_place", k_order_place_spirv, kOrderPlace, false},
-    {"order_write", k_order_write_spirv, kOrderWrite, false},
-    {"place", k_place_spirv, kPlace, false, DomainKind::placement},
-    {"self_test", k_self_test_spirv, kSelfTest, false},
-    {"box_count", k_box_count_spirv, kBoxCount, false, DomainKind::box},
-    {"box_bin", k_box_bin_spirv, kBoxBin, false, DomainKind::box},
-    {"box_draw", k_box_draw_spirv, kBoxDraw, false, DomainKind::box},
-    {"box_select", k_box_select_spirv, kBoxSelect, true, DomainKind::box},
-    {"space_count", k_space_count_spirv, kSpaceCount, false, DomainKind::space},
-    {"space_bin", k_space_bin_spirv, kSpaceBin, false, DomainKind::space},
-    {"space_draw", k_space_draw_spirv, kSpaceDraw, false, DomainKind::space},
-    {"space_select", k_space_select_spirv, kSpaceSelect, true, DomainKind::space},
-    {"grid_detect", k_grid_detect_spirv, kGridDetect, true, DomainKind::in_space},
+    {"count", k_count_spirv, k_count_texels_spirv, kCount, false, DomainKind::surface},
+    {"sum_blocks", k_sum_blocks_spirv, k_sum_blocks_texels_spirv, kSumBlocks, false},
+    {"scan_sums", k_scan_sums_spirv, k_scan_sums_spirv, kScanSums, false},
+    {"scan_blocks", k_scan_blocks_spirv, k_scan_blocks_texels_spirv, kScanBlocks, false},
+    {"bin", k_bin_spirv, k_bin_texels_spirv, kBin, false, DomainKind::surface},
+    {"draw", k_draw_spirv, k_draw_texels_spirv, kDraw, false, DomainKind::surface},
+    {"begin_chunk", k_begin_chunk_spirv, k_begin_chunk_spirv, kBeginChunk, true},
+    {"select", k_select_spirv, k_select_texels_spirv, kSelect, true, DomainKind::surface},
+    {"detect", k_detect_spirv, k_detect_texels_spirv, kDetect, true, DomainKind::surface},
+    {"resolve", k_resolve_spirv, k_resolve_spirv, kResolve, true},
+    {"count_calls", k_count_calls_spirv, k_count_calls_spirv, kCountCalls, true},
+    {"rewind", k_rewind_spirv, k_rewind_spirv, kRewind, true},
+    {"resume", k_resume_spirv, k_resume_spirv, kResume, true},
+    {"count_orders", k_count_orders_spirv, k_count_orders_spirv, kCountOrders, false},
+    {"order_count", k_order_count_spirv, k_order_count_texels_spirv, kOrderCount, false},
+    {"order_place", k_order_place_spirv, k_order_place_texels_spirv, kOrderPlace, false},
+    {"order_write", k_order_write_spirv, k_order_write_texels_spirv, kOrderWrite, false},
+    {"place", k_place_spirv, k_place_spirv, kPlace, false, DomainKind::placement},
+    {"self_test", k_self_test_spirv, k_self_test_spirv, kSelfTest, false},
+    {"box_count", k_box_count_spirv, k_box_count_texels_spirv, kBoxCount, false, DomainKind::box},
+    {"box_bin", k_box_bin_spirv, k_box_bin_texels_spirv, kBoxBin, false, DomainKind::box},
+    {"box_draw", k_box_draw_spirv, k_box_draw_texels_spirv, kBoxDraw, false, DomainKind::box},
+    {"box_select", k_box_select_spirv, k_box_select_texels_spirv, kBoxSelect, true,
+     DomainKind::box},
+    {"space_count", k_space_count_spirv, k_space_count_texels_spirv, kSpaceCount, false,
+     DomainKind::space},
+    {"space_bin", k_space_bin_spirv, k_space_bin_texels_spirv, kSpaceBin, false, DomainKind::space},
+    {"space_draw", k_space_draw_spirv, k_space_draw_texels_spirv, kSpaceDraw, false,
+     DomainKind::space},
+    {"space_select", k_space_select_spirv, k_space_select_texels_spirv, kSpaceSelect, true,
+     DomainKind::space},
+    {"grid_detect", k_grid_detect_spirv, k_grid_detect_texels_spirv, kGridDetect, true,
+     DomainKind::in_space},
 }};
 
 } // namespace

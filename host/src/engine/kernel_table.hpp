@@ -82,9 +82,9 @@ std::vector<KernelVariant> all_kernel_variants();
 enum class Access : std::uint8_t {
     storage, ///< As a storage buffer.
     read,    ///< Only reads it: as a texel buffer in the variant that reads texels.
-    /// Reads what the invocation wrote, by a second binding that the variant alone has that reads
-    /// texels.
-    read_own,
+    /// Reads through a second binding, in the variant that reads texels alone:
+    read_own,    ///< what the invocation wrote;
+    read_before, ///< what nobody has written yet.
 };
 
 struct Binding {
@@ -94,16 +94,13 @@ struct Binding {
 
 struct KernelInfo {
     const char* name;
-    std::span<const std::uint32_t> spirv; ///< Reads from storage buffers.
-    std::span<const Binding> bindings;    ///< Ascending; at most eight storage buffers.
+    std::span<const std::uint32_t> spirv;        ///< Reads from storage buffers.
+    std::span<const std::uint32_t> texels_spirv; ///< Reads from texel buffers, where that is
+                                                 ///< faster on llvmpipe; else the same.
+    std::span<const Binding> bindings;           ///< Ascending; at most eight storage buffers.
     bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
     DomainKind domain = DomainKind::any;
-    /// Reads from texel buffers, where that is faster on llvmpipe; else empty.
-    std::span<const std::uint32_t> texels_spirv = {};
 
-    std::span<const std::uint32_t> words(bool texels) const {
-        return texels && !texels_spirv.empty() ? texels_spirv : spirv;
-    }
     bool serves(DomainKind other) const {
         return (static_cast<std::uint8_t>(domain) & static_cast<std::uint8_t>(other)) != 0;
     }
@@ -134,6 +131,7 @@ constexpr VkFormat texel_format(std::uint32_t buffer) noexcept {
     case gpu::kBindFaces:
     case gpu::kBindFans:
     case gpu::kBindPool:
+    case gpu::kBindAccepted:
         return VK_FORMAT_R32G32B32A32_UINT;
     default:
         return VK_FORMAT_R32_UINT;
