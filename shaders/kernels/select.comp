@@ -17,6 +17,6 @@ void settle_point(uint slot, uvec4 record) {}
 #include "../lib/select_idle.glsl"
 
 uvec4 sample_at(uint place, uint order) {
-    return uvec4(order, face_of(place), floatBitsToUint(weight_of(states[place] >> kWeightShift)),
+    return uvec4(order, face_of(place), floatBitsToUint(weight_of(word_before(states, place) >> kWeightShift)),
                  floatBitsToUint(weight_of(word_at(weights, place))));
 }

@@ -77,13 +77,15 @@ void list_idle(uint begin) {
 
 // Finds those of a range of the list that are due.
 void find_due(uint head) {
+    uint first_order = control.first_order;
+    uint batch_end = control.batch_end;
     uint count = min(list[head], kListRange);
     uint first = head + 1u + gl_LocalInvocationID.x;
     uint bits = 0u;
     for (uint i = 0u; i * kSelectLanes + gl_LocalInvocationID.x < count; ++i) {
         uint place = list[first + i * kSelectLanes];
         uint order = word_before(orders, place);
-        bool is_due = order >= control.first_order && order < control.batch_end && is_idle(place);
+        bool is_due = order >= first_order && order < batch_end && is_idle(place);
         bits |= is_due ? 1u << i : 0u;
     }
     uint at = atomicAdd(group_due, uint(bitCount(bits)));
@@ -120,7 +122,7 @@ void give_slots() {
         uint order = group_orders[i];
         if (slot < push.slots) {
             fill_slot(slot, place, sample_at(place, order));
-            states[place] |= kActive;
+            states[place] = word_before(states, place) | kActive;
             orders[place] = slot;
         } else {
             atomicMin(control.first_left, order);
