@@ -115,7 +115,7 @@ TEST_SUITE("layout") {
         for (std::size_t k = 0; k < kKernels; ++k) {
             const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
             CAPTURE(info.name);
-            for (const auto& spirv : {info.spirv, info.texels_spirv}) {
+            for (const auto& spirv : {info.words(false), info.words(true)}) {
                 const auto offsets = struct_offsets(spirv);
                 const bool is_place = static_cast<Kernel>(k) == Kernel::place;
                 const char* const push = is_place ? "PlacePush" : "Push";

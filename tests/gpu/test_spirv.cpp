@@ -35,7 +35,7 @@ void for_each_variant(Visit&& visit) {
         for (const bool texels : {false, true}) {
             const std::string variant = std::string(info.name) + (texels ? " with texels" : "");
             CAPTURE(variant);
-            visit(info, texels ? info.texels_spirv : info.spirv, texels);
+            visit(info, info.words(texels), texels);
         }
     }
 }

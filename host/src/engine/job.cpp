@@ -125,9 +125,26 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
     return Done{};
 }
 
+/// The buffer that a binding names, be it a second time, as texels.
+std::uint32_t buffer_of(std::uint32_t binding) {
+    switch (binding) {
+    case gpu::kBindPoolTexels:
+        return gpu::kBindPool;
+    case gpu::kBindStatesTexels:
+        return gpu::kBindStates;
+    case gpu::kBindOrdersTexels:
+        return gpu::kBindOrders;
+    case gpu::kBindCellsTexels:
+        return gpu::kBindCells;
+    default:
+        return binding;
+    }
+}
+
 /// The buffer behind a binding; the scan kernels work on whatever is bound as cells.
 std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
-    if (binding == gpu::kBindCells || binding == gpu::kBindCellsTexels) {
+    const std::uint32_t buffer = buffer_of(binding);
+    if (buffer == gpu::kBindCells) {
         switch (role) {
         case SetRole::workspace:
         case SetRole::cell_scan:
@@ -138,16 +155,7 @@ std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
             return gpu::kBindBuckets;
         }
     }
-    switch (binding) {
-    case gpu::kBindPoolTexels:
-        return gpu::kBindPool;
-    case gpu::kBindStatesTexels:
-        return gpu::kBindStates;
-    case gpu::kBindOrdersTexels:
-        return gpu::kBindOrders;
-    default:
-        return binding;
-    }
+    return buffer;
 }
 
 /// Whether some kernel reads this buffer as texels, by whatever binding.

@@ -94,13 +94,16 @@ struct Binding {
 
 struct KernelInfo {
     const char* name;
-    std::span<const std::uint32_t> spirv;        ///< Reads from storage buffers.
-    std::span<const std::uint32_t> texels_spirv; ///< Reads from texel buffers, where that is
-                                                 ///< faster on llvmpipe; else the same.
-    std::span<const Binding> bindings;           ///< Ascending; at most eight storage buffers.
+    std::span<const std::uint32_t> spirv; ///< Reads from storage buffers.
+    std::span<const Binding> bindings;    ///< Ascending; at most eight storage buffers.
     bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
     DomainKind domain = DomainKind::any;
+    /// Reads from texel buffers, where that is faster on llvmpipe; else empty.
+    std::span<const std::uint32_t> texels_spirv = {};
 
+    std::span<const std::uint32_t> words(bool texels) const {
+        return texels && !texels_spirv.empty() ? texels_spirv : spirv;
+    }
     bool serves(DomainKind other) const {
         return (static_cast<std::uint8_t>(domain) & static_cast<std::uint8_t>(other)) != 0;
     }

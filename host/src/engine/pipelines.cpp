@@ -113,7 +113,7 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
     const KernelInfo& info = kernel_info(kernel);
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    const std::span<const std::uint32_t> spirv = reads_texels() ? info.texels_spirv : info.spirv;
+    const std::span<const std::uint32_t> spirv = info.words(reads_texels());
     module_info.codeSize = spirv.size_bytes();
     module_info.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
