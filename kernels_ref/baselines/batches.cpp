@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "constants.h"
 #include "kernels/count_calls.hpp"
 #include "kernels/resolve.hpp"
 
@@ -14,7 +13,7 @@ std::vector<std::uint32_t> select_idle(const std::vector<std::uint8_t>& states, 
                                        std::uint32_t slots) {
     std::vector<std::uint32_t> ranks;
     for (std::uint32_t rank = first; rank < states.size() && ranks.size() < slots; ++rank) {
-        if (states[rank] == gpu::kIdle) {
+        if (states[rank] == kIdle) {
             ranks.push_back(rank);
         }
     }
@@ -26,7 +25,7 @@ std::vector<std::uint32_t> select_idle(const std::vector<std::uint8_t>& states, 
 BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls) {
     constexpr std::uint32_t kNotActive = ~0u;
     BatchRun run;
-    std::vector<std::uint8_t> states(disks.size(), gpu::kIdle);
+    std::vector<std::uint8_t> states(disks.size(), kIdle);
     std::vector<std::uint8_t> is_open(disks.size(), 1);
     std::vector<std::uint32_t> slot_of(disks.size(), kNotActive);
     std::vector<std::uint32_t> disk;
@@ -57,7 +56,7 @@ BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls
         for (std::size_t slot = 0; slot < ranks.size(); ++slot) {
             is_open[ranks[slot]] = 0;
             slot_of[ranks[slot]] = kNotActive;
-            if (states[ranks[slot]] == gpu::kAccepted) {
+            if (states[ranks[slot]] == kAccepted) {
                 run.ranks.push_back(ranks[slot]);
                 accepted[slot] = 1;
                 for (const std::uint32_t other : conflicts[slot]) {

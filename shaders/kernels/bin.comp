@@ -11,11 +11,10 @@
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 
-void visit(uint unit, uint number) {
-    uint face = unit / push.stages;
-    uint word = load_cells(face);
+void visit(Unit unit, uint number) {
+    uint word = load_cells(unit.owner);
     if (!single_cell(word)) {
-        Candidate c = draw_candidate(face, unit - face * push.stages, number - word_at(starts, unit));
+        Candidate c = draw_candidate(unit.owner, unit.stage, number - unit.first);
         atomicAdd(cells[cell_of(c, word) + 1u], 1u);
     }
 }

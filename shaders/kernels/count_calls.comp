@@ -5,13 +5,12 @@
 // conflict before it that it comes to, in dart order until one is accepted. One invocation per slot,
 // which goes once through its list for each of those; resumable, since lists may be long and what the
 // others count not be known yet.
-// reads: states, pool lists   writes: orders, slots, control   spec: slot local size, pool block
+// reads: pool lists   writes: orders, slots, control   spec: slot local size, pool block
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 0) in;
 
-GEODISK_WORDS(kBindStates, states);
 GEODISK_BUFFER(kBindOrders, , uint, orders);
 GEODISK_ROWS(kBindPool, pool);
 GEODISK_CONTROL;
@@ -70,7 +69,7 @@ bool count(uint slot) {
             break;
         }
         calls = min(calls + (others & kMostCalls), kMostCalls);
-        is_known = (word_at(states, slots[nearest].place) & kStateMask) == kAccepted;
+        is_known = (slots[nearest].blocks & kBlockedForGood) == 0u; // accepted
         if (is_known) {
             break;
         }

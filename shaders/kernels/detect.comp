@@ -374,6 +374,7 @@ void count_trips() {
 void main() {
     uint index = gl_GlobalInvocationID.x;
     P = push;
+    first_weight1 = words_of_states(P.capacity);
     trips = 0u;
     own_disks = kNoDisks;
     if (index < P.lanes && atomic_load(control.incomplete) > 0u &&

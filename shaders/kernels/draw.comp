@@ -13,20 +13,24 @@ GEODISK_BUFFER(kBindStates, writeonly, uint, states);
 GEODISK_BUFFER(kBindWeights, writeonly, uint, weights);
 GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 
-void visit(uint unit, uint number) {
-    uint face = unit / push.stages;
-    Candidate c = draw_candidate(face, unit - face * push.stages, number - word_at(starts, unit));
-    uint word = load_cells(face);
+#include "../lib/draw_states.glsl"
+
+void visit(Unit unit, uint number) {
+    Candidate c = draw_candidate(unit.owner, unit.stage, number - unit.first);
+    uint word = load_cells(unit.owner);
     uint place = number;
     if (!single_cell(word)) {
         place = atomicAdd(cells[cell_of(c, word) + 1u], 1u);
     } else if (push.all_single == 0u &&
-               number + 1u == word_at(starts, (face + 1u) * push.stages)) {
+               number + 1u == word_at(starts, (unit.owner + 1u) * push.stages)) {
         cells[(word & kFirstCellMask) + 1u] = number + 1u;
     }
-    states[place] = c.weight1 << kWeightShift | kIdle;
+    states[words_of_states(push.capacity) + place] = c.weight1;
     weights[place] = c.weight2;
     orders[place] = c.order;
 }
 
-void main() { visit_each(); }
+void main() {
+    draw_states();
+    visit_each();
+}

@@ -31,6 +31,7 @@ uint overflow; // kOverflow* bits
 
 #include "../lib/slice.glsl"
 #include "../lib/list.glsl"
+#include "../lib/strip.glsl"
 #include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
 
@@ -189,17 +190,19 @@ void trip() {
     if (scan_place >= scan_end) {
         next_cells();
     }
-    for (uint k = 0u; k < kScanPerGridTrip && scan_place < scan_end; ++k) {
-        uint place = scan_place;
-        ++scan_place;
-        uint state = word_at(states, place) & kStateMask;
-        if (state > kActive || place == own_place) {
+    uint end = min(scan_place + kScanPerGridTrip, scan_end);
+    Strip strip = load_strip(scan_place, end);
+    scan_place = end;
+    while (strip.undecided != 0u) {
+        uint bit = uint(findLSB(strip.undecided));
+        uint place = strip.first + bit;
+        strip.undecided &= strip.undecided - 1u;
+        if (place == own_place) {
             continue;
         }
         ++tested;
-        if (conflicts_with(place)) {
-            list_conflict(idle_conflicts, active_conflicts, place, state == kActive);
-        }
+        bool is_active = ((strip.actives >> bit) & 1u) != 0u;
+        list_conflict(idle_conflicts, active_conflicts, place, is_active, conflicts_with(place));
     }
 }
 

@@ -23,6 +23,7 @@ GEODISK_CONTROL;
 #include "../lib/slice.glsl"
 #include "../lib/conflicts.glsl"
 #include "../lib/slots.glsl"
+#include "../lib/states.glsl"
 
 // Candidates that this invocation is to decide.
 uint at_hand[kMostAtHand];
@@ -68,7 +69,8 @@ void tell(uint other, bool is_rejected) {
 
 // An idle candidate in the disk of an accepted one.
 void reject(uint place) {
-    bool is_first = (atomicOr(states[place], kRejected) & kStateMask) != kRejected;
+    uint bit = state_bit(place);
+    bool is_first = (atomicAnd(states[undecided_word(place)], ~bit) & bit) != 0u;
     fewer += is_first ? 1u : 0u;
 }
 
@@ -87,6 +89,8 @@ void meet(uvec4 own, uint place, bool is_rejected) {
     }
 }
 
+void end_active(uint place) { atomicAnd(states[active_word(place)], ~state_bit(place)); }
+
 void finish(uint slot, bool is_rejected) {
     uint place = slots[slot].place;
     slots[slot].phase = kSlotDecided;
@@ -95,7 +99,8 @@ void finish(uint slot, bool is_rejected) {
         return;
     }
     ++fewer;
-    atomicXor(states[place], kActive ^ (is_rejected ? kRejected : kAccepted));
+    atomicAnd(states[undecided_word(place)], ~state_bit(place));
+    end_active(place);
     if (!kCountCalls) {
         orders[place] = slots[slot].order;
     }
@@ -143,8 +148,7 @@ uint decide(uint slot, uint cursor, uint budget) {
 // Not active after all: idle again, unless an accepted one has rejected it meanwhile.
 void release(uint slot) {
     uint place = slots[slot].place;
-    uint weight = states[place] & ~kStateMask;
-    atomicCompSwap(states[place], weight | kActive, weight | kIdle);
+    end_active(place);
     orders[place] = slots[slot].order;
     slots[slot].phase = kSlotDecided;
     ++decided;

@@ -13,11 +13,13 @@ GEODISK_BUFFER(kBindStates, , uint, states);
 GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 GEODISK_CONTROL;
 
+#include "../lib/states.glsl"
+
 void main() {
     uint slot = own_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (slot < control.slots_used && slots[slot].place != kNoPlace) {
         uint place = slots[slot].place;
-        states[place] &= ~kStateMask;
+        atomicAnd(states[active_word(place)], ~state_bit(place));
         orders[place] = slots[slot].order;
     }
 }

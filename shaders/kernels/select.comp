@@ -17,7 +17,7 @@ void settle_point(uint slot, uvec4 record) {}
 #include "../lib/select_idle.glsl"
 
 uvec4 sample_at(uint place, uint order) {
-    float weight1 = weight_of(word_before(states, place) >> kWeightShift);
+    float weight1 = weight_of(word_before(states, words_of_states(push.capacity) + place));
     float weight2 = weight_of(word_at(weights, place));
-    return uvec4(order, face_of(place), floatBitsToUint(weight1), floatBitsToUint(weight2));
+    return uvec4(order, find_unit(place).owner, floatBitsToUint(weight1), floatBitsToUint(weight2));
 }

@@ -7,6 +7,7 @@
 #include "grid.glsl"
 #include "poisson.glsl"
 #include "rng.glsl"
+#include "unit.glsl"
 
 uint words_per_point() { return kDimension; }
 
@@ -69,14 +70,13 @@ uint[kMostAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priori
     return words;
 }
 
-// The candidate with this number, and the words of its sample: its order, its cell, its number there,
-// its stage.
-uint[kMostAxes] draw_point(uint unit, uint number, out uvec4 record) {
-    uint cell = unit / push.stages;
-    uint stage = unit - cell * push.stages;
+// The candidate with this number in its unit, and the words of its sample: its order, its cell, its
+// number there, its stage.
+uint[kMostAxes] draw_point(Unit unit, uint number, out uvec4 record) {
+    uint stage = push.first_stage + unit.stage;
     uint priority;
-    uint point[kMostAxes] = draw_in_cell(cell, push.first_stage + stage, number, priority);
-    record = uvec4(stage << kPriorityBits | priority, cell, number, push.first_stage + stage);
+    uint point[kMostAxes] = draw_in_cell(unit.owner, stage, number, priority);
+    record = uvec4(unit.stage << kPriorityBits | priority, unit.owner, number, stage);
     return point;
 }
 

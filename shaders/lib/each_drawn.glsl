@@ -1,5 +1,5 @@
 // Goes through all candidates by their numbers, kDrawBlock of them to a work group, and calls
-// visit(unit, number) for each.
+// visit(unit, number) for each. An invocation has numbers that follow each other, mostly of one unit.
 #ifndef GEODISK_EACH_DRAWN_GLSL
 #define GEODISK_EACH_DRAWN_GLSL
 
@@ -7,20 +7,29 @@
 
 layout(local_size_x = kWideLanes) in;
 
-void visit(uint unit, uint number);
+void visit(Unit unit, uint number);
 
 void visit_each() {
     uint count = drawn_count();
-    uint begin = own_group() * kDrawBlock;
-    if (begin >= count || count > push.capacity) {
+    uint first = own_group() * kDrawBlock + gl_LocalInvocationID.x * kDrawPerLane;
+    if (first >= count || count > push.capacity) {
         return;
     }
-    uint end = min(begin + kDrawBlock, count);
-    // Few units make up a group.
-    uint low = unit_of(begin, 0u, unit_count());
-    uint high = unit_of(end - 1u, low, unit_count()) + 1u;
-    for (uint number = begin + gl_LocalInvocationID.x; number < end; number += kWideLanes) {
-        visit(unit_of(number, low, high), number);
+    uint last = min(first + kDrawPerLane, count) - 1u;
+    uint units = unit_count();
+    uint at = unit_of(first, 0u, units);
+    uint end = word_at(starts, at + 1u);
+    for (uint number = first; number <= last; ++number) {
+        // Where units have many the next is mostly near.
+        if (number >= end) {
+            ++at;
+            end = word_at(starts, at + 1u);
+        }
+        if (number >= end) {
+            at = unit_of(number, at, units);
+            end = word_at(starts, at + 1u);
+        }
+        visit(load_unit(at), number);
     }
 }
 

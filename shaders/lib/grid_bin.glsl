@@ -8,9 +8,9 @@
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 
-void visit(uint unit, uint number) {
+void visit(Unit unit, uint number) {
     uvec4 record;
-    uint point[kMostAxes] = draw_point(unit, number - word_at(starts, unit), record);
+    uint point[kMostAxes] = draw_point(unit, number - unit.first, record);
     atomicAdd(cells[head_of(point) + 1u], 1u);
 }
 

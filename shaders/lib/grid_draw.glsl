@@ -12,11 +12,12 @@ GEODISK_BUFFER(kBindStates, writeonly, uint, states);
 GEODISK_BUFFER(kBindPoints, writeonly, uint, points);
 GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 
-void visit(uint unit, uint number) {
+#include "draw_states.glsl"
+
+void visit(Unit unit, uint number) {
     uvec4 record;
-    uint point[kMostAxes] = draw_point(unit, number - word_at(starts, unit), record);
+    uint point[kMostAxes] = draw_point(unit, number - unit.first, record);
     uint place = atomicAdd(cells[head_of(point) + 1u], 1u);
-    states[place] = kIdle;
     orders[place] = record.x;
     for (uint i = 0u; i < words_per_point(); ++i) {
         points[i * push.capacity + place] = point[i];
@@ -24,6 +25,9 @@ void visit(uint unit, uint number) {
     points[number_word(place, words_per_point())] = number;
 }
 
-void main() { visit_each(); }
+void main() {
+    draw_states();
+    visit_each();
+}
 
 #endif

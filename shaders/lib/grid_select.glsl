@@ -11,9 +11,9 @@ GEODISK_BUFFER(kBindPoints, , uint, points);
 
 uvec4 sample_at(uint place, uint order) {
     uint number = points[number_word(place, words_per_point())];
-    uint unit = unit_of(number, 0u, unit_count());
+    Unit unit = find_unit(number);
     uvec4 record;
-    draw_point(unit, number - word_at(starts, unit), record);
+    draw_point(unit, number - unit.first, record);
     return record;
 }
 

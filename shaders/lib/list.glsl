@@ -5,16 +5,18 @@
 
 uint list_first; // row of this slot's list
 
-// The counts are how many are listed so far.
-void list_conflict(inout uint idle_count, inout uint active_count, uint place, bool is_active) {
+// The counts are how many are listed so far. The place of one that is not to be listed is written, too, where
+// the next goes: on lavapipe a store is a branch for every lane, which should not hang on chance.
+void list_conflict(inout uint idle_count, inout uint active_count, uint place, bool is_active,
+                   bool is_listed) {
     if (idle_count + active_count >= P.list_capacity) {
-        overflow |= kOverflowConflicts;
+        overflow |= is_listed ? kOverflowConflicts : 0u;
         return;
     }
     uint at = is_active ? active_entry(P.list_capacity, active_count) : idle_count;
     pool[list_first + (at >> 2)][at & 3u] = place;
-    active_count += is_active ? 1u : 0u;
-    idle_count += is_active ? 0u : 1u;
+    active_count += is_listed && is_active ? 1u : 0u;
+    idle_count += is_listed && !is_active ? 1u : 0u;
 }
 
 #endif

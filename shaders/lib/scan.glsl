@@ -3,7 +3,10 @@
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 
+#include "strip.glsl"
+
 uint own_place;
+uint first_weight1; // of all candidates, among `states`
 
 bool scanning() { return lane.scan_place < lane.scan_end || lane.scan_row != lane.scan_row_end; }
 
@@ -57,7 +60,42 @@ float conflict_square(float weight1, float weight2) {
     return rest > 0.0 ? square : 0.0;
 }
 
-// Tests candidates against the operation in flight, no more than a trip may.
+// Candidates of a row of cells, from `first` on and before `end`.
+struct Row {
+    uint first;
+    uint end;
+};
+
+// The row that is next but for so many, or what is left of one that was too long, alone.
+Row load_row(uint number) {
+    bool resumes = lane.scan_place < lane.scan_end;
+    uint ahead = number * lane.scan_stride;
+    bool is_row = !resumes && ahead < lane.scan_row_end - lane.scan_row;
+    uint cell = is_row ? lane.scan_row + ahead : 0u;
+    uint first = word_at(cells, cell);
+    uint end = word_at(cells, cell + (is_row ? lane.scan_columns : 0u));
+    bool is_rest = resumes && number == 0u;
+    return Row(is_rest ? lane.scan_place : first, is_rest ? lane.scan_end : end);
+}
+
+// Candidates that are tested in this trip.
+uint own_strip(Row row, Strip strip, inout uint room, inout bool is_full) {
+    uint count = uint(bitCount(strip.undecided));
+    is_full = is_full || count > room || !scanning();
+    if (is_full) {
+        return 0u;
+    }
+    bool resumes = lane.scan_place < lane.scan_end;
+    lane.scan_row += resumes ? 0u : lane.scan_stride;
+    is_full = resumes || row.end > row.first + 32u;
+    lane.scan_place = min(row.first + 32u, row.end);
+    lane.scan_end = row.end;
+    room -= count;
+    return strip.undecided;
+}
+
+// Tests candidates against the operation in flight, no more than a trip may. Where they are is likely to be
+// far from the caches, so all rows of a trip are fetched before anything hangs on them.
 void scan_some() {
     bool inside = lane.mode == kModeInside;
     uint corner = lane.half_edge % 3u;
@@ -68,34 +106,43 @@ void scan_some() {
     precise float high = (lit.y + P.slack) - sx;
     precise float rest = P.limit - lane.sigma;
     precise float rest2 = rest * rest;
-    for (uint i = 0u; i < kRowsPerTrip && scanning(); ++i) {
-        if (lane.scan_place >= lane.scan_end) {
-            lane.scan_place = word_at(cells, lane.scan_row);
-            lane.scan_end = word_at(cells, lane.scan_row + lane.scan_columns);
-            lane.scan_row += lane.scan_stride;
+    Row row0 = load_row(0u);
+    Row row1 = load_row(1u);
+    Row row2 = load_row(2u);
+    Strip strip0 = load_strip(row0.first, row0.end);
+    Strip strip1 = load_strip(row1.first, row1.end);
+    Strip strip2 = load_strip(row2.first, row2.end);
+    uint room = kScanPerTrip;
+    bool is_full = false;
+    uint left0 = own_strip(row0, strip0, room, is_full);
+    uint left1 = own_strip(row1, strip1, room, is_full);
+    uint left2 = own_strip(row2, strip2, room, is_full);
+    while ((left0 | left1 | left2) != 0u) {
+        bool in0 = left0 != 0u;
+        bool in1 = !in0 && left1 != 0u;
+        uint left = in0 ? left0 : (in1 ? left1 : left2);
+        uint bit = uint(findLSB(left));
+        uint place = (in0 ? row0.first : (in1 ? row1.first : row2.first)) + bit;
+        uint actives = in0 ? strip0.actives : (in1 ? strip1.actives : strip2.actives);
+        left0 = in0 ? left0 & (left0 - 1u) : left0;
+        left1 = in1 ? left1 & (left1 - 1u) : left1;
+        left2 = in0 || in1 ? left2 : left2 & (left2 - 1u);
+        if (place == own_place) {
+            continue;
         }
-        for (uint k = 0u; k < kScanPerRow && lane.scan_place < lane.scan_end; ++k) {
-            uint place = lane.scan_place;
-            ++lane.scan_place;
-            uint word = word_at(states, place);
-            uint state = word & kStateMask;
-            if (state > kActive || place == own_place) {
-                continue;
-            }
-            ++lane.tested;
-            float weight1 = weight_of(word >> kWeightShift);
-            float weight2 = weight_of(word_at(weights, place));
-            vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
-            precise float dx = q.x - sx;
-            precise float dy = q.y - sy;
-            precise float at = dx * lane.y;
-            precise float from = low * dy;
-            precise float to = high * dy;
-            float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
-            if (squared(dx, dy) < limit2 && (inside || (at >= from && at <= to))) {
-                list_conflict(lane.idle_conflicts, lane.active_conflicts, place, state == kActive);
-            }
-        }
+        ++lane.tested;
+        float weight1 = weight_of(word_at(states, first_weight1 + place));
+        float weight2 = weight_of(word_at(weights, place));
+        vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
+        precise float dx = q.x - sx;
+        precise float dy = q.y - sy;
+        precise float at = dx * lane.y;
+        precise float from = low * dy;
+        precise float to = high * dy;
+        float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
+        bool is_active = ((actives >> bit) & 1u) != 0u;
+        bool conflicts = squared(dx, dy) < limit2 && (inside || (at >= from && at <= to));
+        list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active, conflicts);
     }
 }
 

@@ -15,6 +15,7 @@ GEODISK_BUFFER(kBindSamples, readonly, uvec4, samples);
 GEODISK_CONTROL;
 
 #include "schedule.glsl"
+#include "states.glsl"
 
 shared uint group_places[kListRange]; // of candidates that are due
 shared uint group_orders[kListRange];
@@ -39,7 +40,10 @@ void select_settled(uint begin) {
     }
 }
 
-bool is_idle(uint place) { return (word_before(states, place) & kStateMask) == kIdle; }
+// None is active while a batch is selected, but for those of the batch.
+bool is_idle(uint place) {
+    return (word_before(states, undecided_word(place)) & state_bit(place)) != 0u;
+}
 
 void list_one(uint place, uint order) {
     uint head = list_head(range_of(order));
@@ -51,26 +55,24 @@ void list_one(uint place, uint order) {
     }
 }
 
-// Lists the idle ones of a block of all candidates. States lie far apart, so only those are read whose
-// orders matter.
+// Lists the idle ones of a block of all candidates, 32 of them to an invocation at a time.
 void list_idle(uint begin) {
     uint end = min(begin + kSelectBlock, control.drawn);
     uint first_order = control.list_first;
     uint list_end = control.list_end;
-    for (uint first = begin + gl_LocalInvocationID.x; first < end; first += 32u * kSelectLanes) {
-        uint bits = 0u;
-        uint place = first;
-        for (uint i = 0u; i < 32u && place < end; ++i) {
-            uint order = word_before(orders, place);
-            bits |= order >= first_order && order < list_end ? 1u << i : 0u;
-            place += kSelectLanes;
+    for (uint first = begin + 32u * gl_LocalInvocationID.x; first < end; first += 32u * kSelectLanes) {
+        uint idle = word_before(states, undecided_word(first));
+        uint listed = 0u;
+        while (idle != 0u) {
+            uint bit = uint(findLSB(idle));
+            idle &= idle - 1u;
+            uint order = word_before(orders, first + bit);
+            listed |= order >= first_order && order < list_end ? 1u << bit : 0u;
         }
-        while (bits != 0u) {
-            place = first + uint(findLSB(bits)) * kSelectLanes;
-            bits &= bits - 1u;
-            if (is_idle(place)) {
-                list_one(place, word_before(orders, place));
-            }
+        while (listed != 0u) {
+            uint place = first + uint(findLSB(listed));
+            listed &= listed - 1u;
+            list_one(place, word_before(orders, place));
         }
     }
 }
@@ -122,7 +124,7 @@ void give_slots() {
         uint order = group_orders[i];
         if (slot < push.slots) {
             fill_slot(slot, place, sample_at(place, order));
-            states[place] = word_before(states, place) | kActive;
+            atomicOr(states[active_word(place)], state_bit(place));
             orders[place] = slot;
         } else {
             atomicMin(control.first_left, order);

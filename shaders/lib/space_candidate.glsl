@@ -6,6 +6,7 @@
 #include "curve.glsl"
 #include "face_candidate.glsl"
 #include "dimension.glsl"
+#include "unit.glsl"
 
 // kSpaceRows to a face: a row per corner, then their normals; behind the first corner the area, behind
 // the second the key.
@@ -63,11 +64,10 @@ uint[kMostAxes] point_at(Candidate c) {
     return point;
 }
 
-// The candidate with this number, and the words of its sample.
-uint[kMostAxes] draw_point(uint unit, uint number, out uvec4 record) {
-    uint face = unit / push.stages;
-    Candidate c = draw_evenly(face, unit - face * push.stages, number);
-    record = uvec4(c.order, face, floatBitsToUint(weight_of(c.weight1)),
+// The candidate with this number in its unit, and the words of its sample.
+uint[kMostAxes] draw_point(Unit unit, uint number, out uvec4 record) {
+    Candidate c = draw_evenly(unit.owner, unit.stage, number);
+    record = uvec4(c.order, unit.owner, floatBitsToUint(weight_of(c.weight1)),
                    floatBitsToUint(weight_of(c.weight2)));
     return point_at(c);
 }

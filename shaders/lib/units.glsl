@@ -1,15 +1,16 @@
-// What candidates are drawn by: a face or a cell of a box, in one stage, is a unit. The units of a face
-// follow each other, stage by stage. Candidates are numbered unit by unit, and without larger faces
-// to sort they lie in memory that way.
+// The units of a face or cell follow each other, stage by stage. Candidates are numbered unit by unit, and
+// without larger faces to sort they lie in memory that way.
 #ifndef GEODISK_UNITS_GLSL
 #define GEODISK_UNITS_GLSL
+
+#include "unit.glsl"
 
 GEODISK_WORDS(kBindStarts, starts);
 
 uint unit_count() { return push.faces * push.stages; }
 uint drawn_count() { return word_at(starts, unit_count()); }
 
-// The unit of the candidate with this number, from `low` on and before `high`.
+// The number of the unit of the candidate with this number, from `low` on and before `high`.
 uint unit_of(uint number, uint low, uint high) {
     while (low + 1u < high) {
         uint middle = (low + high) >> 1;
@@ -20,7 +21,20 @@ uint unit_of(uint number, uint low, uint high) {
     return low;
 }
 
-// The face of the candidate with this number.
-uint face_of(uint number) { return unit_of(number, 0u, unit_count()) / push.stages; }
+// By a product, of which at most 2 are missing: lavapipe divides lane by lane.
+Unit load_unit(uint unit) {
+    uint owner, low;
+    umulExtended(unit, 0xffffffffu / push.stages, owner, low);
+    uint stage = unit - owner * push.stages;
+    for (uint i = 0u; i < 2u; ++i) {
+        bool is_missing = stage >= push.stages;
+        owner += is_missing ? 1u : 0u;
+        stage -= is_missing ? push.stages : 0u;
+    }
+    return Unit(owner, stage, word_at(starts, unit));
+}
+
+// The unit of the candidate with this number.
+Unit find_unit(uint number) { return load_unit(unit_of(number, 0u, unit_count())); }
 
 #endif

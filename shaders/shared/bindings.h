@@ -22,8 +22,8 @@ GEODISK_CONST uint kBindKeys = 2u;       // a word per face, where the caller gi
 GEODISK_CONST uint kBindCells = 3u;      // the place where each cell's candidates start, and one past
                                          // the last. Of a mesh whose faces are all of one cell that
                                          // is kBindStarts.
-GEODISK_CONST uint kBindStates = 4u;     // a word per candidate, by place: its state and the weight of
-                                         // its face's second corner
+GEODISK_CONST uint kBindStates = 4u;     // two bits per candidate, by place: its state; on surfaces
+                                         // then a word each, the weight of its face's second corner
 GEODISK_CONST uint kBindWeights = 5u;    // likewise the weight of the third corner, in units of 2^-24
 GEODISK_CONST uint kBindPoints = kBindWeights; // the same: coordinates of the candidates, by place,
                                          // axis after axis; where lengths of curves are taken, then

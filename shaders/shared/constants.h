@@ -7,16 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 14u;
-
-// State of a candidate: the two low bits of its state word.
-GEODISK_CONST uint kIdle = 0u;
-GEODISK_CONST uint kActive = 1u;
-GEODISK_CONST uint kAccepted = 2u;
-GEODISK_CONST uint kRejected = 3u;
-GEODISK_CONST uint kStateMask = 3u;
-// The first weight sits above this many bits of the state word, in units of 2^-24.
-GEODISK_CONST uint kWeightShift = 8u;
+GEODISK_CONST uint kAbi = 15u;
 
 // Where radii vary: proposals of which a candidate takes the first that is kept, or the last.
 GEODISK_CONST uint kMostProposals = 1024u;
@@ -136,11 +127,11 @@ GEODISK_CONST uint kTagMask = 0xc0000000u;
 GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
 GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
 GEODISK_CONST uint kRowsPerTrip = 3u;      // of cells
-GEODISK_CONST uint kScanPerRow = 12u;      // candidates
+GEODISK_CONST uint kScanPerTrip = 32u;     // candidates
 GEODISK_CONST uint kKeptPerEdge = 4u;      // windows to compare others with, see lib/trim.glsl
 // Together: an event taken and two vertices reached, two children left and pushed, kept windows.
 GEODISK_CONST uint kIterationsPerTrip = 1u + kCornersPerTrip + 3u * kMostProbes + 6u +
-                                        (kKeptPerEdge + 1u) + kRowsPerTrip * (1u + kScanPerRow);
+                                        (kKeptPerEdge + 1u) + kScanPerTrip;
 // A step: once every few trips a lane that is done takes its next slot.
 GEODISK_CONST uint kTripsPerStep = 16u;
 GEODISK_CONST uint kClearPerStep = 64u;    // rows of the vertex table
@@ -215,8 +206,8 @@ GEODISK_CONST uint kSpecTrims = 10u;  // disks that make very many windows trim 
 // Candidates that a work group of the kernels per candidate draws or looks at: so many lanes, so
 // many each, side by side.
 GEODISK_CONST uint kWideLanes = 128u;
-GEODISK_CONST uint kDrawPerLane = 8u;
-GEODISK_CONST uint kDrawBlock = 1024u;
+GEODISK_CONST uint kDrawPerLane = 16u;
+GEODISK_CONST uint kDrawBlock = 2048u;
 // Of select: few lanes, since most of a group's have no candidate to put into a slot.
 GEODISK_CONST uint kSelectLanes = 32u;
 GEODISK_CONST uint kSelectBlock = 4096u;

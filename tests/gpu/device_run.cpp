@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/plan.hpp"
+#include "kernels/resolve.hpp"
 #include "vk/barriers.hpp"
 
 namespace geodisk::test {
@@ -105,6 +106,21 @@ std::vector<gpu::SlotRec> slots_of(const DeviceRun& run) {
     return run.read<gpu::SlotRec>(BufferRole::control, run.plan().slots, sizeof(gpu::ControlRec));
 }
 
+std::vector<PlaceState> states_of(const DeviceRun& run, std::size_t count) {
+    const auto words = run.read<std::uint32_t>(BufferRole::states, (count + 31) / 32 * 2);
+    std::vector<PlaceState> states(count);
+    for (std::size_t place = 0; place < count; ++place) {
+        const std::uint32_t bit = 1u << place % 32;
+        const bool is_undecided = (words[place / 32 * 2] & bit) != 0;
+        const bool is_active = (words[place / 32 * 2 + 1] & bit) != 0;
+        CHECK((is_undecided || !is_active));
+        states[place] = is_active      ? PlaceState::active
+                        : is_undecided ? PlaceState::idle
+                                       : PlaceState::decided;
+    }
+    return states;
+}
+
 std::vector<std::uint32_t> listed(const DeviceRun& run, std::size_t index, std::uint32_t rank,
                                   const std::vector<std::uint32_t>& by_place) {
     const RunPlan& plan = run.plan();
@@ -148,10 +164,13 @@ bool decide_batch(DeviceRun& run) {
 
 std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
                            const std::vector<std::uint32_t>& by_place) {
-    const auto on_device = run.read<std::uint32_t>(BufferRole::states, by_place.size());
+    const auto on_device = states_of(run, by_place.size());
     std::uint32_t wrong = 0;
     for (std::uint32_t place = 0; place < on_device.size(); ++place) {
-        wrong += (on_device[place] & gpu::kStateMask) != states[by_place[place]];
+        const std::uint8_t state = states[by_place[place]];
+        wrong += on_device[place] != (state == ref::kIdle     ? PlaceState::idle
+                                      : state == ref::kActive ? PlaceState::active
+                                                              : PlaceState::decided);
     }
     return wrong;
 }

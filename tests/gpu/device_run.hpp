@@ -103,6 +103,11 @@ RunPlan tightened(RunPlan plan);
 /// no candidate is left. Requires that nothing overflows.
 bool decide_batch(DeviceRun& run);
 
+enum class PlaceState : std::uint8_t { idle, active, decided };
+
+/// Of the first candidates by place, so many.
+std::vector<PlaceState> states_of(const DeviceRun& run, std::size_t count);
+
 /// How many candidates have another state on the device than in `states`, which are by rank.
 std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
                            const std::vector<std::uint32_t>& by_place);

@@ -112,7 +112,7 @@ struct Twin {
     Twin(const BoxParams& of, std::uint32_t capacity)
         : box(of), candidates(ref::draw_in_box(of)),
           pool(ref::BoxLattice(of), candidates.points, kBoxGuard, capacity), detector(pool),
-          states(candidates.words.size(), gpu::kIdle) {}
+          states(candidates.words.size(), ref::kIdle) {}
 
     /// The conflicts of higher rank.
     std::vector<std::uint32_t> disk(std::uint32_t rank) {
@@ -120,7 +120,7 @@ struct Twin {
         std::uint32_t all = 0;
         const ref::BoxDiskCount count = detector.run(
             pool.places[rank],
-            [&](std::uint32_t place) { return states[pool.order[place]] <= gpu::kActive; },
+            [&](std::uint32_t place) { return states[pool.order[place]] <= ref::kActive; },
             [&](std::uint32_t place) {
                 ++all;
                 if (pool.order[place] > rank) {
@@ -140,7 +140,7 @@ struct Twin {
         std::vector<std::uint32_t> ranks;
         for (std::uint32_t rank = 0; rank < states.size(); ++rank) {
             const std::uint32_t word = candidates.words[rank];
-            if (states[rank] == gpu::kIdle && word >= first && word < end) {
+            if (states[rank] == ref::kIdle && word >= first && word < end) {
                 ranks.push_back(rank);
             }
         }
@@ -173,7 +173,7 @@ std::vector<std::uint32_t> compare_pool(const DeviceRun& run, const Twin& twin) 
     const std::size_t capacity = run.push().capacity;
     const auto points = run.read<std::uint32_t>(BufferRole::weights, capacity * dimension);
     const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
-    const auto states = run.read<std::uint32_t>(BufferRole::states, count);
+    const auto states = states_of(run, count);
     std::vector<std::uint32_t> by_place(count, kNoRank);
     std::uint32_t wrong = 0;
     for (std::uint32_t place = 0; place < count; ++place) {
@@ -182,7 +182,8 @@ std::vector<std::uint32_t> compare_pool(const DeviceRun& run, const Twin& twin) 
             point[i] = points[i * capacity + place];
         }
         const std::uint32_t head = twin.pool.table.head_of(point);
-        wrong += states[place] != gpu::kIdle || place < starts[head] || place >= starts[head + 1];
+        wrong +=
+            states[place] != PlaceState::idle || place < starts[head] || place >= starts[head + 1];
         const auto found = ranks.find({orders[place], point});
         REQUIRE(found != ranks.end());
         by_place[place] = found->second;
@@ -198,7 +199,7 @@ void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint
     const gpu::ControlRec control = run.control();
     const auto batch = twin.idle_between(first, control.first_order);
     for (const std::uint32_t rank : batch) {
-        twin.states[rank] = gpu::kActive;
+        twin.states[rank] = ref::kActive;
     }
     std::vector<std::vector<std::uint32_t>> conflicts;
     std::map<std::uint32_t, std::size_t> index_of;
@@ -249,8 +250,8 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     run.finish();
     std::vector<std::uint32_t> want;
     for (std::uint32_t rank = 0; rank < twin.states.size(); ++rank) {
-        REQUIRE(twin.states[rank] > gpu::kActive);
-        if (twin.states[rank] == gpu::kAccepted) {
+        REQUIRE(twin.states[rank] > ref::kActive);
+        if (twin.states[rank] == ref::kAccepted) {
             want.push_back(rank);
         }
     }

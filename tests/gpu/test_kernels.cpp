@@ -8,6 +8,7 @@
 
 #include "constants.h"
 #include "device_run.hpp"
+#include "engine/plan.hpp"
 #include "engine/stages.hpp"
 #include "engine/tolerances.hpp"
 #include "kernels/count_calls.hpp"
@@ -36,14 +37,14 @@ struct Twin {
           ranks(pool.ranks()),
           detector(surface, pool.bins, ErrorModel(mesh, params).tolerances(error_bound),
                    ErrorModel(mesh, params).tolerances(error_bound).limit),
-          states(pool.size(), gpu::kIdle) {}
+          states(pool.size(), ref::kIdle) {}
 
     /// `conflicts` are those of higher rank, `above` the active ones of lower rank.
     ref::DiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts,
                         std::vector<std::uint32_t>& above) {
         const auto count = detector.run(
             pool.candidate(rank),
-            [&](std::uint32_t q) { return ranks[q] != rank && states[ranks[q]] <= gpu::kActive; },
+            [&](std::uint32_t q) { return ranks[q] != rank && states[ranks[q]] <= ref::kActive; },
             [&](std::uint32_t q, float) {
                 // What an active one of lower rank decides about this one is for that one to say.
                 (ranks[q] > rank ? conflicts : above).push_back(ranks[q]);
@@ -58,7 +59,7 @@ struct Twin {
     ref::DiskCount disk(const gpu::SampleRec& sample, std::vector<std::uint32_t>& conflicts) {
         const auto count = detector.run(
             {sample.face, sample.weight1, sample.weight2},
-            [&](std::uint32_t q) { return states[ranks[q]] == gpu::kIdle; },
+            [&](std::uint32_t q) { return states[ranks[q]] == ref::kIdle; },
             [&](std::uint32_t q, float) { conflicts.push_back(ranks[q]); });
         std::sort(conflicts.begin(), conflicts.end());
         return count;
@@ -74,7 +75,7 @@ struct Twin {
         std::vector<std::uint32_t> found;
         for (std::uint32_t rank = 0; rank < states.size(); ++rank) {
             const std::uint32_t order = pool.word(rank);
-            if (order >= first_order && order < end_order && states[rank] == gpu::kIdle) {
+            if (order >= first_order && order < end_order && states[rank] == ref::kIdle) {
                 found.push_back(rank);
             }
         }
@@ -122,8 +123,10 @@ float weight(std::uint32_t steps) {
 std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& twin) {
     const std::uint32_t count = twin.pool.size();
     REQUIRE(run.control().drawn == count);
-    const auto states = run.read<std::uint32_t>(BufferRole::states, count);
-    const auto weights = run.read<std::uint32_t>(BufferRole::weights, count);
+    const auto states = states_of(run, count);
+    const auto weights1 =
+        run.read<std::uint32_t>(BufferRole::states, count, state_words(run.push().capacity) * 4);
+    const auto weights2 = run.read<std::uint32_t>(BufferRole::weights, count);
     const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
     const std::vector<std::uint32_t>& starts = twin.pool.bins.starts;
     if (run.push().all_single == 0) {
@@ -135,9 +138,9 @@ std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& 
     for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
         std::vector<Key> here, want;
         for (std::uint32_t place = starts[c]; place < starts[c + 1]; ++place) {
-            wrong += (states[place] & gpu::kStateMask) != gpu::kIdle;
-            here.emplace_back(orders[place], weight(states[place] >> gpu::kWeightShift),
-                              weight(weights[place]), place);
+            wrong += states[place] != PlaceState::idle;
+            here.emplace_back(orders[place], weight(weights1[place]), weight(weights2[place]),
+                              place);
             const ref::FacePoint<float>& point = twin.pool.bins.points[place];
             want.emplace_back(twin.pool.words[place], point.weight1, point.weight2, place);
         }
@@ -161,7 +164,7 @@ void compare_calls(const DeviceRun& run, const Twin& twin, const std::vector<std
                    std::vector<std::vector<std::uint32_t>> above, CallHistogram& all) {
     std::vector<std::uint8_t> accepted;
     for (std::size_t i = 0; i < batch.size(); ++i) {
-        accepted.push_back(twin.states[batch[i]] == gpu::kAccepted ? 1 : 0);
+        accepted.push_back(twin.states[batch[i]] == ref::kAccepted ? 1 : 0);
         for (std::uint32_t& rank : above[i]) {
             rank = static_cast<std::uint32_t>(std::lower_bound(batch.begin(), batch.end(), rank) -
                                               batch.begin());
@@ -190,7 +193,7 @@ void compare_batch(const DeviceRun& run, Twin& twin, std::uint32_t first_order,
     REQUIRE(batch.size() <= run.plan().slots);
     const std::vector<gpu::SlotRec> slots = slots_of(run);
     for (const std::uint32_t rank : batch) {
-        twin.states[rank] = gpu::kActive;
+        twin.states[rank] = ref::kActive;
     }
     std::vector<std::vector<std::uint32_t>> conflicts(batch.size());
     std::vector<std::vector<std::uint32_t>> above(batch.size());
@@ -222,7 +225,7 @@ void compare_samples(const DeviceRun& run, const Twin& twin, std::vector<gpu::Sa
     const gpu::ControlRec control = run.control();
     const auto samples = run.read<gpu::SampleRec>(BufferRole::samples, control.accepted);
     for (std::uint32_t rank = 0; rank < twin.states.size(); ++rank) {
-        if (twin.states[rank] == gpu::kAccepted) {
+        if (twin.states[rank] == ref::kAccepted) {
             want.push_back(twin.sample(rank));
         }
     }

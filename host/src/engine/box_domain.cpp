@@ -49,7 +49,7 @@ GridDomain::GridDomain(BoxParams box, const DrawAxes& lattice, std::uint32_t wor
     error = ErrorModel(guard);
     kernels.dimension = static_cast<std::uint32_t>(box_.extents.size());
     seed = box_.seed;
-    bytes_per_candidate = (3 + words_per_point + 2 * kHeadsPerCandidate) * 4;
+    bytes_per_candidate = (2 + words_per_point + 2 * kHeadsPerCandidate) * 4 + 1;
     has_lane_per_slot = true;
 }
 

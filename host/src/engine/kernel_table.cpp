@@ -90,11 +90,8 @@ constexpr Binding kDetect[] = {
 constexpr Binding kResolve[] = {{kBindStates, storage}, {kBindOrders, storage},
                                 {kBindPool, storage},   {kBindControl, storage},
                                 {kBindList, storage},   {kBindAccepted, storage}};
-constexpr Binding kCountCalls[] = {{kBindStates, storage},
-                                   {kBindOrders, storage},
-                                   {kBindPool, storage},
-                                   {kBindControl, storage},
-                                   {kBindList, storage}};
+constexpr Binding kCountCalls[] = {
+    {kBindOrders, storage}, {kBindPool, storage}, {kBindControl, storage}, {kBindList, storage}};
 constexpr Binding kRewind[] = {
     {kBindStates, storage}, {kBindOrders, storage}, {kBindControl, storage}};
 constexpr Binding kResume[] = {{kBindControl, storage}, {kBindList, storage}};
@@ -103,10 +100,8 @@ constexpr Binding kOrderCount[] = {
     {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
 constexpr Binding kOrderPlace[] = {
     {kBindControl, storage}, {kBindAccepted, read}, {kBindBuckets, storage}};
-constexpr Binding kOrderWrite[] = {{kBindControl, storage},
-                                   {kBindSamples, storage},
-                                   {kBindAccepted, read},
-                                   {kBindBuckets, read}};
+constexpr Binding kOrderWrite[] = {
+    {kBindControl, storage}, {kBindSamples, storage}, {kBindAccepted, read}, {kBindBuckets, read}};
 constexpr Binding kPlace[] = {{kBindFans, storage},     {kBindKeys, storage},
                               {kBindControl, storage},  {kBindSamples, storage},
                               {kBindVertices, storage}, {kBindIndices, storage},

@@ -188,6 +188,10 @@ std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) 
     return std::clamp(wanted, kLeastIdle, gpu::kMostListed);
 }
 
+std::uint64_t state_words(std::uint32_t candidates) noexcept {
+    return ((std::uint64_t{candidates} + 31) / 32 + 1) * 2;
+}
+
 RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     const auto replace = [](std::uint32_t& field, std::uint32_t value) {
         field = value != 0 ? value : field;
@@ -307,7 +311,7 @@ Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
     const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
     WorkspaceNeeds needs;
     needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
-    needs.bytes[gpu::kBindStates] = std::uint64_t{candidates} * 4;
+    needs.bytes[gpu::kBindStates] = state_words(candidates) * 4;
     needs.bytes[gpu::kBindOrders] = std::uint64_t{candidates} * 4;
     needs.bytes[gpu::kBindStarts] = starts * 4;
     needs.bytes[gpu::kBindPool] = plan.pool_bytes();

@@ -167,7 +167,8 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
 }
 
 std::uint64_t SurfaceDomain::most_candidates(const DeviceLimits& limits, std::uint32_t) const {
-    return limits.max_storage_buffer_range / 4;
+    // States are the largest buffer: a weight each, and two bits.
+    return (limits.max_storage_buffer_range - 16) / 17 * 4;
 }
 
 void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
@@ -214,6 +215,7 @@ void SurfaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
     for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::keys}) {
         needs.bytes[static_cast<std::size_t>(role)] = upload_size(role);
     }
+    needs.bytes[gpu::kBindStates] += std::uint64_t{candidates} * 4;
     needs.bytes[gpu::kBindWeights] = std::uint64_t{candidates} * 4;
 }
 

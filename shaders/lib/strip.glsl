@@ -1,0 +1,27 @@
+// Up to 32 candidates that follow each other in memory, as bits from the first on. Needs `states`.
+#ifndef GEODISK_STRIP_GLSL
+#define GEODISK_STRIP_GLSL
+
+#include "states.glsl"
+
+struct Strip {
+    uint first;
+    uint undecided;
+    uint actives;
+};
+
+// Those from `first` on and before `end`, as many as there is room for. It may lie across two words.
+Strip load_strip(uint first, uint end) {
+    uint word = undecided_word(first);
+    uint skipped = first & 31u;
+    uint undecided = word_at(states, word) >> skipped;
+    uint actives = word_at(states, word + 1u) >> skipped;
+    // In two steps, since none may be of 32 bits.
+    uint rest = word_at(states, word + 2u) << (31u - skipped);
+    uint actives_rest = word_at(states, word + 3u) << (31u - skipped);
+    uint left = first < end ? end - first : 0u;
+    uint within = left < 32u ? (1u << left) - 1u : 0xffffffffu;
+    return Strip(first, (undecided | rest << 1) & within, actives | actives_rest << 1);
+}
+
+#endif
