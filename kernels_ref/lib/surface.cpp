@@ -61,8 +61,9 @@ void Surface<Real>::place_edges(const PreparedMesh& mesh) {
     for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
         const HalfEdge& e = mesh.half_edges()[h];
         const Real previous = scaled(mesh.half_edges()[geodisk::previous_in_face(h)].length);
-        const Real cosine = direction(e.cosine);
-        const Real sine = direction(e.sine);
+        const Direction angle = e.angle();
+        const Real cosine = direction(angle.cosine);
+        const Real sine = direction(angle.sine);
         edges.push_back({scaled(e.length), previous * cosine, previous * sine, cosine, sine,
                          e.origin, e.around, e.fan_angles});
     }

@@ -98,9 +98,10 @@ void check_frames(const PreparedMesh& mesh, double exactness) {
         REQUIRE(edge.apex_y >= 0);
         REQUIRE(std::abs(std::hypot(edge.apex_x, edge.apex_y) - previous) <= unit);
         REQUIRE(std::abs(std::hypot(edge.length - edge.apex_x, edge.apex_y) - next) <= unit);
-        REQUIRE(std::abs(edge.cosine * previous - edge.apex_x) <= unit);
-        REQUIRE(std::abs(edge.sine * previous - edge.apex_y) <= unit);
-        REQUIRE(std::abs(edge.cosine * edge.cosine + edge.sine * edge.sine - 1) <= 1e-15);
+        const auto [cosine, sine] = edge.angle();
+        REQUIRE(std::abs(cosine * previous - edge.apex_x) <= unit);
+        REQUIRE(std::abs(sine * previous - edge.apex_y) <= unit);
+        REQUIRE(std::abs(cosine * cosine + sine * sine - 1) <= 1e-15);
         const double area = edge.length * edge.apex_y;
         REQUIRE(std::abs(area - next * half_edges[next_in_face(h)].apex_y) <=
                 unit * unit / exactness);
@@ -198,7 +199,8 @@ TEST_CASE("frames: a triangle of sides 3, 4 and 5") {
     const double expected[3][5] = {{3, 0, 4, 0, 1}, {5, 1.8, 2.4, 0.6, 0.8}, {4, 4, 3, 0.8, 0.6}};
     for (std::uint32_t h = 0; h < 3; ++h) {
         const HalfEdge& edge = mesh.half_edges()[h];
-        const double found[5] = {edge.length, edge.apex_x, edge.apex_y, edge.cosine, edge.sine};
+        const double found[5] = {edge.length, edge.apex_x, edge.apex_y, edge.angle().cosine,
+                                 edge.angle().sine};
         for (std::size_t i = 0; i < 5; ++i) {
             CHECK(std::abs(found[i] - expected[h][i]) <= 1e-15);
         }
@@ -373,8 +375,8 @@ TEST_CASE("dimensions: an isometric lift changes no length") {
             REQUIRE(std::abs(a.length - b.length) <= 1e-15);
             REQUIRE(std::abs(a.apex_x - b.apex_x) <= 2e-15);
             REQUIRE(std::abs(a.apex_y - b.apex_y) <= 2e-15);
-            REQUIRE(std::abs(a.cosine - b.cosine) <= 1e-13);
-            REQUIRE(std::abs(a.sine - b.sine) <= 1e-13);
+            REQUIRE(std::abs(a.angle().cosine - b.angle().cosine) <= 1e-13);
+            REQUIRE(std::abs(a.angle().sine - b.angle().sine) <= 1e-13);
             REQUIRE(a.around == b.around);
         }
         CHECK(lift.statistics().area == doctest::Approx(1).epsilon(1e-12));

@@ -75,7 +75,7 @@ bool in_rotational_order(const PreparedMesh& mesh, std::span<const std::uint32_t
 }
 
 double angle_of(const HalfEdge& edge) {
-    return std::atan2(edge.sine, edge.cosine) * kUnits;
+    return std::atan2(edge.angle().sine, edge.angle().cosine) * kUnits;
 }
 
 /// Starts and sizes of the corners cover their angles, rounded outwards by at most a unit.

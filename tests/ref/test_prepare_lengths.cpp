@@ -127,7 +127,7 @@ TEST_CASE("lengths: a face that only just closes has no area and lies on a line"
             CHECK(std::abs(edges[k].apex_x) ==
                   doctest::Approx(edges[(k + 2) % 3].length).epsilon(1e-15));
             CHECK(edges[k].apex_y == 0);
-            CHECK(edges[k].sine == 0);
+            CHECK(edges[k].angle().sine == 0);
         }
         CHECK(edges[0].apex_x == doctest::Approx(3 * (1 + excess)));
         CHECK(edges[1].apex_x == doctest::Approx(-1.0));

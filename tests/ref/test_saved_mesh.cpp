@@ -72,7 +72,8 @@ void check_sound(const PreparedMesh& mesh) {
     for (std::uint32_t h = 0; h < count; ++h) {
         const HalfEdge& edge = mesh.half_edges()[h];
         REQUIRE(edge.origin < mesh.vertex_count());
-        REQUIRE(std::isfinite(edge.length + edge.apex_x + edge.apex_y + edge.cosine + edge.sine));
+        REQUIRE(std::isfinite(edge.length + edge.apex_x + edge.apex_y + edge.angle().cosine +
+                              edge.angle().sine));
         std::size_t steps = 0;
         for (std::uint32_t g = around_half_edge(edge.around); g != h; ++steps) {
             REQUIRE(g < count);

@@ -13,8 +13,8 @@ std::uint64_t bits(double x) {
 }
 
 auto fields(const HalfEdge& e) {
-    return std::tuple(bits(e.length), bits(e.apex_x), bits(e.apex_y), bits(e.cosine), bits(e.sine),
-                      e.origin, e.around, e.fan_angles);
+    return std::tuple(bits(e.length), bits(e.apex_x), bits(e.apex_y), e.origin, e.around,
+                      e.fan_angles);
 }
 
 auto fields(const VertexFan& fan) {

@@ -14,6 +14,11 @@
 
 namespace geodisk {
 
+/// Cosine and sine of an angle.
+struct Direction {
+    double cosine, sine;
+};
+
 /// One half-edge, `h = 3 * face + corner`, running from that corner to the next one of its face.
 ///
 /// Its frame has the origin at the start, x along the edge and the face in y >= 0. Lengths are in
@@ -21,11 +26,13 @@ namespace geodisk {
 struct HalfEdge {
     double length;
     double apex_x, apex_y;    ///< The face's third corner in this frame; apex_y >= 0.
-    double cosine, sine;      ///< Of the face's angle at the origin.
     std::uint32_t origin;     ///< Vertex the half-edge starts from.
     std::uint32_t around;     ///< Next half-edge of the same undirected edge, see `around_*`.
     std::uint32_t fan_angles; ///< The corner at the origin within its vertex's fan: start in the
                               ///< low 16 bits, size in the high ones, units of 2^-13 radian.
+
+    /// Of the face's angle at the origin; {1, 0} where the third corner is the origin.
+    GEODISK_API Direction angle() const noexcept;
 };
 
 /// `HalfEdge::around` packs the next half-edge around the same undirected edge (itself on a border,

@@ -70,7 +70,7 @@ Grid face_grid(const PreparedMesh& mesh, const SampleParams& params, std::uint32
         corner = scaled(edges[k].length, unit) > scaled(edges[corner].length, unit) ? k : corner;
     }
     const float height =
-        previous_length(mesh, 3 * face + corner, unit) * direction(edges[corner].sine);
+        previous_length(mesh, 3 * face + corner, unit) * direction(edges[corner].angle().sine);
     return {cell_count(scaled(edges[corner].length, unit), per_unit), cell_count(height, per_unit),
             corner};
 }
@@ -150,7 +150,7 @@ Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
 
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
-    const float height = previous_length(mesh, 3 * face, unit) * direction(edge.sine);
+    const float height = previous_length(mesh, 3 * face, unit) * direction(edge.angle().sine);
     return 0.5f * (scaled(edge.length, unit) * height);
 }
 
@@ -185,8 +185,9 @@ void write_half_edges(PlacedSurfaces surfaces, std::span<std::byte> out) {
         for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
             const HalfEdge& e = mesh.half_edges()[h];
             const bool bends = (mesh.fans()[e.origin].flags & gpu::kFanBends) != 0;
+            const Direction angle = e.angle();
             store(own, h,
-                  gpu::HalfEdgeRec{direction(e.cosine), direction(e.sine),
+                  gpu::HalfEdgeRec{direction(angle.cosine), direction(angle.sine),
                                    (e.origin + surface.first_vertex) |
                                        (bends ? gpu::kOriginBends : 0u) |
                                        (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u),

@@ -90,7 +90,6 @@ void place_face(const Vertex<kAxes> (&corners)[3], HalfEdge (&edges)[3]) {
         const Vertex<kAxes>& b = corners[(k + 1) % 3];
         edges[k].length = distance(a, b);
         place_apex(a, b, corners[(k + 2) % 3], edges[k]);
-        place_angle(edges[k]);
     }
 }
 
@@ -191,11 +190,10 @@ void place_apex(double next, double previous, double twice_area, HalfEdge& edge)
 
 } // namespace
 
-void place_angle(HalfEdge& edge) {
+Direction HalfEdge::angle() const noexcept {
     // Not std::hypot: its last bit differs between C libraries.
-    const double left = std::sqrt(edge.apex_x * edge.apex_x + edge.apex_y * edge.apex_y);
-    edge.cosine = left > 0 ? edge.apex_x / left : 1;
-    edge.sine = left > 0 ? edge.apex_y / left : 0;
+    const double left = std::sqrt(apex_x * apex_x + apex_y * apex_y);
+    return left > 0 ? Direction{apex_x / left, apex_y / left} : Direction{1, 0};
 }
 
 double add_face(bool takes_part, const HalfEdge (&edges)[3], MeshStatistics& block) {
@@ -240,7 +238,6 @@ void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
                       edges[k].length = lengths[k];
                       place_apex(lengths[next_in_face(k)], lengths[previous_in_face(k)], twice_area,
                                  edges[k]);
-                      place_angle(edges[k]);
                   }
               });
 }

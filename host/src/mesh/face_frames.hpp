@@ -23,9 +23,6 @@ void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
                  UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
                  MeshStatistics& statistics);
 
-/// Fills in the angle of a half-edge's frame, of which it has the rest.
-void place_angle(HalfEdge& edge);
-
 /// Adds a face to the statistics of its block of faces. Returns its area.
 double add_face(bool takes_part, const HalfEdge (&edges)[3], MeshStatistics& block);
 

@@ -247,7 +247,7 @@ class Loader {
         for (std::size_t k = 0; k < 3; ++k) {
             const Link& link = links_[3 * f + k];
             const Shape shape = shapes_[3 * f + k];
-            edges[k] = {shape.length, shape.apex_x, shape.apex_y, 0, 0,
+            edges[k] = {shape.length, shape.apex_x, shape.apex_y,
                         link.origin,  link.around,  link.angle};
             if (link.origin >= header_.vertices) {
                 return false;
@@ -255,9 +255,6 @@ class Loader {
         }
         if (!takes_part(face_of(f))) {
             return is_empty(edges[0]) && is_empty(edges[1]) && is_empty(edges[2]);
-        }
-        for (HalfEdge& edge : edges) {
-            place_angle(edge);
         }
         if (!frames_agree(edges)) {
             return false;

@@ -71,7 +71,8 @@ std::optional<Step> next_step(std::span<const Link> links, std::uint32_t v, Step
 } // namespace
 
 std::uint32_t pack_corner_angle(const HalfEdge& from, const HalfEdge& to) {
-    const long angle = std::lround(std::atan2(from.sine, from.cosine) * 0x1p20);
+    const Direction direction = from.angle();
+    const long angle = std::lround(std::atan2(direction.sine, direction.cosine) * 0x1p20);
     return static_cast<std::uint32_t>(angle) |
            (at_short_side(from.length, to.length) ? kShortSide : 0u);
 }
