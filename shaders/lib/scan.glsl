@@ -66,6 +66,8 @@ struct Row {
     uint end;
 };
 
+layout(constant_id = kSpecManyRows) const bool kManyRows = false;
+
 // The row that is next but for so many, or what is left of one that was too long, alone.
 Row load_row(uint number) {
     bool resumes = lane.scan_place < lane.scan_end;
@@ -107,16 +109,28 @@ void scan_some() {
     precise float rest = P.limit - lane.sigma;
     precise float rest2 = rest * rest;
     Row row0 = load_row(0u);
-    Row row1 = load_row(1u);
-    Row row2 = load_row(2u);
+    Row row1 = Row(0u, 0u);
+    Row row2 = row1;
+    if (kManyRows) {
+        row1 = load_row(1u);
+        row2 = load_row(2u);
+    }
     Strip strip0 = load_strip(row0.first, row0.end);
-    Strip strip1 = load_strip(row1.first, row1.end);
-    Strip strip2 = load_strip(row2.first, row2.end);
+    Strip strip1 = Strip(0u, 0u, 0u);
+    Strip strip2 = strip1;
+    if (kManyRows) {
+        strip1 = load_strip(row1.first, row1.end);
+        strip2 = load_strip(row2.first, row2.end);
+    }
     uint room = kScanPerTrip;
     bool is_full = false;
     uint left0 = own_strip(row0, strip0, room, is_full);
-    uint left1 = own_strip(row1, strip1, room, is_full);
-    uint left2 = own_strip(row2, strip2, room, is_full);
+    uint left1 = 0u;
+    uint left2 = 0u;
+    if (kManyRows) {
+        left1 = own_strip(row1, strip1, room, is_full);
+        left2 = own_strip(row2, strip2, room, is_full);
+    }
     while ((left0 | left1 | left2) != 0u) {
         bool in0 = left0 != 0u;
         bool in1 = !in0 && left1 != 0u;

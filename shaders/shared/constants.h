@@ -202,6 +202,7 @@ GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
 GEODISK_CONST uint kSpecEventHeap = 8u; // vertex events wait in a heap, else in a ring
 GEODISK_CONST uint kSpecSeveral = 9u; // surfaces, each with a seed, a density and stages of its own
 GEODISK_CONST uint kSpecTrims = 10u;  // disks that make very many windows trim them
+GEODISK_CONST uint kSpecManyRows = 11u; // faces have several rows of cells
 
 // Candidates that a work group of the kernels per candidate draws or looks at: so many lanes, so
 // many each, side by side.

@@ -39,8 +39,8 @@ std::string text_of(const KernelVariant& variant) {
                            (variant.adaptive ? "varying radii" : "one radius");
     switch (variant.domain) {
     case DomainKind::surface:
-        return surfaces + (variant.event_heap ? ", heap" : ", ring") +
-               (variant.trims ? ", trimming" : "");
+        return surfaces + (variant.many_rows ? ", rows of cells" : "") +
+               (variant.event_heap ? ", heap" : ", ring") + (variant.trims ? ", trimming" : "");
     case DomainKind::placement:
         return surfaces;
     case DomainKind::box:

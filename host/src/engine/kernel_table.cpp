@@ -188,17 +188,18 @@ const std::array<KernelInfo, kKernels> kTable{{
 std::vector<KernelVariant> all_kernel_variants() {
     std::vector<KernelVariant> variants;
     for (const bool adaptive : {false, true}) {
-        for (const bool event_heap : {false, true}) {
-            KernelVariant& variant = variants.emplace_back();
-            variant.adaptive = adaptive;
-            variant.event_heap = event_heap;
+        for (const bool many_rows : {false, true}) {
+            KernelVariant surface;
+            surface.adaptive = adaptive;
+            surface.many_rows = many_rows;
+            variants.push_back(surface);
+            variants.push_back(surface);
+            variants.back().event_heap = true;
+            variants.push_back(surface);
+            variants.back().trims = true;
+            variants.push_back(surface);
+            variants.back().several = true;
         }
-        KernelVariant& trimming = variants.emplace_back();
-        trimming.adaptive = adaptive;
-        trimming.trims = true;
-        KernelVariant& several = variants.emplace_back();
-        several.adaptive = adaptive;
-        several.several = true;
         for (const bool of_several : {false, true}) {
             KernelVariant& placement = variants.emplace_back();
             placement.domain = DomainKind::placement;

@@ -69,6 +69,7 @@ struct KernelVariant {
     bool curved = false;         ///< Lengths of curves instead of straight lines in space.
     bool adaptive = false;       ///< Radii that vary over a surface.
     bool several = false;        ///< Surfaces with seeds and stages of their own.
+    bool many_rows = false;      ///< Faces have several rows of cells.
     bool event_heap = false;     ///< Vertex events of a disk wait in a heap, else in a ring.
     bool trims = false;          ///< Disks that make very many windows trim them.
 

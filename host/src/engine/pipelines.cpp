@@ -124,7 +124,7 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
     }
     constexpr std::uint32_t kWord = sizeof(std::uint32_t);
     const Tuning& tuning = choices_.tuning;
-    const std::array<std::uint32_t, 11> constants{info.per_slot ? tuning.slot_local_size
+    const std::array<std::uint32_t, 12> constants{info.per_slot ? tuning.slot_local_size
                                                                 : tuning.local_size,
                                                   choices_.native_rounding ? VK_TRUE : VK_FALSE,
                                                   tuning.pool_block,
@@ -135,8 +135,9 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
                                                   variant.adaptive ? VK_TRUE : VK_FALSE,
                                                   variant.event_heap ? VK_TRUE : VK_FALSE,
                                                   variant.several ? VK_TRUE : VK_FALSE,
-                                                  variant.trims ? VK_TRUE : VK_FALSE};
-    const std::array<VkSpecializationMapEntry, 11> entries{{
+                                                  variant.trims ? VK_TRUE : VK_FALSE,
+                                                  variant.many_rows ? VK_TRUE : VK_FALSE};
+    const std::array<VkSpecializationMapEntry, 12> entries{{
         {gpu::kSpecLocalSize, 0, kWord},
         {gpu::kSpecNativeRounding, kWord, kWord},
         {gpu::kSpecPoolBlock, 2 * kWord, kWord},
@@ -148,6 +149,7 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
         {gpu::kSpecEventHeap, 8 * kWord, kWord},
         {gpu::kSpecSeveral, 9 * kWord, kWord},
         {gpu::kSpecTrims, 10 * kWord, kWord},
+        {gpu::kSpecManyRows, 11 * kWord, kWord},
     }};
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
                                               entries.data(), sizeof constants, constants.data()};

@@ -154,6 +154,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
     kernels.domain = DomainKind::surface;
     kernels.adaptive = has_radii(surfaces_);
     kernels.several = surfaces_.size() > 1;
+    kernels.many_rows = cells_ != 0;
     kernels.event_heap = faces_per_disk() >= kHeapFaces;
     samples_per_measure = samples_per_area();
     // Several have neither, and seeds of their own.
