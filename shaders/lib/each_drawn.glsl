@@ -16,17 +16,11 @@ void visit_each() {
         return;
     }
     uint last = min(first + kDrawPerLane, count) - 1u;
-    uint units = unit_count();
-    uint at = unit_of(first, 0u, units);
+    uint at = unit_of(first, 0u, unit_count());
     uint end = word_at(starts, at + 1u);
     for (uint number = first; number <= last; ++number) {
-        // Where units have many the next is mostly near.
         if (number >= end) {
-            ++at;
-            end = word_at(starts, at + 1u);
-        }
-        if (number >= end) {
-            at = unit_of(number, at, units);
+            at = unit_after(number, at);
             end = word_at(starts, at + 1u);
         }
         visit(load_unit(at), number);

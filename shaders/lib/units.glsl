@@ -21,6 +21,17 @@ uint unit_of(uint number, uint low, uint high) {
     return low;
 }
 
+// That of one in a unit after `before`, which is mostly near: looked for in steps that double.
+uint unit_after(uint number, uint before) {
+    uint low = before + 1u;
+    uint step = 1u;
+    while (low + step < unit_count() && word_at(starts, low + step) <= number) {
+        low += step;
+        step += step;
+    }
+    return unit_of(number, low, min(low + step, unit_count()));
+}
+
 // By a product, of which at most 2 are missing: lavapipe divides lane by lane.
 Unit load_unit(uint unit) {
     uint owner, low;
