@@ -68,8 +68,13 @@ struct Row {
 
 layout(constant_id = kSpecManyRows) const bool kManyRows = false;
 
+const Strip kNoStrip = Strip(0u, 0u, 0u);
+
 // The row that is next but for so many, or what is left of one that was too long, alone.
 Row load_row(uint number) {
+    if (!kManyRows && number > 0u) {
+        return Row(0u, 0u);
+    }
     bool resumes = lane.scan_place < lane.scan_end;
     uint ahead = number * lane.scan_stride;
     bool is_row = !resumes && ahead < lane.scan_row_end - lane.scan_row;
@@ -80,12 +85,17 @@ Row load_row(uint number) {
     return Row(is_rest ? lane.scan_place : first, is_rest ? lane.scan_end : end);
 }
 
-// Candidates that are tested in this trip.
-uint own_strip(Row row, Strip strip, inout uint room, inout bool is_full) {
+Strip strip_of(uint number, Row row) {
+    return !kManyRows && number > 0u ? kNoStrip : load_strip(row.first, row.end);
+}
+
+// Leaves in the strip what is tested in this trip: all of it, or nothing from one on that is too much.
+void take_strip(Row row, inout Strip strip, inout uint room, inout bool is_full) {
     uint count = uint(bitCount(strip.undecided));
     is_full = is_full || count > room || !scanning();
     if (is_full) {
-        return 0u;
+        strip.undecided = 0u;
+        return;
     }
     bool resumes = lane.scan_place < lane.scan_end;
     lane.scan_row += resumes ? 0u : lane.scan_stride;
@@ -93,7 +103,14 @@ uint own_strip(Row row, Strip strip, inout uint room, inout bool is_full) {
     lane.scan_place = min(row.first + 32u, row.end);
     lane.scan_end = row.end;
     room -= count;
-    return strip.undecided;
+}
+
+// The first of two that has any left.
+Strip first_of(Strip a, Strip b) {
+    if (a.undecided != 0u) {
+        return a;
+    }
+    return b;
 }
 
 // Tests candidates against the operation in flight, no more than a trip may. Where they are is likely to be
@@ -109,38 +126,34 @@ void scan_some() {
     precise float rest = P.limit - lane.sigma;
     precise float rest2 = rest * rest;
     Row row0 = load_row(0u);
-    Row row1 = Row(0u, 0u);
-    Row row2 = row1;
-    if (kManyRows) {
-        row1 = load_row(1u);
-        row2 = load_row(2u);
-    }
-    Strip strip0 = load_strip(row0.first, row0.end);
-    Strip strip1 = Strip(0u, 0u, 0u);
-    Strip strip2 = strip1;
-    if (kManyRows) {
-        strip1 = load_strip(row1.first, row1.end);
-        strip2 = load_strip(row2.first, row2.end);
-    }
+    Row row1 = load_row(1u);
+    Row row2 = load_row(2u);
+    Row row3 = load_row(3u);
+    Strip strip0 = strip_of(0u, row0);
+    Strip strip1 = strip_of(1u, row1);
+    Strip strip2 = strip_of(2u, row2);
+    Strip strip3 = strip_of(3u, row3);
     uint room = kScanPerTrip;
     bool is_full = false;
-    uint left0 = own_strip(row0, strip0, room, is_full);
-    uint left1 = 0u;
-    uint left2 = 0u;
-    if (kManyRows) {
-        left1 = own_strip(row1, strip1, room, is_full);
-        left2 = own_strip(row2, strip2, room, is_full);
-    }
-    while ((left0 | left1 | left2) != 0u) {
-        bool in0 = left0 != 0u;
-        bool in1 = !in0 && left1 != 0u;
-        uint left = in0 ? left0 : (in1 ? left1 : left2);
-        uint bit = uint(findLSB(left));
-        uint place = (in0 ? row0.first : (in1 ? row1.first : row2.first)) + bit;
-        uint actives = in0 ? strip0.actives : (in1 ? strip1.actives : strip2.actives);
-        left0 = in0 ? left0 & (left0 - 1u) : left0;
-        left1 = in1 ? left1 & (left1 - 1u) : left1;
-        left2 = in0 || in1 ? left2 : left2 & (left2 - 1u);
+    take_strip(row0, strip0, room, is_full);
+    take_strip(row1, strip1, room, is_full);
+    take_strip(row2, strip2, room, is_full);
+    take_strip(row3, strip3, room, is_full);
+    // One loop for all, in which lanes wait for each other once.
+    for (uint k = room; k < kScanPerTrip; ++k) {
+        Strip strip = first_of(strip0, first_of(strip1, first_of(strip2, strip3)));
+        uint rest = strip.undecided & (strip.undecided - 1u);
+        if (strip0.undecided != 0u) {
+            strip0.undecided = rest;
+        } else if (strip1.undecided != 0u) {
+            strip1.undecided = rest;
+        } else if (strip2.undecided != 0u) {
+            strip2.undecided = rest;
+        } else {
+            strip3.undecided = rest;
+        }
+        uint bit = uint(findLSB(strip.undecided));
+        uint place = strip.first + bit;
         if (place == own_place) {
             continue;
         }
@@ -154,7 +167,7 @@ void scan_some() {
         precise float from = low * dy;
         precise float to = high * dy;
         float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
-        bool is_active = ((actives >> bit) & 1u) != 0u;
+        bool is_active = ((strip.actives >> bit) & 1u) != 0u;
         bool conflicts = squared(dx, dy) < limit2 && (inside || (at >= from && at <= to));
         list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active, conflicts);
     }

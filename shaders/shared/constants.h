@@ -126,7 +126,6 @@ GEODISK_CONST uint kTagMask = 0xc0000000u;
 // The loops of detect: most iterations of each in one trip of the main loop.
 GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table looked at
 GEODISK_CONST uint kCornersPerTrip = 8u;   // of a fan
-GEODISK_CONST uint kRowsPerTrip = 3u;      // of cells
 GEODISK_CONST uint kScanPerTrip = 32u;     // candidates
 GEODISK_CONST uint kKeptPerEdge = 4u;      // windows to compare others with, see lib/trim.glsl
 // Together: an event taken and two vertices reached, two children left and pushed, kept windows.
