@@ -12,8 +12,10 @@ struct Strip {
 
 // Those from `first` on and before `end`, as many as there is room for. It may lie across two words.
 Strip load_strip(uint first, uint end) {
-    uint word = undecided_word(first);
-    uint skipped = first & 31u;
+    // The first of an empty row may lie behind the last candidate of all.
+    uint from = first < end ? first : 0u;
+    uint word = undecided_word(from);
+    uint skipped = from & 31u;
     uint undecided = word_at(states, word) >> skipped;
     uint actives = word_at(states, word + 1u) >> skipped;
     // In two steps, since none may be of 32 bits.

@@ -41,8 +41,7 @@ std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept
 /// As many stages as so many candidates allow; at least one.
 std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept;
 
-/// Of the buffer of states, before the weights of a surface's candidates: as lib/states.glsl has
-/// it.
+/// Words of the buffer of states before the weights of a surface's candidates, see lib/states.glsl.
 std::uint64_t state_words(std::uint32_t candidates) noexcept;
 
 /// Ranges of orders by which samples are put in order, a power of two.
