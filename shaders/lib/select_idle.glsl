@@ -14,6 +14,7 @@ GEODISK_WORDS_BEFORE(kBindOrders, kBindOrdersTexels, orders);
 GEODISK_BUFFER(kBindSamples, readonly, uvec4, samples);
 GEODISK_CONTROL;
 
+#include "quotient.glsl"
 #include "schedule.glsl"
 #include "states.glsl"
 
@@ -45,8 +46,8 @@ bool is_idle(uint place) {
     return (word_before(states, undecided_word(place)) & state_bit(place)) != 0u;
 }
 
-void list_one(uint place, uint order) {
-    uint head = list_head(range_of(order));
+void list_one(uint place, uint order, uint range) {
+    uint head = list_head(range);
     uint at = atomicAdd(list[head], 1u);
     if (at < kListRange) {
         list[head + 1u + at] = place;
@@ -60,6 +61,8 @@ void list_idle(uint begin) {
     uint end = min(begin + kSelectBlock, control.drawn);
     uint first_order = control.list_first;
     uint list_end = control.list_end;
+    uint width = control.list_width;
+    uint inverse = inverse_of(width);
     for (uint first = begin + 32u * gl_LocalInvocationID.x; first < end; first += 32u * kSelectLanes) {
         uint idle = word_before(states, undecided_word(first));
         uint listed = 0u;
@@ -72,7 +75,8 @@ void list_idle(uint begin) {
         while (listed != 0u) {
             uint place = first + uint(findLSB(listed));
             listed &= listed - 1u;
-            list_one(place, word_before(orders, place));
+            uint order = word_before(orders, place);
+            list_one(place, order, quotient(order - first_order, width, inverse));
         }
     }
 }

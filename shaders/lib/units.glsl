@@ -3,6 +3,7 @@
 #ifndef GEODISK_UNITS_GLSL
 #define GEODISK_UNITS_GLSL
 
+#include "quotient.glsl"
 #include "unit.glsl"
 
 GEODISK_WORDS(kBindStarts, starts);
@@ -32,17 +33,9 @@ uint unit_after(uint number, uint before) {
     return unit_of(number, low, min(low + step, unit_count()));
 }
 
-// By a product, of which at most 2 are missing: lavapipe divides lane by lane.
 Unit load_unit(uint unit) {
-    uint owner, low;
-    umulExtended(unit, 0xffffffffu / push.stages, owner, low);
-    uint stage = unit - owner * push.stages;
-    for (uint i = 0u; i < 2u; ++i) {
-        bool is_missing = stage >= push.stages;
-        owner += is_missing ? 1u : 0u;
-        stage -= is_missing ? push.stages : 0u;
-    }
-    return Unit(owner, stage, word_at(starts, unit));
+    uint owner = quotient(unit, push.stages, inverse_of(push.stages));
+    return Unit(owner, unit - owner * push.stages, word_at(starts, unit));
 }
 
 // The unit of the candidate with this number.
