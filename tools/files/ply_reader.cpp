@@ -131,9 +131,7 @@ std::uint32_t to_corner(const PlyFile& file, const PlyElement& element, std::uin
 
 void read_faces(PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
     const std::size_t column = index_column(file, element);
-    const std::uint64_t faces = file.possible_records(element);
-    mesh.face_ends.reserve(faces);
-    mesh.corners.reserve(3 * faces); // Most are triangles.
+    mesh.face_ends.reserve(file.possible_records(element));
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
         for (const double value : record.lists[column]) {
             mesh.corners.push_back(to_corner(file, element, index, value));
