@@ -1,6 +1,7 @@
 #include "device_run.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include <doctest/doctest.h>
@@ -162,6 +163,33 @@ bool decide_batch(DeviceRun& run) {
     return true;
 }
 
+namespace {
+
+/// How many are accepted on the device or in `states` alone, told by their orders.
+std::uint32_t wrongly_accepted(const DeviceRun& run, const std::vector<std::uint8_t>& states,
+                               const std::vector<std::uint32_t>& by_place) {
+    const gpu::ControlRec control = run.control();
+    std::vector<std::uint32_t> found, wanted, wrong;
+    for (const gpu::SampleRec& sample :
+         run.read<gpu::SampleRec>(BufferRole::accepted, control.accepted - control.settled,
+                                  control.settled * sizeof(gpu::SampleRec))) {
+        found.push_back(sample.order);
+    }
+    const auto orders = run.read<std::uint32_t>(BufferRole::orders, by_place.size());
+    for (std::uint32_t place = 0; place < by_place.size(); ++place) {
+        if (states[by_place[place]] == ref::kAccepted) {
+            wanted.push_back(orders[place]);
+        }
+    }
+    std::sort(found.begin(), found.end());
+    std::sort(wanted.begin(), wanted.end());
+    std::set_symmetric_difference(found.begin(), found.end(), wanted.begin(), wanted.end(),
+                                  std::back_inserter(wrong));
+    return static_cast<std::uint32_t>(wrong.size());
+}
+
+} // namespace
+
 std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
                            const std::vector<std::uint32_t>& by_place) {
     const auto on_device = states_of(run, by_place.size());
@@ -172,7 +200,7 @@ std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>
                                       : state == ref::kActive ? PlaceState::active
                                                               : PlaceState::decided);
     }
-    return wrong;
+    return wrong + wrongly_accepted(run, states, by_place);
 }
 
 } // namespace geodisk::test
