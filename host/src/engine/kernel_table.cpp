@@ -185,6 +185,16 @@ const std::array<KernelInfo, kKernels> kTable{{
 
 } // namespace
 
+KernelVariant KernelVariant::of(Kernel kernel) const noexcept {
+    KernelVariant variant = *this;
+    if (kernel != Kernel::detect) {
+        variant.many_rows = false;
+        variant.event_heap = false;
+        variant.trims = false;
+    }
+    return variant;
+}
+
 std::vector<KernelVariant> all_kernel_variants() {
     std::vector<KernelVariant> variants;
     for (const bool adaptive : {false, true}) {
@@ -193,12 +203,10 @@ std::vector<KernelVariant> all_kernel_variants() {
             surface.adaptive = adaptive;
             surface.many_rows = many_rows;
             variants.push_back(surface);
-            variants.push_back(surface);
-            variants.back().event_heap = true;
-            variants.push_back(surface);
-            variants.back().trims = true;
-            variants.push_back(surface);
-            variants.back().several = true;
+            for (bool KernelVariant::*const also :
+                 {&KernelVariant::event_heap, &KernelVariant::trims, &KernelVariant::several}) {
+                variants.emplace_back(surface).*also = true;
+            }
         }
         for (const bool of_several : {false, true}) {
             KernelVariant& placement = variants.emplace_back();

@@ -74,6 +74,10 @@ struct KernelVariant {
     bool trims = false;          ///< Disks that make very many windows trim them.
 
     friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;
+
+    /// As much of it as bears on a kernel: how windows and candidates are gone through, on detect
+    /// alone.
+    KernelVariant of(Kernel kernel) const noexcept;
 };
 
 /// Those of all domains that there may be.

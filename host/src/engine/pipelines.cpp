@@ -1,5 +1,6 @@
 #include "engine/pipelines.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -14,19 +15,12 @@ Pipelines::~Pipelines() {
     if (abandoned_) {
         return;
     }
-    destroy(common_);
-    for (const auto& [variant, pipelines] : own_) {
-        destroy(pipelines);
+    for (const auto& [key, pipeline] : compiled_) {
+        vk_.vkDestroyPipeline(device_.device, pipeline, device_.host_allocator);
     }
     for (std::size_t k = 0; k < kKernels; ++k) {
         vk_.vkDestroyPipelineLayout(device_.device, layouts_[k], device_.host_allocator);
         vk_.vkDestroyDescriptorSetLayout(device_.device, set_layouts_[k], device_.host_allocator);
-    }
-}
-
-void Pipelines::destroy(const KernelPipelines& pipelines) const {
-    for (const VkPipeline pipeline : pipelines) {
-        vk_.vkDestroyPipeline(device_.device, pipeline, device_.host_allocator);
     }
 }
 
@@ -44,17 +38,29 @@ Result<const KernelPipelines*> Pipelines::of(const KernelVariant& variant) {
     if (const auto found = own_.find(variant); found != own_.end()) {
         return &found->second;
     }
-    KernelPipelines& pipelines = own_[variant];
+    KernelPipelines pipelines{};
     if (auto compiled = compile_all(pipelines, variant); !compiled) {
-        destroy(pipelines);
-        own_.erase(variant);
+        drop_unused();
         return compiled.error();
     }
-    return &pipelines;
+    return &own_.emplace(variant, pipelines).first->second;
 }
 
-Result<Done> Pipelines::compile_all(KernelPipelines& pipelines,
-                                    const KernelVariant& variant) const {
+void Pipelines::drop_unused() {
+    std::erase_if(compiled_, [this](const auto& entry) {
+        const auto has = [&entry](const KernelPipelines& pipelines) {
+            return pipelines[static_cast<std::size_t>(entry.first.first)] == entry.second;
+        };
+        if (has(common_) ||
+            std::ranges::any_of(own_, [&has](const auto& own) { return has(own.second); })) {
+            return false;
+        }
+        vk_.vkDestroyPipeline(device_.device, entry.second, device_.host_allocator);
+        return true;
+    });
+}
+
+Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVariant& variant) {
     const bool is_common = variant.domain == DomainKind::any;
     for (std::size_t k = 0; k < kKernels; ++k) {
         const auto kernel = static_cast<Kernel>(k);
@@ -63,13 +69,25 @@ Result<Done> Pipelines::compile_all(KernelPipelines& pipelines,
             !is_used(kernel)) {
             continue;
         }
-        const auto compiled = compile(kernel, variant);
+        const auto compiled = pipeline_of(kernel, variant.of(kernel));
         if (!compiled) {
             return compiled.error();
         }
         pipelines[k] = *compiled;
     }
     return Done{};
+}
+
+Result<VkPipeline> Pipelines::pipeline_of(Kernel kernel, const KernelVariant& variant) {
+    VkPipeline& pipeline = compiled_[{kernel, variant}];
+    if (pipeline == VK_NULL_HANDLE) {
+        const auto compiled = compile(kernel, variant);
+        if (!compiled) {
+            return compiled.error();
+        }
+        pipeline = *compiled;
+    }
+    return pipeline;
 }
 
 Result<Done> Pipelines::create_layout(std::size_t kernel) {

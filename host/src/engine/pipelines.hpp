@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include <geodisk/sampler.hpp>
 
@@ -52,9 +53,12 @@ class Pipelines {
     }
     Result<Done> create_layout(std::size_t kernel);
     Result<VkPipeline> compile(Kernel kernel, const KernelVariant& variant) const;
+    /// Compiled unless it was before.
+    Result<VkPipeline> pipeline_of(Kernel kernel, const KernelVariant& variant);
     /// Compiles the kernels that serve these domains alone.
-    Result<Done> compile_all(KernelPipelines& pipelines, const KernelVariant& variant) const;
-    void destroy(const KernelPipelines& pipelines) const;
+    Result<Done> compile_all(KernelPipelines& pipelines, const KernelVariant& variant);
+    /// Destroys those that no job has: a failed call keeps none.
+    void drop_unused();
 
     DeviceRefs device_;
     const DeviceTable& vk_;
@@ -62,8 +66,9 @@ class Pipelines {
     std::array<VkDescriptorSetLayout, kKernels> set_layouts_{};
     std::array<VkPipelineLayout, kKernels> layouts_{};
     KernelPipelines common_{};
-    std::mutex mutex_; ///< Of what follows.
-    std::map<KernelVariant, KernelPipelines> own_;
+    std::mutex mutex_;                                                ///< Of what follows.
+    std::map<std::pair<Kernel, KernelVariant>, VkPipeline> compiled_; ///< KernelVariant::of.
+    std::map<KernelVariant, KernelPipelines> own_;                    ///< Out of those.
     std::atomic<bool> abandoned_ = false;
 };
 
