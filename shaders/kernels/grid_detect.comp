@@ -201,8 +201,8 @@ void trip() {
             continue;
         }
         ++tested;
-        bool is_active = ((strip.actives >> bit) & 1u) != 0u;
-        list_conflict(idle_conflicts, active_conflicts, place, is_active, conflicts_with(place));
+        list_conflict(idle_conflicts, active_conflicts, place, is_active(strip, bit),
+                      conflicts_with(place));
     }
 }
 

@@ -67,8 +67,8 @@ void tell(uint other, bool is_rejected) {
     }
 }
 
-// An idle candidate in the disk of an accepted one.
-void reject(uint place) {
+// Accepts or rejects a candidate: rejected it may be more than once.
+void end_undecided(uint place) {
     uint bit = state_bit(place);
     bool is_first = (atomicAnd(states[undecided_word(place)], ~bit) & bit) != 0u;
     fewer += is_first ? 1u : 0u;
@@ -82,7 +82,7 @@ void meet(uvec4 own, uint place, bool is_rejected) {
     uint order = is_slot ? slots[word].order : word;
     if (order >= control.first_left) {
         if (!is_rejected) {
-            reject(place);
+            end_undecided(place);
         }
     } else if (is_slot && is_before(own, sample_of(word))) {
         tell(word, is_rejected);
@@ -98,8 +98,7 @@ void finish(uint slot, bool is_rejected) {
     if (place == kNoPlace) {
         return;
     }
-    ++fewer;
-    atomicAnd(states[undecided_word(place)], ~state_bit(place));
+    end_undecided(place);
     end_active(place);
     if (!kCountCalls) {
         orders[place] = slots[slot].order;
@@ -133,7 +132,7 @@ uint decide(uint slot, uint cursor, uint budget) {
         uvec4 row = list_row_at(slot, at);
         uint next = min(end, cursor + 4u - (at & 3u));
         for (; cursor < next; ++cursor) {
-            reject(row[(cursor - active_count) & 3u]);
+            end_undecided(row[(cursor - active_count) & 3u]);
         }
     }
     if (cursor == total) {

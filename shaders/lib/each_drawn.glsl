@@ -9,13 +9,21 @@ layout(local_size_x = kWideLanes) in;
 
 void visit(Unit unit, uint number);
 
-void visit_each() {
+// Those of the work group, from the first on and before the second: none where the buffers do not hold all.
+uvec2 own_numbers() {
     uint count = drawn_count();
-    uint first = own_group() * kDrawBlock + gl_LocalInvocationID.x * kDrawPerLane;
-    if (first >= count || count > push.capacity) {
+    uint begin = own_group() * kDrawBlock;
+    uint end = count > push.capacity ? 0u : count;
+    return uvec2(begin, min(begin + kDrawBlock, end));
+}
+
+void visit_each() {
+    uvec2 numbers = own_numbers();
+    uint first = numbers.x + gl_LocalInvocationID.x * kDrawPerLane;
+    if (first >= numbers.y) {
         return;
     }
-    uint last = min(first + kDrawPerLane, count) - 1u;
+    uint last = min(first + kDrawPerLane, numbers.y) - 1u;
     uint at = unit_of(first, 0u, unit_count());
     uint end = word_at(starts, at + 1u);
     for (uint number = first; number <= last; ++number) {

@@ -167,9 +167,9 @@ void scan_some() {
         precise float from = low * dy;
         precise float to = high * dy;
         float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
-        bool is_active = ((strip.actives >> bit) & 1u) != 0u;
         bool conflicts = squared(dx, dy) < limit2 && (inside || (at >= from && at <= to));
-        list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active, conflicts);
+        list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active(strip, bit),
+                      conflicts);
     }
 }
 

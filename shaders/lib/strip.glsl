@@ -21,9 +21,10 @@ Strip load_strip(uint first, uint end) {
     // In two steps, since none may be of 32 bits.
     uint rest = word_at(states, word + 2u) << (31u - skipped);
     uint actives_rest = word_at(states, word + 3u) << (31u - skipped);
-    uint left = first < end ? end - first : 0u;
-    uint within = left < 32u ? (1u << left) - 1u : 0xffffffffu;
+    uint within = lowest_bits(first < end ? end - first : 0u);
     return Strip(first, (undecided | rest << 1) & within, actives | actives_rest << 1);
 }
+
+bool is_active(Strip strip, uint bit) { return ((strip.actives >> bit) & 1u) != 0u; }
 
 #endif

@@ -203,11 +203,10 @@ GEODISK_CONST uint kSpecSeveral = 9u; // surfaces, each with a seed, a density a
 GEODISK_CONST uint kSpecTrims = 10u;  // disks that make very many windows trim them
 GEODISK_CONST uint kSpecManyRows = 11u; // faces have several rows of cells
 
-// Candidates that a work group of the kernels per candidate draws or looks at: so many lanes, so
-// many each, side by side.
+// Candidates that a work group of the kernels per candidate draws: so many lanes, so many each.
 GEODISK_CONST uint kWideLanes = 128u;
 GEODISK_CONST uint kDrawPerLane = 16u;
-GEODISK_CONST uint kDrawBlock = 2048u;
+GEODISK_CONST uint kDrawBlock = kWideLanes * kDrawPerLane;
 // Of select: few lanes, since most of a group's have no candidate to put into a slot.
 GEODISK_CONST uint kSelectLanes = 32u;
 GEODISK_CONST uint kSelectBlock = 4096u;
