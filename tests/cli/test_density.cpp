@@ -150,6 +150,7 @@ TEST_CASE("what is wrong with the radii of a file is found") {
     CHECK(told.status == 1);
     CHECK(contains(told.err, "b.csv: 1 radius is not what the density options give"));
     CHECK(contains(told.out, "violations    0\nwrong radii   1\n"));
+    CHECK(contains(told.out, "density_attribute q\n"));
     samples.rows[5].radius *= 10;
     tools::write_samples(folder / "b.csv", samples.header, samples.rows, false);
     const Outcome read = run(folder, {"verify", "mesh.ply", "b.csv"});

@@ -37,6 +37,9 @@ struct VerifyOptions {
     DensityOptions density;
     std::string samples, min_distance;
     OutputOptions out; ///< No samples.
+
+    /// What makes the surface and the radii on it, as the header of a sample file names it.
+    HeaderEntries additions() const { return density.added_to(mesh.additions()); }
 };
 
 double distance_of(const VerifyOptions& options, const SampleFile& samples,
@@ -109,7 +112,7 @@ std::string result_text(const Check& check) {
     const Spacing& spacing = check.spacing;
     const std::vector<StrayRow>& strays = check.strays;
     std::ostringstream out;
-    out << mesh_lines("mesh", check.options.mesh.mesh, check.options.mesh.additions(), check.mesh)
+    out << mesh_lines("mesh", check.options.mesh.mesh, check.options.additions(), check.mesh)
         << "samples       " << grouped(check.samples.rows.size()) << " in "
         << one_line(check.options.samples) << '\n';
     if (spacing.min_distance > 0) {
@@ -141,7 +144,7 @@ std::string report_text(const Check& check) {
     const bool has_distance = spacing.min_distance > 0;
     return text_of(
         Json{{"version", GEODISK_VERSION_STRING},
-             {"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},
+             {"mesh", mesh_json(options.mesh.mesh, options.additions(), mesh)},
              {"warnings", warnings_json(warnings)},
              {"samples_file", options.samples},
              {"samples", samples.rows.size()},

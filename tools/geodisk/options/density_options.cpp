@@ -53,18 +53,17 @@ void DensityOptions::add_files(std::vector<NamedFile>& read, const std::string& 
     }
 }
 
-HeaderEntries DensityOptions::additions() const {
-    HeaderEntries result;
+HeaderEntries DensityOptions::added_to(HeaderEntries entries) const {
     for (const auto& [name, value] : {std::pair{"density_attribute", attribute},
                                       {"density_file", file},
                                       {"density_map", map},
                                       {"density_curvature", std::string(curvature ? "mean" : "")},
                                       {"density_floor", floor}}) {
         if (!value.empty()) {
-            result.emplace_back(name, value);
+            entries.emplace_back(name, value);
         }
     }
-    return result;
+    return entries;
 }
 
 void add_density_options(Command command, DensityOptions& options) {

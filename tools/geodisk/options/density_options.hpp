@@ -21,8 +21,8 @@ struct DensityOptions {
     std::optional<double> least_factor() const;
     /// Adds the files that are read, called `what`.
     void add_files(std::vector<NamedFile>& read, const std::string& what) const;
-    /// Name and value of what is given, as the header of a sample file names it.
-    HeaderEntries additions() const;
+    /// With name and value of what is given, as the header of a sample file names it.
+    HeaderEntries added_to(HeaderEntries entries) const;
 };
 
 void add_density_options(Command command, DensityOptions& options);

@@ -32,11 +32,7 @@ void check_metric(const SampleOptions& options) {
 } // namespace
 
 HeaderEntries SampleJob::additions() const {
-    HeaderEntries all = mesh.additions();
-    for (const auto& addition : density.additions()) {
-        all.push_back(addition);
-    }
-    return all;
+    return density.added_to(mesh.additions());
 }
 
 SampleJob parse_job(const SampleOptions& options) {
