@@ -84,3 +84,16 @@ def test_messages_of_troubleshooting_exist():
         if not any(all(part in source for part in parts) for source in sources):
             gone.append(message)
     assert gone == []
+
+
+def test_tests_of_reliability_exist():
+    """Each test and file that the last column names."""
+    tests = list((SOURCE / "tests").rglob("*.cpp"))
+    rows = re.findall(r"^\|.*\| ([^|]*) \|$", (SOURCE / "host/docs/reliability.md").read_text(), re.M)
+    named = re.findall(r'"([^"]+)"', "\n".join(rows))
+    files = re.findall(r"\btest_\w+\.cpp\b", "\n".join(rows))
+    assert len(named) > 20 and len(files) > 10
+    case = re.compile(r'TEST_CASE(?:_FIXTURE\([^"]*|\()"((?:[^"\\]|\\.)*)"')
+    cases = [name for path in tests for name in case.findall(path.read_text())]
+    gone = [name for name in named if not any(c.startswith(name.removesuffix(" ...")) for c in cases)]
+    assert gone + [name for name in files if all(path.name != name for path in tests)] == []
