@@ -4,6 +4,7 @@
 
 #include "mesh_bytes.hpp"
 #include "support/data_file.hpp"
+#include "test_files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +12,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -91,11 +90,6 @@ void check_same(const ObjContent& ours, const ObjContent& theirs) {
     CHECK(ours.faces == theirs.faces);
 }
 
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// What tinyobjloader reads as something else, and where a copy that is dropped is no face to
 /// compare.
 const std::set<std::string> kOtherwise{
@@ -121,7 +115,7 @@ TEST_CASE("odd OBJ files hold what tinyobjloader finds in them") {
             CHECK(name.starts_with("any_"));
             continue;
         }
-        check_same(content_of(mesh), by_tinyobjloader(text_of(entry.path())));
+        check_same(content_of(mesh), by_tinyobjloader(bytes_of(entry.path())));
         ++compared;
     }
     CHECK(compared > 30);
