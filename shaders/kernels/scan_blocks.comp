@@ -6,22 +6,25 @@
 #include "../lib/prelude.glsl"
 #include "../lib/block_scan.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = kScanLanes) in;
 
 GEODISK_WORDS_BEFORE(kBindCells, kBindCellsTexels, words);
 GEODISK_WORDS(kBindSums, sums);
 
+uint begin;
+uint count; // of the block
+
+uint read_word(uint i) { return i < count ? word_before(words, begin + i) : 0u; }
+
+void write_word(uint i, uint word) {
+    if (i < count) {
+        words[begin + i] = word;
+    }
+}
+
 void main() {
-    uint lane = gl_LocalInvocationID.x;
     uint block = own_group();
-    uint begin = min(block * kScanBlock, push.scan_count);
-    uint count = min(push.scan_count - begin, kScanBlock);
-    for (uint k = 0u; k < kScanPerLane; ++k) {
-        uint i = k * kScanLanes + lane;
-        block_words[block_index(i)] = i < count ? word_before(words, begin + i) : 0u;
-    }
-    block_exclusive_scan(lane, count > 0u ? word_at(sums, block) : 0u);
-    for (uint i = lane; i < count; i += kScanLanes) {
-        words[begin + i] = block_words[block_index(i)];
-    }
+    begin = min(block * kScanBlock, push.scan_count);
+    count = min(push.scan_count - begin, kScanBlock);
+    block_exclusive_scan(gl_LocalInvocationID.x, count > 0u ? word_at(sums, block) : 0u);
 }

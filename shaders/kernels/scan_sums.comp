@@ -6,23 +6,26 @@
 #include "../lib/prelude.glsl"
 #include "../lib/block_scan.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = kScanLanes) in;
 
 GEODISK_BUFFER(kBindSums, , uint, sums);
 
+uint begin;
+uint here; // of the block
+
+uint read_word(uint i) { return i < here ? sums[begin + i] : 0u; }
+
+void write_word(uint i, uint word) {
+    if (i < here) {
+        sums[begin + i] = word;
+    }
+}
+
 void main() {
-    uint lane = gl_LocalInvocationID.x;
     uint count = (push.scan_count + kScanBlock - 1u) / kScanBlock;
     uint carry = 0u;
-    for (uint begin = 0u; begin < count; begin += kScanBlock) {
-        uint here = min(count - begin, kScanBlock);
-        for (uint i = lane; i < kScanBlock; i += kScanLanes) {
-            block_words[block_index(i)] = i < here ? sums[begin + i] : 0u;
-        }
-        carry += block_exclusive_scan(lane, carry);
-        for (uint i = lane; i < here; i += kScanLanes) {
-            sums[begin + i] = block_words[block_index(i)];
-        }
-        barrier();
+    for (begin = 0u; begin < count; begin += kScanBlock) {
+        here = min(count - begin, kScanBlock);
+        carry += block_exclusive_scan(gl_LocalInvocationID.x, carry);
     }
 }

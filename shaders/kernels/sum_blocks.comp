@@ -5,7 +5,7 @@
 
 #include "../lib/prelude.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = kScanLanes) in;
 
 GEODISK_WORDS(kBindCells, words);
 GEODISK_BUFFER(kBindSums, writeonly, uint, sums);

@@ -1,33 +1,58 @@
-// Exclusive scan of a block of kScanBlock words by a work group. The words go through shared memory, so
-// that neighbours read and write side by side, and each lane sums words that follow each other.
+// Exclusive scan of a block of kScanBlock words by a work group. A lane reads and writes rows of four
+// words, those of neighbours side by side. Only the sums of rows go through shared memory, which gives
+// each lane some that follow each other. Needs read_word(i), a word of the block, and write_word(i, word).
 #ifndef GEODISK_BLOCK_SCAN_GLSL
 #define GEODISK_BLOCK_SCAN_GLSL
 
 #include "group_scan.glsl"
 
-// A word is skipped behind those of each lane: lanes would all read from one bank.
-shared uint block_words[kScanBlock + kScanLanes];
+const uint kRowWords = 4u;
+const uint kRowsPerLane = kScanPerLane / kRowWords;
+// A word is skipped behind so many: lanes would read from few banks.
+const uint kBanks = 32u;
 
-uint block_index(uint i) { return i + i / kScanPerLane; }
+shared uint row_sums[kScanLanes * kRowsPerLane + kScanLanes * kRowsPerLane / kBanks];
 
-// Every lane must call it, once the words are in block_words. Returns the sum of all; `before` is added
-// to each.
+uint bank_index(uint row) { return row + row / kBanks; }
+
+uint read_word(uint i);
+void write_word(uint i, uint word);
+
+// Every lane must call it. Returns the sum of all words; `before` is added to each.
 uint block_exclusive_scan(uint lane, uint before) {
-    barrier();
-    uint first = block_index(lane * kScanPerLane);
     uint own_words[kScanPerLane];
+    for (uint k = 0u; k < kRowsPerLane; ++k) {
+        uint row = k * kScanLanes + lane;
+        uint sum = 0u;
+        for (uint j = 0u; j < kRowWords; ++j) {
+            uint word = read_word(row * kRowWords + j);
+            own_words[k * kRowWords + j] = word;
+            sum += word;
+        }
+        row_sums[bank_index(row)] = sum;
+    }
+    barrier();
+    uint own_sums[kRowsPerLane];
     uint own = 0u;
-    for (uint i = 0u; i < kScanPerLane; ++i) {
-        own_words[i] = block_words[first + i];
-        own += own_words[i];
+    for (uint k = 0u; k < kRowsPerLane; ++k) {
+        own_sums[k] = row_sums[bank_index(lane * kRowsPerLane + k)];
+        own += own_sums[k];
     }
     uint total;
     uint sum = before + group_exclusive_scan(lane, own, total);
-    for (uint i = 0u; i < kScanPerLane; ++i) {
-        block_words[first + i] = sum;
-        sum += own_words[i];
+    for (uint k = 0u; k < kRowsPerLane; ++k) {
+        row_sums[bank_index(lane * kRowsPerLane + k)] = sum;
+        sum += own_sums[k];
     }
     barrier();
+    for (uint k = 0u; k < kRowsPerLane; ++k) {
+        uint row = k * kScanLanes + lane;
+        uint sum = row_sums[bank_index(row)];
+        for (uint j = 0u; j < kRowWords; ++j) {
+            write_word(row * kRowWords + j, sum);
+            sum += own_words[k * kRowWords + j];
+        }
+    }
     return total;
 }
 

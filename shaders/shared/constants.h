@@ -220,8 +220,8 @@ GEODISK_CONST uint kMostRangesRanked = 64u;
 GEODISK_CONST uint kMostListed = 0x800000u;
 
 // Words that one work group of the scan covers: so many lanes, so many words each.
-GEODISK_CONST uint kScanLanes = 128u;
-GEODISK_CONST uint kScanPerLane = 16u;
+GEODISK_CONST uint kScanLanes = 64u;
+GEODISK_CONST uint kScanPerLane = 32u;
 GEODISK_CONST uint kScanBlock = 2048u;
 // Subgroups of a work group whose trips are counted one by one.
 GEODISK_CONST uint kMostCountedSubgroups = 256u;
