@@ -72,20 +72,22 @@ double longest(const std::vector<double>& seconds) {
 } // namespace
 
 TEST_SUITE("pace") {
-    TEST_CASE("work grows by two at most, and shrinks at once") {
+    TEST_CASE("work grows by four at most, by two where it is long, and shrinks at once") {
         Pace pace(0.1);
         const std::uint64_t first = pace.items();
         const auto took = [&](double seconds) { pace.took(seconds, pace.items()); };
         took(0.01);
-        CHECK(pace.items() == 2 * first);
+        CHECK(pace.items() == 4 * first);
+        took(0.02);
+        CHECK(pace.items() == 8 * first);
         took(0.07); // As it should be.
-        CHECK(pace.items() == 2 * first);
-        pace.took(0.01, first / 2); // Too little to tell.
-        CHECK(pace.items() == 2 * first);
+        CHECK(pace.items() == 8 * first);
+        pace.took(0.01, 2 * first); // Too little to tell.
+        CHECK(pace.items() == 8 * first);
         took(0.4);
-        CHECK(pace.items() == first / 2);
+        CHECK(pace.items() == 2 * first);
         took(1e9);
-        CHECK(pace.items() == first / 32);
+        CHECK(pace.items() == first / 8);
         for (int i = 0; i < 100; ++i) {
             took(1e9);
         }

@@ -11,7 +11,9 @@ constexpr std::uint64_t kItemsPerSlot = 16;
 // Of a submission, whatever comes: the shortest watchdogs bite after two.
 constexpr double kMostSeconds = 1;
 constexpr std::uint64_t kMostItems = std::uint64_t{1} << 40;
-// Of what one submission may be shorter, or longer, than that before.
+// Of one submission to the next, where that is still to take under half of its time; else by two.
+constexpr std::uint64_t kLargestGrowth = 4;
+// Of what one submission may be shorter than that before.
 constexpr double kSteepest = 16;
 
 std::uint64_t items_of_step(const RunPlan& plan) {
@@ -28,7 +30,8 @@ std::uint64_t Pace::items() const {
 
 void Pace::took(double seconds, std::uint64_t items, std::uint64_t steps) {
     if (seconds < target_ / 2 && items >= items_ / 2) {
-        items_ = std::min(2 * items_, kMostItems);
+        const std::uint64_t times = seconds < target_ / (2 * kLargestGrowth) ? kLargestGrowth : 2;
+        items_ = std::min(times * items_, kMostItems);
     } else if (seconds > target_) {
         const double part = std::max(target_ / seconds, 1 / kSteepest);
         items_ = std::max<std::uint64_t>(
