@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -195,15 +194,19 @@ class Detector {
     }
 
     /// Whether a window entering the face of h comes back to a face that it has been in: a shortest
-    /// path does not, where faces are straight. It remembers one face, that in which its chain was
-    /// last a power of two, and so finds every cycle (Brent 1980).
+    /// path does not, where faces are straight. One of a long chain remembers one face, that in
+    /// which its chain was last a power of two, and so finds every cycle (Brent 1980).
     bool turns_back(std::uint32_t h, const Window& window) const {
         return surface_.straight_faces && h / 3 == window.remembered / 3;
     }
 
-    /// What a window with this chain remembers once it has left the face of h.
+    /// What a window with this chain remembers once it has left the face of h, where it began or
+    /// came in remembering this.
     static std::uint32_t remember(std::uint32_t h, std::uint32_t chain, std::uint32_t remembered) {
-        return std::has_single_bit(chain) ? h : remembered;
+        if (chain < gpu::kFirstRemembered) {
+            return kNoEdge;
+        }
+        return (chain & (chain - 1)) == 0 ? h : remembered;
     }
 
     /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e; `start`
@@ -246,7 +249,8 @@ class Detector {
         if (!(distance < limit_)) {
             return static_cast<Real>(kFar);
         }
-        return (std::floor(distance * static_cast<Real>(0x1p15)) + 1) * static_cast<Real>(0x1p-15);
+        const auto steps = static_cast<std::int64_t>(distance * static_cast<Real>(0x1p15)) + 1;
+        return static_cast<Real>(steps) * static_cast<Real>(0x1p-15);
     }
 
     /// Whether `known` plus a straight way of length `way` beats the window's own distance to a
@@ -268,7 +272,7 @@ class Detector {
                   distance <= static_cast<Real>(kNearVertex), 1);
             push(leave(e, distance_at(surface_.edges[e].origin),
                        distance_at(surface_.edges[next_in_face(e)].origin), p.x, p.y, 0,
-                       surface_.edges[e].length, 0, 1, e));
+                       surface_.edges[e].length, 0, 1, remember(e, 1, e)));
         }
     }
 
@@ -320,7 +324,8 @@ class Detector {
             reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back,
                   kNoEdge, 0, false, event.chain + 1);
             push(leave(e, distance_at(edge.origin), distance_at(surface_.edges[back].origin),
-                       edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1, e));
+                       edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1,
+                       remember(e, event.chain + 1, e)));
             light.face(e, edge.apex_x, edge.apex_y, event.sigma);
         }
     }

@@ -103,8 +103,10 @@ class Waiting {
         std::uint32_t place;
     };
     static bool is_farther(const Row& a, const Row& b) {
-        return std::tie(a.event.sigma, a.event.vertex, a.event.corner) >
-               std::tie(b.event.sigma, b.event.vertex, b.event.corner);
+        if (a.event.sigma != b.event.sigma) {
+            return a.event.sigma > b.event.sigma;
+        }
+        return std::tie(a.event.vertex, a.event.corner) > std::tie(b.event.vertex, b.event.corner);
     }
 
     /// Whether events are a heap.

@@ -162,9 +162,24 @@ void take_window(uint window) {
     lane.sigma = uintBitsToFloat(row1.y);
     lane.chain = row1.z;
     lane.known = row1.w;
-    lane.remembered = own_row_at(pool, remembered_row(window))[window & 3u];
+    if (kTrims) {
+        lane.remembered = own_row_at(pool, remembered_row(window))[window & 3u];
+    }
     lane.phase = kPhaseCross;
     window_taken = true;
+}
+
+void take_held() {
+    lane.half_edge = lane.held_around >> 1;
+    lane.mode = (lane.held_around & 1u) != 0u ? kModeSameWay : kModeOpposite;
+    lane.x = lane.held_x;
+    lane.y = lane.held_y;
+    lane.b0 = lane.held_b0;
+    lane.b1 = lane.held_b1;
+    ++lane.chain;
+    lane.known = lane.held_known;
+    lane.held_around = kNoWindow;
+    lane.phase = kPhaseCross;
 }
 
 // A vertex reached sooner by now is dropped.
@@ -199,6 +214,8 @@ void take_next() {
         }
     } else if (is_endless()) {
         overflow |= kOverflowEndless;
+    } else if (holds_window()) {
+        take_held();
     } else if (!trims() && lane.windows > 0u) {
         --lane.windows;
         take_window(lane.windows);
@@ -284,9 +301,7 @@ void follow_up() {
         bool is_last = lane.corner_ahead == kNoHalfEdge && lane.cursor == lane.cursor_end;
         lane.phase = is_last ? kPhasePop : kPhaseFan;
     } else if (lane.phase == kPhaseCross) {
-        // On to the next face of the edge, if that is not the one the window came from.
-        bool more = (edge.origin & kManyFaces) != 0u && edge.around >> 1 != lane.known;
-        lane.phase = more ? kPhaseCross : kPhasePop;
+        lane.phase = enters_more() ? kPhaseCross : kPhasePop;
     }
 }
 

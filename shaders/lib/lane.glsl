@@ -2,13 +2,19 @@
 #ifndef GEODISK_LANE_GLSL
 #define GEODISK_LANE_GLSL
 
+layout(constant_id = kSpecTrims) const bool kTrims = false;
+
+// The nearer child of a window is the next to be taken and need not go through the pool: stores cost most of
+// a trip on lavapipe. Not in kernels that are short of registers.
+const bool kHolds = !kTrims && !kAdaptive;
+
 LaneRec lane;
 uint overflow;     // kOverflow* bits
 uint slice;        // first row of the lane in the pool
 uint first_event;  // among the rows of the lane
-uint first_remembered;
 uint first_vertex;
 uint first_kept;
+uint first_remembered;
 
 // A row of this lane in the pool.
 uint own_row(uint at) { return slice + at * kPoolBlock; }
@@ -17,9 +23,9 @@ uint own_row(uint at) { return slice + at * kPoolBlock; }
 void load_lane(uint index) {
     slice = first_row(index);
     first_event = kLaneRows + kWindowRows * P.window_capacity;
-    first_remembered = first_event + P.window_capacity;
-    first_vertex = first_remembered + ((P.window_capacity + 3u) >> 2);
+    first_vertex = first_event + P.window_capacity;
     first_kept = first_vertex + P.table_capacity;
+    first_remembered = first_kept + kTrimRows;
     overflow = 0u;
     uvec4 a = own_row_at(pool, own_row(0u));
     uvec4 b = own_row_at(pool, own_row(1u));
@@ -31,6 +37,7 @@ void load_lane(uint index) {
     uvec4 h = own_row_at(pool, own_row(7u));
     uvec4 i = own_row_at(pool, own_row(8u));
     uvec4 j = own_row_at(pool, own_row(9u));
+    uvec4 k = own_row_at(pool, own_row(10u));
     lane.slot = a.x, lane.phase = a.y, lane.idle_conflicts = a.z, lane.active_conflicts = a.w;
     lane.windows = b.x, lane.event_head = b.y, lane.event_tail = b.z, lane.generation = b.w;
     lane.half_edge = c.x, lane.mode = c.y;
@@ -43,6 +50,11 @@ void load_lane(uint index) {
     lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z, lane.remembered = h.w;
     lane.entered_by = i.x, lane.entry_angles = i.y, lane.fan_angle = i.z, lane.fan_flags = i.w;
     lane.trims = j.x, lane.free_place = j.y;
+    if (kHolds) {
+        lane.held_known = j.z, lane.held_b1 = uintBitsToFloat(j.w);
+        lane.held_around = k.x, lane.held_x = uintBitsToFloat(k.y);
+        lane.held_y = uintBitsToFloat(k.z), lane.held_b0 = uintBitsToFloat(k.w);
+    }
 }
 
 void save_lane() {
@@ -60,7 +72,10 @@ void save_lane() {
         uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, lane.remembered);
     pool[own_row(8u)] =
         uvec4(lane.entered_by, lane.entry_angles, lane.fan_angle, lane.fan_flags);
-    pool[own_row(9u)] = uvec4(lane.trims, lane.free_place, 0u, 0u);
+    pool[own_row(9u)] =
+        uvec4(lane.trims, lane.free_place, lane.held_known, floatBitsToUint(lane.held_b1));
+    pool[own_row(10u)] = uvec4(lane.held_around, floatBitsToUint(lane.held_x),
+                               floatBitsToUint(lane.held_y), floatBitsToUint(lane.held_b0));
 }
 
 // What the lane knows of vertices and windows is empty, as of its table's next disk.
@@ -69,6 +84,7 @@ void begin_windows() {
     lane.generation = wrapped ? 1u : lane.generation + 1u;
     lane.phase = wrapped ? kPhaseClear : kPhaseSource;
     lane.windows = 0u;
+    lane.held_around = kNoWindow;
     lane.free_place = kNoWindow;
     lane.event_head = 0u;
     lane.event_tail = 0u;

@@ -236,22 +236,28 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
 }
 
 // Whether the window in flight comes back to a face that it has been in: a shortest path does not,
-// where faces are straight. It remembers one face, that in which its chain was last a power of two,
-// and so finds every cycle (Brent 1980).
+// where faces are straight. One of a long chain remembers one face, that in which its chain was last a
+// power of two, and so finds every cycle (Brent 1980).
 bool turns_back() {
-    return (P.path_rules & kRuleStraightFaces) != 0u && lane.phase == kPhaseCross &&
+    return kTrims && (P.path_rules & kRuleStraightFaces) != 0u && lane.phase == kPhaseCross &&
            lane.half_edge / 3u == lane.remembered / 3u;
 }
 
 // What the windows remember that the operation in flight leaves behind.
 uint remember() {
     uint chain = lane.chain + 1u;
+    if (chain < kFirstRemembered) {
+        return kNoHalfEdge;
+    }
     bool renews = lane.mode == kModeInside || (chain & (chain - 1u)) == 0u;
     return renews ? lane.half_edge : lane.remembered;
 }
 
-// What the operation in flight does to vertices and edges. The nearer child of a window comes last,
-// so that the stack gives it back first.
+// Whether the window in flight goes on into another face of its edge, that is not the one it came from.
+bool enters_more() { return (edge.origin & kManyFaces) != 0u && edge.around >> 1 != lane.known; }
+
+// What the operation in flight does to vertices and edges. The nearer child of a window comes last, or is
+// held, so that it is the next.
 void spread(float source_square) {
     bool inside = lane.mode == kModeInside;
     float sx = entry_x();
@@ -268,13 +274,33 @@ void spread(float source_square) {
             second = leave(i == 0u, m, sx, lit, distances);
         }
     }
-    bool swapped = first.distance < second.distance;
-    for (uint i = 0u; i < 2u; ++i) {
-        Window next = swapped == (i == 0u) ? second : first;
-        if (next.distance >= 0.0) {
-            lane.longest_chain = max(lane.longest_chain, lane.chain + 1u);
-            push_window(next.distance, next.row0, next.row1, remembered);
+    bool has_first = first.distance >= 0.0;
+    bool has_second = second.distance >= 0.0;
+    if (!has_first && !has_second) {
+        return;
+    }
+    lane.longest_chain = max(lane.longest_chain, lane.chain + 1u);
+    if (!kTrims && lane.chain + 1u >= kFirstRemembered) {
+        overflow |= kOverflowTrims;
+    }
+    bool has_both = has_first && has_second;
+    Window nearer = second;
+    Window other = first;
+    if (has_both ? first.distance < second.distance : has_first) {
+        nearer = first;
+        other = second;
+    }
+    bool holds = kHolds && lane.phase == kPhaseCross && !enters_more();
+    if (holds) {
+        hold_window(nearer.row0, nearer.row1);
+    }
+    uint pushed = (has_both ? 1u : 0u) + (holds ? 0u : 1u);
+    for (uint i = 0u; i < pushed; ++i) {
+        Window next = nearer;
+        if (i == 0u && has_both) {
+            next = other;
         }
+        push_window(next.distance, next.row0, next.row1, remembered);
     }
 }
 

@@ -2,9 +2,8 @@
 //   a slice per lane:  LaneRec, then
 //     windows  kWindowRows each
 //     events   a row each
-//     what windows remember, four to a row
 //     table    a row per vertex
-//     windows kept, kKeptRows each, where disks may trim
+//     windows kept, kKeptRows each, and what windows remember, four to a row, where disks may trim
 //   a list per slot:   conflicts, four to a row: idle ones from the front, active ones from the back
 // The slices of kPoolBlock lanes alternate row by row, so that lanes that step together read side by
 // side.

@@ -9,16 +9,20 @@
 #define GEODISK_WAITING_GLSL
 
 layout(constant_id = kSpecEventHeap) const bool kEventHeap = false;
-layout(constant_id = kSpecTrims) const bool kTrims = false;
 
 bool trims() { return kTrims && lane.trims != 0u; }
+
+bool holds_window() { return kHolds && lane.held_around != kNoWindow; }
+
+// On the stack, and the one held.
+uint windows_waiting() { return lane.windows + (holds_window() ? 1u : 0u); }
 
 uint window_at(uint window) { return kLaneRows + kWindowRows * window; }
 uint event_row(uint event) {
     return own_row(first_event + (event & (P.window_capacity - 1u)));
 }
 
-// What a window remembers is in this row, as the component of its number modulo 4.
+// What a window remembers is in this row, as the component of its number modulo 4, where there is one.
 uint remembered_row(uint window) { return own_row(first_remembered + (window >> 2)); }
 
 // A free place for a window; the capacity if there is none. Places that are free again are linked.
@@ -81,12 +85,26 @@ void push_window(float distance, uvec4 row0, uvec4 row1, uint remembered) {
     uint at = window_at(place);
     pool[own_row(at)] = row0;
     pool[own_row(at + 1u)] = row1;
-    pool[remembered_row(place)][place & 3u] = remembered;
+    if (kTrims) {
+        pool[remembered_row(place)][place & 3u] = remembered;
+    }
     if (trims()) {
         put_event(uvec4(kWindowWaits, floatBitsToUint(distance), place, lane.pushed));
     } else {
-        lane.most_waiting = max(lane.most_waiting, lane.windows);
+        lane.most_waiting = max(lane.most_waiting, windows_waiting());
     }
+    ++lane.pushed;
+}
+
+// Instead of a push, of what is taken next.
+void hold_window(uvec4 row0, uvec4 row1) {
+    lane.held_around = row0.x;
+    lane.held_x = uintBitsToFloat(row0.y);
+    lane.held_y = uintBitsToFloat(row0.z);
+    lane.held_b0 = uintBitsToFloat(row0.w);
+    lane.held_b1 = uintBitsToFloat(row1.x);
+    lane.held_known = row1.w;
+    lane.most_waiting = max(lane.most_waiting, windows_waiting());
     ++lane.pushed;
 }
 

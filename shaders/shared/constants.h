@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 15u;
+GEODISK_CONST uint kAbi = 16u;
 
 // Where radii vary: proposals of which a candidate takes the first that is kept, or the last.
 GEODISK_CONST uint kMostProposals = 1024u;
@@ -47,7 +47,12 @@ GEODISK_CONST uint kMostPerVertex = 4096u;
 GEODISK_CONST uint kRuleSplitsOnce = 1u;
 // Within a face no way is shorter than the straight one, see turns_back() there.
 GEODISK_CONST uint kRuleStraightFaces = 2u;
-// Nor this: a disk makes so many windows that they are to be trimmed, by kernels that can.
+// A window remembers a face once it has crossed so many edges, a power of two, see turns_back() there: more
+// than in disks of real meshes, and too few to widen the guard.
+GEODISK_CONST uint kFirstRemembered = 128u;
+
+// Nor this: a disk makes so many windows that they are to be trimmed, or a window has crossed so many edges
+// that it is to remember one, by kernels that can.
 GEODISK_CONST uint kOverflowTrims = 64u;
 // Nor this: the samples' buffer is too small, the set itself is complete.
 GEODISK_CONST uint kOverflowSamples = 16u;
@@ -183,7 +188,7 @@ GEODISK_CONST uint kRadiiRows = 2u;
 GEODISK_CONST uint kAxisRows = 2u;
 GEODISK_CONST uint kPlacedRows = 3u; // of a sample where the caller draws it
 GEODISK_CONST uint kPartWords = 8u;  // of a surface among several
-GEODISK_CONST uint kLaneRows = 10u;
+GEODISK_CONST uint kLaneRows = 11u;
 GEODISK_CONST uint kWindowRows = 2u;
 GEODISK_CONST uint kKeptRows = 2u;
 // Of a lane, where disks may trim: all windows that it keeps.

@@ -87,7 +87,11 @@ struct LaneRec {
     uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
     // Windows and events pushed before the disk began again to trim them, 0 where it has not; then the
     // first window that is free again, see lib/waiting.glsl.
-    uint trims; uint free_place; uint spare0; uint spare1;
+    uint trims; uint free_place;
+    // The window that comes next, where it is not on the stack: as its rows are, with the source's distance of
+    // the operation in flight. kNoWindow for the first word if there is none.
+    uint held_known; float held_b1;
+    uint held_around; float held_x; float held_y; float held_b0;
 };
 
 // The run as a whole. The leading words are the indirect sizes of select, of detect, and of resolve.
@@ -162,7 +166,7 @@ static_assert(sizeof(PartRec) == 32 && offsetof(PartRec, spare1) == 28);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
-static_assert(sizeof(LaneRec) == 160 && offsetof(LaneRec, spare1) == 156);
+static_assert(sizeof(LaneRec) == 176 && offsetof(LaneRec, held_b0) == 172);
 static_assert(sizeof(ControlRec) == 288 && offsetof(ControlRec, calls_high) == 284);
 } // namespace geodisk::gpu
 #endif

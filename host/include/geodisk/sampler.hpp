@@ -172,7 +172,8 @@ struct RunPlan {
     std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
     std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
                                        ///< at most 2^23.
-    bool trims = false; ///< Disks that make very many windows trim them: by kernels of
+    bool trims = false; ///< Disks that make very many windows trim them, and windows that
+                        ///< cross very many edges come back to no face: by kernels of
                         ///< their own, compiled when a job first needs them, and with
                         ///< 129 KiB more for each lane.
     std::uint32_t dispatch_items = 0; ///< Faces, candidates, samples or words that a dispatch goes

@@ -216,8 +216,8 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
 }
 
 std::uint32_t RunPlan::lane_rows() const noexcept {
-    return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + (window_capacity + 3) / 4 +
-           table_capacity + (trims ? gpu::kTrimRows : 0);
+    return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity +
+           (trims ? gpu::kTrimRows + (window_capacity + 3) / 4 : 0);
 }
 
 std::uint64_t RunPlan::first_list_row() const noexcept {
