@@ -49,10 +49,10 @@ void check_row(const Json& row) {
 
 TEST_CASE("the benchmark tells its results and circumstances") {
     const TemporaryFolder folder;
-    const Outcome outcome = run(
-        folder,
-        {"builtin:cube", "-n", "50,2e2", "--repeats", "2", "--json", "a.json", "--csv", "a.csv"},
-        bench());
+    const Outcome outcome = run(folder,
+                                {"builtin:cube", "-n", "50,2e2", "--repeats", "2", "--seed", "7",
+                                 "--json", "a.json", "--csv", "a.csv"},
+                                bench());
     REQUIRE(outcome.status == 0);
     CHECK(outcome.err.empty());
     CHECK(contains(outcome.out, "builtin:cube"));
@@ -68,6 +68,7 @@ TEST_CASE("the benchmark tells its results and circumstances") {
     CHECK(circumstances["cores"].is_number_unsigned());
     CHECK(circumstances["repeats"] == 2);
     CHECK(circumstances["warm_ups"] == 1);
+    CHECK(circumstances["seed"] == 7);
     REQUIRE(report["rows"].size() == 2);
     for (const Json& row : report["rows"]) {
         CHECK(row["sweep"] == "listed");

@@ -50,6 +50,7 @@ Circumstances find_circumstances(const Sampler& sampler, const Options& options)
     result.date = now_utc();
     result.repeats = options.repeats;
     result.warm_ups = options.warm_ups;
+    result.seed = options.seed;
     result.slots = options.runner.plan.slots;
     result.lanes = options.runner.plan.lanes;
     result.passes = options.runner.plan.detect_passes;

@@ -22,6 +22,7 @@ struct Circumstances {
     unsigned cores = 0; ///< That this process may be scheduled on; 0 if unknown.
     std::string date;   ///< UTC, ISO 8601.
     int repeats = 0, warm_ups = 0;
+    std::uint64_t seed = 0;
     /// As asked for; 0 for the default.
     std::uint32_t slots = 0, lanes = 0, steps = 0, passes = 0;
     Tuning tuning; ///< As used.

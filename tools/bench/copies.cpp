@@ -35,13 +35,14 @@ tools::MeshFile merged(const tools::MeshFile& mesh, std::uint32_t copies) {
 /// The copies of a mesh at a count.
 class Copies {
   public:
-    Copies(Runner& runner, const NamedMesh& mesh, std::uint32_t copies, double count)
+    Copies(Runner& runner, const NamedMesh& mesh, std::uint32_t copies, double count,
+           std::uint64_t seed)
         : runner_(runner), one_(prepare_mesh(mesh.name, mesh.file, 1)),
           all_(prepare_mesh(mesh.name, merged(mesh.file, copies), 1)),
-          params_(params_for(one_, count)) {
+          params_(params_for(one_, count, seed)) {
         for (std::uint32_t i = 0; i < copies; ++i) {
             parts_.push_back({&one_.prepared, params_});
-            parts_.back().params.seed = i;
+            parts_.back().params.seed += i;
         }
     }
 
@@ -114,7 +115,7 @@ void run_copies(Runner& runner, const Options& options, const std::vector<NamedM
                 const std::function<void(const CopiesRow&)>& on_row) {
     for (const NamedMesh& mesh : meshes) {
         for (const double count : options.counts) {
-            Copies copies(runner, mesh, options.copies, count);
+            Copies copies(runner, mesh, options.copies, count, options.seed);
             CopiesRow row{mesh.name, copies.triangles(), copies.check(), {}};
             std::vector<double> one_by_one, one_job, one_mesh;
             for (int i = -options.warm_ups; i < options.repeats; ++i) {

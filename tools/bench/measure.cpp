@@ -18,8 +18,6 @@ namespace {
 using tools::ExitCode;
 using tools::UserError;
 
-constexpr std::uint64_t kSeed = 1;
-
 /// A job with the tolerances that the device used.
 struct ReferenceJob {
     const PreparedMesh& mesh;
@@ -67,10 +65,10 @@ void check_equal(const std::vector<Sample>& samples,
 
 } // namespace
 
-SampleParams params_for(const BenchMesh& mesh, double count) {
+SampleParams params_for(const BenchMesh& mesh, double count, std::uint64_t seed) {
     SampleParams params;
     params.min_distance = distance_for_count(mesh.prepared.statistics().area, count);
-    params.seed = kSeed;
+    params.seed = seed;
     return params;
 }
 
@@ -102,11 +100,11 @@ BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int
     return result;
 }
 
-Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
+Measurement measure(Runner& runner, const BenchMesh& mesh, double count, std::uint64_t seed,
                     const Repetition& repetition) {
     const std::string what = case_text(mesh, count);
     const MeshStatistics& statistics = mesh.prepared.statistics();
-    const SampleParams params = params_for(mesh, count);
+    const SampleParams params = params_for(mesh, count, seed);
 
     SampleSet set = run_device(runner, mesh.prepared, params, what);
     const ReferenceJob job{

@@ -40,8 +40,8 @@ struct BenchMesh {
 /// Prepares `mesh` `repeats` times. Throws UserError(bad_input) if it is rejected.
 BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int repeats);
 
-/// What gives about `count` samples, with the seed of all measurements.
-SampleParams params_for(const BenchMesh& mesh, double count);
+/// What gives about `count` samples.
+SampleParams params_for(const BenchMesh& mesh, double count, std::uint64_t seed);
 
 /// "bunny.ply, 1,000 samples", for messages.
 std::string case_text(const BenchMesh& mesh, double count);
@@ -60,7 +60,7 @@ struct Repetition {
 ///
 /// Throws UserError: `internal` if the sets differ, `out_of_memory` if the job does not fit, or
 /// when interrupted.
-Measurement measure(Runner& runner, const BenchMesh& mesh, double count,
+Measurement measure(Runner& runner, const BenchMesh& mesh, double count, std::uint64_t seed,
                     const Repetition& repetition);
 
 } // namespace geodisk::bench

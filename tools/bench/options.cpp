@@ -22,6 +22,7 @@ struct RawOptions {
     std::vector<std::string> counts{"1000", "10000", "100000"};
     std::vector<std::string> scaling_counts{"100",   "300",    "1000",   "3000",   "10000",
                                             "30000", "100000", "300000", "1000000"};
+    std::string seed = "1";
     std::string scaling_samples = "10000";
     std::string scaling_faces = "1000000";
     Option counts_option;
@@ -62,6 +63,7 @@ Options checked(const RawOptions& raw) {
     }
     options.counts = options.scaling ? parse_counts("--scaling-counts", raw.scaling_counts)
                                      : parse_counts("--count", raw.counts);
+    options.seed = tools::parse_seed("--seed", raw.seed);
     options.face_sweep_count = tools::parse_count("--scaling-samples", raw.scaling_samples);
     options.most_faces =
         static_cast<std::uint64_t>(tools::parse_count("--scaling-faces", raw.scaling_faces));
@@ -138,6 +140,10 @@ void add_options(Command app, void (*run)(const Options&)) {
         .shows_default();
     app.add_option("--warm-ups", options.warm_ups, "K", "Runs before those, 0 to 1000")
         .takes_range(0, 1000)
+        .shows_default();
+    app.add_option("--seed", raw->seed, "S",
+                   "64-bit seed: sets differ by a few percent in the work that\n"
+                   "they take, so compare versions by the mean over several")
         .shows_default();
     app.add_option("--copies", options.copies, "K",
                    "Time K copies of each mesh instead: sampled one by one,\n"

@@ -17,6 +17,7 @@ struct Options {
     std::vector<double> counts; ///< Samples to aim at; those of the sweep if `scaling`.
     int repeats = 5;
     int warm_ups = 1;
+    std::uint64_t seed = 1; ///< Of all runs; copies count on from it.
     std::string device;
     RunnerOptions runner;
 

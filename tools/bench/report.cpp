@@ -70,6 +70,7 @@ void visit_fields(const Circumstances& run, const Visit& visit) {
     visit("date", run.date);
     visit("repeats", run.repeats);
     visit("warm_ups", run.warm_ups);
+    visit("seed", run.seed);
     visit("slots", run.slots);
     visit("lanes", run.lanes);
     visit("steps", run.steps);

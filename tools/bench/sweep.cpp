@@ -46,7 +46,8 @@ class Sweeper {
   private:
     void add_row(const BenchMesh& mesh, double count) {
         Series& series = series_.back();
-        series.rows.push_back(measure(runner_, mesh, count, {options_.warm_ups, options_.repeats}));
+        series.rows.push_back(
+            measure(runner_, mesh, count, options_.seed, {options_.warm_ups, options_.repeats}));
         observer_.on_row(series.rows.back());
     }
 

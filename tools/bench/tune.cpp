@@ -25,8 +25,10 @@ std::vector<Job> jobs_of(const Options& options, const std::vector<NamedMesh>& m
     for (const NamedMesh& mesh : meshes) {
         for (const double count : options.counts) {
             const BenchMesh prepared = prepare_mesh(mesh.name, mesh.file, 1);
-            jobs.push_back(
-                {prepared.prepared, params_for(prepared, count), case_text(prepared, count), {}});
+            jobs.push_back({prepared.prepared,
+                            params_for(prepared, count, options.seed),
+                            case_text(prepared, count),
+                            {}});
         }
     }
     return jobs;
