@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -206,7 +207,7 @@ class Detector {
         if (chain < gpu::kFirstRemembered) {
             return kNoEdge;
         }
-        return (chain & (chain - 1)) == 0 ? h : remembered;
+        return std::has_single_bit(chain) ? h : remembered;
     }
 
     /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e; `start`

@@ -149,10 +149,8 @@ bool in_shadow(uvec2 corner) {
            (may_come_behind && turned_left >= needed && turned_right + around >= needed);
 }
 
-void take_window(uint window) {
-    uint at = window_at(window);
-    uvec4 row0 = own_row_at(pool, own_row(at));
-    uvec4 row1 = own_row_at(pool, own_row(at + 1u));
+// The window with these rows is in flight.
+void cross_from(uvec4 row0, uvec4 row1) {
     lane.half_edge = row0.x >> 1;
     lane.mode = (row0.x & 1u) != 0u ? kModeSameWay : kModeOpposite;
     lane.x = uintBitsToFloat(row0.y);
@@ -162,24 +160,24 @@ void take_window(uint window) {
     lane.sigma = uintBitsToFloat(row1.y);
     lane.chain = row1.z;
     lane.known = row1.w;
-    if (kTrims) {
-        lane.remembered = own_row_at(pool, remembered_row(window))[window & 3u];
-    }
     lane.phase = kPhaseCross;
     window_taken = true;
 }
 
+void take_window(uint window) {
+    uint at = window_at(window);
+    cross_from(own_row_at(pool, own_row(at)), own_row_at(pool, own_row(at + 1u)));
+    if (kTrims) {
+        lane.remembered = own_row_at(pool, remembered_row(window))[window & 3u];
+    }
+}
+
 void take_held() {
-    lane.half_edge = lane.held_around >> 1;
-    lane.mode = (lane.held_around & 1u) != 0u ? kModeSameWay : kModeOpposite;
-    lane.x = lane.held_x;
-    lane.y = lane.held_y;
-    lane.b0 = lane.held_b0;
-    lane.b1 = lane.held_b1;
-    ++lane.chain;
-    lane.known = lane.held_known;
+    cross_from(uvec4(lane.held_around, floatBitsToUint(lane.held_x), floatBitsToUint(lane.held_y),
+                     floatBitsToUint(lane.held_b0)),
+               uvec4(floatBitsToUint(lane.held_b1), floatBitsToUint(lane.sigma), lane.chain + 1u,
+                     lane.held_known));
     lane.held_around = kNoWindow;
-    lane.phase = kPhaseCross;
 }
 
 // A vertex reached sooner by now is dropped.
