@@ -3,6 +3,7 @@
 #include <numeric>
 
 namespace geodisk::ref {
+namespace {
 
 template <class Real>
 Grid face_grid(const Surface<Real>& surface, std::uint32_t face) {
@@ -21,26 +22,28 @@ Grid face_grid(const Surface<Real>& surface, std::uint32_t face) {
     return {count(edge.length), count(edge.apex_y), base};
 }
 
+} // namespace
+
 template <class Real>
-std::vector<Grid> Bins<Real>::lay_out(const Surface<Real>& surface) {
-    const std::uint32_t faces = surface.face_count();
-    std::vector<Grid> grids(faces);
-    first_cell.assign(std::size_t{faces} + 1, 0);
-    for (std::uint32_t f = 0; f < faces; ++f) {
-        grids[f] = face_grid(surface, f);
-        first_cell[std::size_t{f} + 1] = first_cell[f] + grids[f].columns * grids[f].rows;
+std::size_t Bins<Real>::lay_out(const Surface<Real>& surface) {
+    grids.clear();
+    grids.reserve(surface.face_count());
+    std::uint32_t cells = 0;
+    for (std::uint32_t f = 0; f < surface.face_count(); ++f) {
+        Grid& grid = grids.emplace_back(face_grid(surface, f));
+        grid.first_cell = cells;
+        cells += grid.cells();
     }
-    return grids;
+    return cells;
 }
 
 template <class Real>
 Bins<Real>::Bins(const Surface<Real>& surface, std::span<const FacePoint<Real>> given) {
-    const std::vector<Grid> grids = lay_out(surface);
-    starts.assign(std::size_t{first_cell.back()} + 1, 0);
+    starts.assign(lay_out(surface) + 1, 0);
     std::vector<std::uint32_t> cells(given.size());
     for (std::size_t i = 0; i < given.size(); ++i) {
         const std::uint32_t f = given[i].face;
-        cells[i] = first_cell[f] + cell_of(surface, grids[f], given[i]);
+        cells[i] = grids[f].first_cell + cell_of(surface, grids[f], given[i]);
         ++starts[std::size_t{cells[i]} + 1];
     }
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
@@ -54,8 +57,6 @@ Bins<Real>::Bins(const Surface<Real>& surface, std::span<const FacePoint<Real>> 
     }
 }
 
-template Grid face_grid(const Surface<float>&, std::uint32_t);
-template Grid face_grid(const Surface<double>&, std::uint32_t);
 template struct Bins<float>;
 template struct Bins<double>;
 

@@ -16,12 +16,12 @@ namespace geodisk::ref {
 /// than a cell has just one.
 struct Grid {
     std::uint32_t columns, rows;
-    std::uint32_t base; ///< Half-edge whose frame the grid lies in.
+    std::uint32_t base;           ///< Half-edge whose frame the grid lies in.
+    std::uint32_t first_cell = 0; ///< Of all cells, in Bins.
+
+    std::uint32_t cells() const { return columns * rows; }
     bool single() const { return columns == 1 && rows == 1; }
 };
-
-template <class Real>
-Grid face_grid(const Surface<Real>& surface, std::uint32_t face);
 
 /// Position of a point of half-edge h's face in the frame of h.
 template <class Real>
@@ -69,10 +69,10 @@ std::uint32_t cell_of(const Surface<Real>& surface, const Grid& grid, FacePoint<
 }
 
 /// Points sorted by cell. `order[starts[c] .. starts[c + 1])` are the points of cell c; the cells
-/// of face f begin at `first_cell[f]`, row by row.
+/// of face f begin at `grids[f].first_cell`, row by row.
 template <class Real>
 struct Bins {
-    std::vector<std::uint32_t> first_cell;       ///< One more than faces.
+    std::vector<Grid> grids;                     ///< Of each face.
     std::vector<std::uint32_t> starts;           ///< One more than cells.
     std::vector<std::uint32_t> order;            ///< Empty in a Pool, which lists its places.
     UninitializedVector<FacePoint<Real>> points; ///< By place, so in the order of `order`.
@@ -81,8 +81,8 @@ struct Bins {
     /// Points in any order, which those of a cell keep.
     Bins(const Surface<Real>& surface, std::span<const FacePoint<Real>> given);
 
-    /// Numbers the cells, and returns the grids of the faces.
-    std::vector<Grid> lay_out(const Surface<Real>& surface);
+    /// Lays a grid over each face; returns how many cells they have.
+    std::size_t lay_out(const Surface<Real>& surface);
 };
 
 } // namespace geodisk::ref

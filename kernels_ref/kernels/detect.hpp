@@ -61,12 +61,7 @@ class Detector {
     Detector(const Surface<Real>& surface, const Bins<Real>& bins, const Tolerances& tolerances,
              Real limit)
         : surface_(surface), bins_(bins), limit_(limit), margin_(tolerances.margin),
-          slack_(tolerances.slack), vertices_(surface.fans.size()) {
-        grids_.reserve(surface.face_count());
-        for (std::uint32_t f = 0; f < surface.face_count(); ++f) {
-            grids_.push_back(face_grid(surface, f));
-        }
-    }
+          slack_(tolerances.slack), vertices_(surface.fans.size()) {}
 
     /// Another limit for the disks from now on.
     void set_limit(Real limit) { limit_ = limit; }
@@ -233,7 +228,7 @@ class Detector {
             return {};
         }
         // Where many faces share the edge the shader has no room for what is known of its ends.
-        const bool many = shared_by_many(e);
+        const bool many = !surface_.splits_once && shared_by_many(e);
         return {distance,
                 {e, x, y, b0, b1, sigma, chain, many ? static_cast<Real>(kFar) : rounded_up(start),
                  many ? static_cast<Real>(kFar) : rounded_up(end), remembered}};
@@ -394,6 +389,8 @@ class Detector {
         const Real b0 = window.b0;
         const Real b1 = window.b1;
         const Real sigma = window.sigma;
+        // First, so that the memory of both the bins and the face is waited for at once.
+        light.wedge(h, x, y, b0, b1, sigma);
         const Edge<Real>& edge = surface_.edges[h];
         const std::uint32_t left = previous_in_face(h);
         const std::uint32_t right = next_in_face(h);
@@ -407,20 +404,17 @@ class Detector {
             reach(apex, distance, left, h, crossing, false, window.chain + 1);
         }
         const Real known = distance_at(apex);
-        Child over_left, over_right;
-        if (to_left) {
-            over_left =
-                lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, known, window);
-        }
-        if (to_right) {
-            over_right = lit_child(right, false, h, edge.length - x, y, edge.length - b1,
-                                   crossing > b0 ? kFull : edge.length - b0, known, window);
-        }
+        const Child over_left =
+            to_left ? lit_child(left, true, h, x, y, b0, crossing < b1 ? kFull : b1, known, window)
+                    : Child{};
+        const Child over_right =
+            to_right ? lit_child(right, false, h, edge.length - x, y, edge.length - b1,
+                                 crossing > b0 ? kFull : edge.length - b0, known, window)
+                     : Child{};
         // The nearer one comes last, so that the stack gives it back first.
         const bool right_first = over_left.distance < over_right.distance;
         push(right_first ? over_right : over_left);
         push(right_first ? over_left : over_right);
-        light.wedge(h, x, y, b0, b1, sigma);
     }
 
     static constexpr Real kFull = -1;
@@ -496,8 +490,8 @@ class Detector {
     template <class Wanted, class Hit, class Lit>
     void scan(std::uint32_t h, Real x, Real y, Real sigma, Wanted& wanted, Hit& hit, Lit lit) {
         const std::uint32_t f = h / 3;
-        const Grid& grid = grids_[f];
-        const std::uint32_t first = bins_.first_cell[f];
+        const Grid& grid = bins_.grids[f];
+        const std::uint32_t first = grid.first_cell;
         const Real rest = reach_into(f) - sigma;
         if (adaptive() && !(rest > 0)) {
             return; // The disk ends before the face.
@@ -563,7 +557,6 @@ class Detector {
     const Bins<Real>& bins_;
     Real limit_, margin_, slack_;
     Real own_radius_ = 0; ///< Of the source, where radii vary.
-    std::vector<Grid> grids_;
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
     Waiting<Real> waiting_;

@@ -34,12 +34,12 @@ class Drawing {
           darts_(starts_.back()) {}
 
     Pool<Real> draw() {
-        const std::vector<Grid> grids = pool_.bins.lay_out(surface_);
-        pool_.bins.starts.resize(std::size_t{pool_.bins.first_cell.back()} + 1);
+        pool_.bins.starts.resize(pool_.bins.lay_out(surface_) + 1);
         pool_.bins.points.resize(darts_.size());
         pool_.words.resize(darts_.size());
         for (std::uint32_t face = 0; face < surface_.face_count(); ++face) {
-            grids[face].single() ? draw_cell(face) : draw_cells(face, grids[face]);
+            const Grid& grid = pool_.bins.grids[face];
+            grid.single() ? draw_cell(face, grid) : draw_cells(face, grid);
         }
         pool_.bins.starts.back() = place_;
         order();
@@ -53,14 +53,17 @@ class Drawing {
     }
 
     void draw_stage(std::uint32_t face, std::size_t stage, std::span<FacePoint<Real>> points) {
+        if (points.empty()) {
+            return; // As in most faces, where these are many.
+        }
         priorities_.resize(points.size());
         draw_candidates(surface_, params_, face, first_stage_ + static_cast<std::uint32_t>(stage),
                         points, std::span(priorities_));
     }
 
     /// A face of one cell has its candidates as they are drawn.
-    void draw_cell(std::uint32_t face) {
-        pool_.bins.starts[pool_.bins.first_cell[face]] = place_;
+    void draw_cell(std::uint32_t face, const Grid& grid) {
+        pool_.bins.starts[grid.first_cell] = place_;
         for (std::size_t stage = 0; stage < counts_.size(); ++stage) {
             const std::uint32_t count = counts_[stage][face];
             draw_stage(face, stage, std::span(pool_.bins.points).subspan(place_, count));
@@ -77,7 +80,7 @@ class Drawing {
 
     void draw_cells(std::uint32_t face, const Grid& grid) {
         drawn_.clear();
-        cells_.assign(std::size_t{grid.columns} * grid.rows, 0);
+        cells_.assign(grid.cells(), 0);
         for (std::uint32_t stage = 0; stage < counts_.size(); ++stage) {
             face_points_.resize(counts_[stage][face]);
             draw_stage(face, stage, face_points_);
@@ -88,8 +91,7 @@ class Drawing {
             }
         }
         std::exclusive_scan(cells_.begin(), cells_.end(), cells_.begin(), place_);
-        std::copy(cells_.begin(), cells_.end(),
-                  pool_.bins.starts.begin() + pool_.bins.first_cell[face]);
+        std::copy(cells_.begin(), cells_.end(), pool_.bins.starts.begin() + grid.first_cell);
         for (const Drawn& drawn : drawn_) {
             const std::uint32_t place = cells_[drawn.cell]++;
             pool_.bins.points[place] = drawn.point;

@@ -46,7 +46,7 @@ std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
 template <class Real>
 bool in_its_cell(const ref::Surface<Real>& surface, const ref::Bins<Real>& bins, std::uint32_t f,
                  std::uint32_t cell, std::uint32_t place) {
-    const ref::Grid grid = ref::face_grid(surface, f);
+    const ref::Grid& grid = bins.grids[f];
     if (bins.points[place].face != f) {
         return false;
     }
@@ -70,14 +70,18 @@ template <class Real>
 void check_cells(const ref::Surface<Real>& surface, const ref::Bins<Real>& bins) {
     REQUIRE(bins.starts.front() == 0);
     REQUIRE(bins.starts.back() == bins.points.size());
-    REQUIRE(bins.starts.size() == std::size_t{bins.first_cell.back()} + 1);
+    std::uint32_t first = 0;
     for (std::uint32_t f = 0; f < surface.face_count(); ++f) {
-        for (std::uint32_t cell = bins.first_cell[f]; cell < bins.first_cell[f + 1]; ++cell) {
-            for (std::uint32_t place = bins.starts[cell]; place < bins.starts[cell + 1]; ++place) {
-                REQUIRE(in_its_cell(surface, bins, f, cell - bins.first_cell[f], place));
+        REQUIRE(bins.grids[f].first_cell == first);
+        for (std::uint32_t k = 0; k < bins.grids[f].cells(); ++k) {
+            for (std::uint32_t place = bins.starts[first + k]; place < bins.starts[first + k + 1];
+                 ++place) {
+                REQUIRE(in_its_cell(surface, bins, f, k, place));
             }
         }
+        first += bins.grids[f].cells();
     }
+    REQUIRE(bins.starts.size() == std::size_t{first} + 1);
 }
 
 /// Every point is in exactly one cell, its own, and those of a cell in the order given.

@@ -135,16 +135,16 @@ class WindowMaker {
 };
 
 std::vector<FaceRec> lay_out(const ref::Surface<double>& surface) {
+    ref::Bins<double> bins;
+    bins.lay_out(surface);
     std::vector<FaceRec> faces;
     faces.reserve(surface.face_count());
-    std::uint32_t cells = 0;
     for (std::uint32_t f = 0; f < surface.face_count(); ++f) {
-        const ref::Grid grid = ref::face_grid(surface, f);
+        const ref::Grid& grid = bins.grids[f];
         const ref::Edge<double>& edge = surface.edges[grid.base];
         faces.push_back({to_float(edge.length), to_float(edge.apex_x), to_float(edge.apex_y),
                          grid.base - 3 * f, to_float(surface.cells_per_unit(f)), grid.columns,
-                         grid.rows, cells});
-        cells += grid.columns * grid.rows;
+                         grid.rows, grid.first_cell});
     }
     return faces;
 }
