@@ -228,13 +228,16 @@ class Detector {
             return {};
         }
         // Where many faces share the edge the shader has no room for what is known of its ends.
-        const bool many = !surface_.splits_once && shared_by_many(e);
+        const bool many = shared_by_many(e);
         return {distance,
                 {e, x, y, b0, b1, sigma, chain, many ? static_cast<Real>(kFar) : rounded_up(start),
                  many ? static_cast<Real>(kFar) : rounded_up(end), remembered}};
     }
 
     bool shared_by_many(std::uint32_t e) const {
+        if (surface_.splits_once) {
+            return false; // No edge of the mesh is.
+        }
         const std::uint32_t next = around_half_edge(surface_.edges[e].around);
         return around_half_edge(surface_.edges[next].around) != e;
     }
@@ -491,7 +494,6 @@ class Detector {
     void scan(std::uint32_t h, Real x, Real y, Real sigma, Wanted& wanted, Hit& hit, Lit lit) {
         const std::uint32_t f = h / 3;
         const Grid& grid = bins_.grids[f];
-        const std::uint32_t first = grid.first_cell;
         const Real rest = reach_into(f) - sigma;
         if (adaptive() && !(rest > 0)) {
             return; // The disk ends before the face.
@@ -514,7 +516,7 @@ class Detector {
             }
         };
         if (grid.single()) {
-            scan_places(bins_.starts[first], bins_.starts[first + 1]);
+            scan_places(bins_.starts[grid.first_cell], bins_.starts[grid.first_cell + 1]);
             return;
         }
         const auto center = in_other_frame(surface_, h, grid.base, {x, y});
@@ -527,7 +529,7 @@ class Detector {
         const std::uint32_t row1 = cell_at(center.y + reach, grid.rows, per_unit);
         for (std::uint32_t row = cell_at(center.y - reach, grid.rows, per_unit); row <= row1;
              ++row) {
-            const std::uint32_t start = first + row * grid.columns;
+            const std::uint32_t start = grid.first_cell + row * grid.columns;
             scan_places(bins_.starts[start + column0], bins_.starts[start + column1 + 1]);
         }
     }
