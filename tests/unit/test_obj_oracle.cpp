@@ -100,7 +100,7 @@ const std::set<std::string> kOtherwise{
 
 TEST_CASE("odd OBJ files hold what tinyobjloader finds in them") {
     std::size_t compared = 0;
-    const auto folder = geodisk::test::data_file("bad/").value();
+    const auto folder = geodisk::test::data_file("bad").value();
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         if (entry.path().extension() != ".obj" || name.starts_with("err_") ||
