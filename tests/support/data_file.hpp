@@ -7,9 +7,9 @@
 
 namespace geodisk::test {
 
-/// "bad" or "bad/NAME" in tests/data, or "meshes/NAME" in the folder GEODISK_SHARED_DATA. Where
-/// that folder is missing there is nothing and a doctest message says so; in continuous integration
-/// (CI=true in the environment) the test fails.
+/// "bad" or "cases", or "bad/NAME" or "cases/NAME", in tests/data; or "meshes/NAME" in the folder
+/// GEODISK_SHARED_DATA. Where that folder is missing there is nothing and a doctest message says
+/// so; in continuous integration (CI=true in the environment) the test fails.
 std::optional<std::filesystem::path> data_file(const std::string& name);
 
 } // namespace geodisk::test

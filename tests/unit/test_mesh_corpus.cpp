@@ -23,6 +23,10 @@ std::filesystem::path bad_file(const std::string& name) {
     return geodisk::test::data_file("bad/" + name).value();
 }
 
+std::string case_file(const std::string& name) {
+    return geodisk::test::data_file("cases/" + name).value().string();
+}
+
 struct Expected {
     std::string name;
     std::string verdict;
@@ -155,6 +159,31 @@ TEST_CASE("odd and broken files get their expected verdict") {
             check_warnings(expected, warnings_of(mesh));
         }
     }
+}
+
+TEST_CASE("files as other programs write them are read") {
+    struct Case {
+        const char* name;
+        double area;
+        const char* warning; ///< Kind of the only one, or "".
+    };
+    const double tetrahedron = 8 * std::sqrt(3.0);
+    const Case cases[] = {
+        {"bom.ply", 6, ""},
+        {"indefinite_unused.obj", 0.5, "unused_not_finite"},
+        {"nul_tail.obj", 0.5, "trailing_data"},
+        {"off_glued.off", tetrahedron, "glued_header"},
+        {"twice_named.ply", 0.5, ""},
+    };
+    for (const Case& one : cases) {
+        CAPTURE(one.name);
+        const MeshFile mesh = read_mesh(case_file(one.name));
+        CHECK(total_area(mesh) == doctest::Approx(one.area).epsilon(1e-6));
+        CHECK((mesh.warnings.empty() ? "" : mesh.warnings[0].kind) == one.warning);
+        CHECK(mesh.warnings.size() <= 1);
+    }
+    check_fails(ExitCode::bad_input, "is UTF-16; save it as UTF-8",
+                [] { read_mesh(case_file("utf16.obj")); });
 }
 
 TEST_CASE("cut and altered files are read or refused") {

@@ -121,7 +121,7 @@ TEST_CASE("faults of OFF files are told with their line") {
     check_refused("a.off", "", "is empty");
     check_refused("a.off", "v 0 0 0\n", "is not an OFF file");
     check_refused("a.off", "OFF BINARY\n", "line 1: a binary OFF file");
-    check_refused("a.off", "4OFF\n", "line 1: '4OFF' has vertices of other than 3");
+    check_refused("a.off", "4OFF\n", "line 1: '4OFF' has 4-D vertices");
     check_refused("a.off", "OFF\n", "ends before the numbers");
     check_refused("a.off", "OFF\n3 x\n", "line 2: the numbers of");
     check_refused("a.off", "OFF\n3 99999999999\n", "line 2: the numbers of");
@@ -137,6 +137,83 @@ TEST_CASE("faults of OFF files are told with their line") {
     const MeshFile more = mesh_of("a.off", start + "0 1 0\n3 0 1 2\n\n3 0 2 1\n");
     CHECK(more.triangle_count() == 1);
     CHECK(warning_of(more).kind == "trailing_data");
+}
+
+TEST_CASE("OFF headers may hold a dimension, or a count behind the keyword") {
+    const MeshFile mesh = mesh_of("a.off", "nOFF 4\n3 1 0\n0 0 0 5\n1 0 0 5\n0 1 0 5\n3 0 1 2\n");
+    CHECK(mesh.dimension == 4);
+    CHECK(mesh.positions == std::vector<double>{0, 0, 0, 5, 1, 0, 0, 5, 0, 1, 0, 5});
+    const std::string rest = "\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const MeshFile glued = mesh_of("a.off", "OFF3 1 0" + rest);
+    CHECK(glued.triangles == Corners{0, 1, 2});
+    CHECK(warning_of(glued).message ==
+          "1 number behind OFF without a blank read as the number of vertices (line 1)");
+    check_refused("a.off", "OFF4\n3 1 0" + rest, "points of 4 coordinates (4-D)");
+    check_refused("a.off", "nOFF 2\n3 1 0" + rest, "line 1: '2' is no number of coordinates");
+    check_refused("a.off", "OFFICE\n", "is not an OFF file");
+}
+
+TEST_CASE("files that hold something else say what it is") {
+    for (const std::string extension : {".obj", ".off", ".ply", ".stl", ".gltf"}) {
+        const auto check = [&](std::string_view bytes, std::string_view part) {
+            check_refused("a" + extension, bytes, part);
+        };
+        check("\x1f\x8b\x08", "is compressed by gzip; decompress it first");
+        check("PK\x03\x04", "is a zip archive");
+        check("version https://git-lfs.github.com/spec/v1\noid sha256:00\n", "run git lfs pull");
+        check("\n<!DOCTYPE html>\n<html>", "is a web page (HTML)");
+        check(std::string_view("\xff\xfev\0 \0", 6), "is UTF-16; save it as UTF-8");
+        check(std::string_view("v\0 \0", 4), "is UTF-16; save it as UTF-8");
+        check(std::string_view("\0v\0 ", 4), "is UTF-16; save it as UTF-8");
+        if (extension != ".stl") {
+            check("solid a\nfacet normal 0 0 1\n",
+                  "is an STL file, so its name should end in .stl");
+        }
+        if (extension != ".ply") {
+            check("ply\nformat ascii 1.0\n", "is a PLY file, so its name should end in .ply");
+        }
+        if (extension != ".gltf") {
+            check("{\"asset\": {}}", "is a glTF file, so its name should end in .gltf");
+        }
+    }
+}
+
+TEST_CASE("texts may begin with a byte order mark and end with NULs") {
+    const std::string mark = "\xEF\xBB\xBF";
+    const std::string nuls(3, '\0');
+    for (const auto& [name, text] :
+         {std::pair<std::string, std::string>{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+          {"a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+          {"a.stl", ascii_stl(kFacet)},
+          {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"
+                    "property float x\nproperty float y\n"
+                    "property float z\nelement face 1\n"
+                    "property list uchar int vertex_indices\n"
+                    "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}}) {
+        CAPTURE(name);
+        CHECK(mesh_of(name, mark + text).triangle_count() == 1);
+        const MeshFile padded = mesh_of(name, text + nuls);
+        CHECK(padded.triangle_count() == 1);
+        CHECK(warning_of(padded).kind == "trailing_data");
+        CHECK(warning_of(padded).count == 3);
+    }
+    check_refused("a.obj", "v 0 0 0\nv 1 0" + nuls + "\n",
+                  "line 2: contains a NUL byte at offset 13");
+}
+
+TEST_CASE("vertices of no face may have coordinates that are no numbers, however written") {
+    for (const std::string number : {"nan", "-nan(ind)", "NaN", "inf", "-Infinity", "1.#IND",
+                                     "-1.#IND00", "1.#QNAN0", "1.#INF", "1.#J"}) {
+        CAPTURE(number);
+        const std::string point = number + " 1 " + number;
+        const MeshFile obj =
+            mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv " + point + " # so\nf 1 2 3\n");
+        CHECK(warning_of(obj).kind == "unused_not_finite");
+        const std::string values = "0 0 0\n1 0 0\n0 1 0\n" + point + "\n3 0 1 2\n";
+        CHECK(warning_of(mesh_of("a.off", "OFF 4 1 0\n" + values)).kind == "unused_not_finite");
+        check_refused("a.obj", "v 0 0 0\nv 1 0 0\nv " + point + "\nf 1 2 3\n",
+                      "line 3, vertex 3: the coordinates are not finite");
+    }
 }
 
 TEST_CASE("OBJ faces of fewer than three corners make no triangle") {
@@ -174,6 +251,18 @@ std::string ply_of(std::string_view faces, std::string_view records,
 }
 
 } // namespace
+
+TEST_CASE("PLY names that nobody asks for may repeat") {
+    const std::string text =
+        ply_of("element face 1\nproperty uchar gap\nproperty uchar gap\n", "0 0 3 0 1 2\n");
+    CHECK(mesh_of("a.ply", text).triangles == Corners{0, 1, 2});
+    const std::string extra = "element other 1\nproperty int a\n";
+    CHECK(
+        mesh_of("a.ply", ply_of(extra + extra + "element face 1\n", "1\n2\n3 0 1 2\n")).triangles ==
+        Corners{0, 1, 2});
+    check_refused("a.ply", ply_of("property float y\nelement face 1\n", "3 0 1 2\n"),
+                  "line 7: property 'y' is declared twice");
+}
 
 TEST_CASE("PLY lines may end with CR alone") {
     const std::string faces = "element face 2\n", records = "3 0 1 2\n3 0 2 3\n";

@@ -19,6 +19,7 @@
 
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
+#include "files/text_file.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -145,7 +146,10 @@ class GltfReader {
     [[noreturn]] void fail(const std::string& message) const { fail_input(path_, message); }
 
     void load() {
-        const std::string bytes = read_file(path_);
+        const std::string bytes = read_text(path_);
+        if (!bytes.starts_with("glTF")) {
+            refuse_other_mesh(path_, bytes, ".gltf");
+        }
         if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
             fail("is larger than 4 GiB, which no glTF file may be");
         }

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
+#include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -69,7 +69,7 @@ class ObjReader {
         std::string_view line;
         while (next(line)) {
             if (line.find('\0') != std::string_view::npos) {
-                fail("contains a NUL byte, so this is not a text file");
+                fail(lines_.nul_message());
             }
             split_tokens(line, tokens_);
             const std::string_view keyword = tokens_.empty() ? std::string_view() : tokens_[0];
@@ -116,8 +116,8 @@ class ObjReader {
 
     /// Takes off a comment, or the backslash of a line that goes on: then true.
     static bool take_comment(std::string_view& line) {
-        if (const std::size_t comment = line.find('#'); comment != std::string_view::npos) {
-            line = line.substr(0, comment);
+        if (const std::string_view bare = without_comment(line); bare.size() < line.size()) {
+            line = bare;
             return false;
         }
         const bool continues = line.ends_with('\\');
@@ -263,14 +263,15 @@ class ObjReader {
 } // namespace
 
 PolygonMesh read_obj(const Path& path, bool has_uvs, const ReadingProgress& progress) {
-    const std::string bytes = read_file(path);
+    std::string bytes = read_text(path);
+    const std::size_t nuls = drop_final_nuls(bytes);
     if (bytes.empty()) {
         fail_input(path, "is empty");
     }
-    if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
-        fail_input(path, "is a PLY file, so its name should end in .ply");
-    }
-    return ObjReader(path, bytes, has_uvs, progress).read();
+    refuse_other_mesh(path, bytes, ".obj");
+    PolygonMesh mesh = ObjReader(path, bytes, has_uvs, progress).read();
+    warn_of_final_nuls(mesh, nuls);
+    return mesh;
 }
 
 } // namespace geodisk::tools

@@ -5,9 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
+#include "files/text_file.hpp"
 #include "files/text_lines.hpp"
+#include "geometry/mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -18,7 +19,7 @@ namespace {
 class OffReader {
   public:
     OffReader(const Path& path, std::string_view bytes, const ReadingProgress& progress)
-        : path_(path), size_(bytes.size()), lines_(bytes, progress) {}
+        : path_(path), bytes_(bytes), lines_(bytes, progress) {}
 
     PolygonMesh read() && {
         read_header();
@@ -48,9 +49,9 @@ class OffReader {
         tokens_.clear();
         while (tokens_.empty() && lines_.next(line)) {
             if (line.find('\0') != std::string_view::npos) {
-                fail("contains a NUL byte, so this is not a text file");
+                fail(lines_.nul_message());
             }
-            split_tokens(line.substr(0, line.find('#')), tokens_);
+            split_tokens(without_comment(line), tokens_);
         }
         return !tokens_.empty();
     }
@@ -62,32 +63,69 @@ class OffReader {
         }
     }
 
-    /// What the letters before OFF tell: vertex lines have more after the coordinates.
-    void check_keyword(std::string_view keyword) const {
-        std::string_view rest = keyword;
+    /// Takes the keyword off the first record. Letters before OFF tell that vertex lines have more
+    /// after the coordinates, or how many these are.
+    void take_keyword() {
+        std::string_view rest = tokens_[0];
         for (const std::string_view part : {"ST", "C", "N"}) {
             rest.remove_prefix(rest.starts_with(part) ? part.size() : 0);
         }
-        if (rest == "4OFF" || rest == "nOFF" || rest == "4nOFF") {
-            fail(in_quotes(keyword) + " has vertices of other than 3 coordinates; PLY files may");
+        if (rest == "4OFF" || rest == "4nOFF") {
+            fail(in_quotes(tokens_[0]) + " has 4-D vertices (homogeneous: x y z w), which are not "
+                                         "read; write them as nOFF or OFF");
         }
-        if (rest != "OFF") {
+        has_dimension_ = rest.starts_with('n');
+        rest.remove_prefix(has_dimension_ ? 1 : 0);
+        if (!rest.starts_with("OFF")) {
+            refuse_other_mesh(path_, bytes_, ".off");
             fail_input(path_, "is not an OFF file: it does not begin with 'OFF'");
         }
+        rest.remove_prefix(3);
+        if (rest.empty()) {
+            tokens_.erase(tokens_.begin());
+            return;
+        }
+        if (!parse_integer<std::uint64_t>(rest)) {
+            fail_input(path_, "is not an OFF file: it does not begin with 'OFF'");
+        }
+        if (tokens_.size() < 3) {
+            fail(in_quotes(tokens_[0]) + " is no keyword of OFF; points of 4 coordinates (4-D) are "
+                                         "written as nOFF");
+        }
+        add_warning(mesh_.warnings, "glued_header", 1, "line " + std::to_string(lines_.number()),
+                    "number behind OFF without a blank read as the number of vertices", "");
+        tokens_[0] = rest;
+    }
+
+    /// Goes on to the next record if no token is left of this one.
+    void need_tokens(const char* what) {
+        if (tokens_.empty() && !next_record()) {
+            fail(std::string("the file ends before ") + what);
+        }
+    }
+
+    void take_dimension() {
+        need_tokens("the number of coordinates");
+        const auto dimension = parse_integer<std::uint32_t>(tokens_[0]);
+        if (!dimension || *dimension < kFewestCoordinates || *dimension > kMostCoordinates) {
+            fail(in_quotes(tokens_[0]) + " is no number of coordinates; vertices have 3 to 8");
+        }
+        mesh_.dimension = *dimension;
+        tokens_.erase(tokens_.begin());
     }
 
     void read_header() {
         if (!next_record()) {
             fail_input(path_, "is empty");
         }
-        check_keyword(tokens_[0]);
-        if (tokens_.size() > 1 && tokens_[1] == "BINARY") {
+        take_keyword(); // The counts may stand on the same line.
+        if (!tokens_.empty() && tokens_[0] == "BINARY") {
             fail("a binary OFF file; only text is read");
         }
-        tokens_.erase(tokens_.begin()); // The counts may stand on the same line.
-        if (tokens_.empty() && !next_record()) {
-            fail("the file ends before the numbers of vertices and faces");
+        if (has_dimension_) {
+            take_dimension();
         }
+        need_tokens("the numbers of vertices and faces");
         const auto count = [this](std::size_t i) {
             const auto value =
                 i < tokens_.size() ? parse_integer<std::uint64_t>(tokens_[i]) : std::nullopt;
@@ -99,16 +137,17 @@ class OffReader {
         vertices_ = count(0);
         faces_ = count(1);
         // A line has at least so many bytes; the file may promise more.
-        mesh_.positions.reserve(3 * std::min<std::uint64_t>(vertices_, size_ / 6));
-        mesh_.face_ends.reserve(std::min<std::uint64_t>(faces_, size_ / 2));
+        mesh_.positions.reserve(mesh_.dimension *
+                                std::min<std::uint64_t>(vertices_, bytes_.size() / 6));
+        mesh_.face_ends.reserve(std::min<std::uint64_t>(faces_, bytes_.size() / 2));
     }
 
     void read_vertex(std::uint64_t index) {
         need_record("vertex", index);
-        if (tokens_.size() < 3) {
-            fail("a vertex needs 3 coordinates");
+        if (tokens_.size() < mesh_.dimension) {
+            fail("a vertex needs " + std::to_string(mesh_.dimension) + " coordinates");
         }
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < mesh_.dimension; ++i) {
             const std::optional<double> value = parse_real(tokens_[i]);
             if (!value) {
                 fail(in_quotes(tokens_[i]) + " is not a number");
@@ -141,18 +180,22 @@ class OffReader {
     }
 
     const Path& path_;
-    std::size_t size_;
+    std::string_view bytes_;
     TextLines lines_;
     std::vector<std::string_view> tokens_;
     std::uint64_t vertices_ = 0, faces_ = 0;
     PolygonMesh mesh_;
+    bool has_dimension_ = false; ///< The number of coordinates follows the keyword.
 };
 
 } // namespace
 
 PolygonMesh read_off(const Path& path, const ReadingProgress& progress) {
-    const std::string bytes = read_file(path);
-    return OffReader(path, bytes, progress).read();
+    std::string bytes = read_text(path);
+    const std::size_t nuls = drop_final_nuls(bytes);
+    PolygonMesh mesh = OffReader(path, bytes, progress).read();
+    warn_of_final_nuls(mesh, nuls);
+    return mesh;
 }
 
 } // namespace geodisk::tools

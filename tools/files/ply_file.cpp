@@ -3,7 +3,8 @@
 #include <array>
 #include <utility>
 
-#include "files/input_file.hpp"
+#include "files/text_file.hpp"
+#include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -51,13 +52,19 @@ std::optional<std::size_t> list_size(double count, std::size_t largest) {
 
 std::optional<std::size_t> find_property(const PlyElement& element, std::string_view name,
                                          bool is_list) {
+    std::optional<std::size_t> found;
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const PlyProperty& property = element.properties[i];
-        if (property.name == name && property.count_type.has_value() == is_list) {
-            return i;
+        if (property.name != name || property.count_type.has_value() != is_list) {
+            continue;
         }
+        if (found) {
+            fail_input(element.file, "line " + std::to_string(property.line) + ": property " +
+                                         in_quotes(name) + " is declared twice");
+        }
+        found = i;
     }
-    return std::nullopt;
+    return found;
 }
 
 } // namespace
@@ -71,7 +78,7 @@ std::optional<std::size_t> PlyElement::find_list(std::string_view wanted) const 
 }
 
 PlyFile::PlyFile(const Path& path, ReadingProgress progress)
-    : path_(path), progress_(std::move(progress)), bytes_(read_file(path)) {
+    : path_(path), progress_(std::move(progress)), bytes_(read_text(path)) {
     parse_header();
 }
 
@@ -104,7 +111,9 @@ void PlyFile::parse_header() {
     if (first_end != std::string::npos && bytes_.compare(first_end, 2, "\r\n") != 0) {
         line_end_ = bytes_[first_end];
     }
+    position_ = text_begin(bytes_);
     if (trimmed(next_line()) != "ply") {
+        refuse_other_mesh(path_, bytes_, ".ply");
         fail_input(path_, "is not a PLY file: it does not begin with a line 'ply'");
     }
     bool more = true;
@@ -156,15 +165,10 @@ void PlyFile::parse_format(const std::vector<std::string_view>& tokens) {
     }
 }
 
-void PlyFile::declare(const std::string& what, std::string_view name) {
+void PlyFile::count_declaration() {
     constexpr std::size_t kMost = 10'000; // Files have some ten.
     if (++declarations_ > kMost) {
         fail_header("more than 10,000 elements and properties");
-    }
-    // No keyword or name holds a line break.
-    if (!declared_.insert(what + '\n' + std::string(name)).second) {
-        fail_header(std::string(what == "element" ? "element " : "property ") + in_quotes(name) +
-                    " is declared twice");
     }
 }
 
@@ -176,8 +180,8 @@ void PlyFile::parse_element(const std::vector<std::string_view>& tokens) {
     if (!count) {
         fail_header(in_quotes(tokens[2]) + " is not an element count");
     }
-    declare("element", tokens[1]);
-    elements_.push_back({std::string(tokens[1]), *count, {}});
+    count_declaration();
+    elements_.push_back({path_, std::string(tokens[1]), *count, {}});
 }
 
 void PlyFile::parse_property(const std::vector<std::string_view>& tokens) {
@@ -197,16 +201,24 @@ void PlyFile::parse_property(const std::vector<std::string_view>& tokens) {
         fail_header("a property record reads 'property TYPE NAME' or "
                     "'property list COUNT_TYPE TYPE NAME'");
     }
-    PlyProperty property{std::string(tokens.back()), type_named(tokens[tokens.size() - 2]), {}};
+    count_declaration();
+    PlyProperty property{std::string(tokens.back()), type_named(tokens[tokens.size() - 2]), {}, 0};
+    property.line = static_cast<std::uint32_t>(line_);
     if (is_list) {
         property.count_type = type_named(tokens[2]);
         if (*property.count_type >= PlyType::float32) {
             fail_header("a list count must be an integer, not " + in_quotes(tokens[2]));
         }
     }
-    PlyElement& element = elements_.back();
-    declare((is_list ? "list " : "scalar ") + element.name, property.name);
-    element.properties.push_back(std::move(property));
+    elements_.back().properties.push_back(std::move(property));
+}
+
+void PlyFile::check_unique(const PlyElement& element) const {
+    const auto count = std::count_if(elements_.begin(), elements_.end(),
+                                     [&](const auto& other) { return other.name == element.name; });
+    if (count > 1) {
+        fail_input(path_, "element " + element.name + " is declared twice");
+    }
 }
 
 void PlyFile::read_records(const PlyElement& element, const Visitor& visit) {

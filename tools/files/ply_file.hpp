@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include "files/reading_progress.hpp"
@@ -25,14 +24,17 @@ struct PlyProperty {
     std::string name;
     PlyType type;
     std::optional<PlyType> count_type; ///< Set for list properties.
+    std::uint32_t line = 0;            ///< Of the header, from 1.
 };
 
 struct PlyElement {
+    Path file;
     std::string name;
     std::uint64_t count = 0; ///< As promised by the header: not to be trusted for allocations.
     std::vector<PlyProperty> properties;
 
-    /// Index of the scalar (or list) property `name`.
+    /// Index of the scalar (or list) property `name`. Throws UserError(bad_input) if there are
+    /// several.
     std::optional<std::size_t> find_scalar(std::string_view name) const;
     std::optional<std::size_t> find_list(std::string_view name) const;
 };
@@ -56,6 +58,9 @@ class PlyFile {
     const std::vector<PlyElement>& elements() const noexcept { return elements_; }
     const std::vector<std::string>& comments() const noexcept { return comments_; }
 
+    /// Throws UserError(bad_input) if another element has its name.
+    void check_unique(const PlyElement& element) const;
+
     /// Reads all records of `element`. Every element must be read, in the order of elements().
     void read_records(const PlyElement& element, const Visitor& visit);
 
@@ -77,7 +82,7 @@ class PlyFile {
     bool parse_header_line(std::string_view line);
     void parse_format(const std::vector<std::string_view>& tokens);
     void parse_element(const std::vector<std::string_view>& tokens);
-    void declare(const std::string& what, std::string_view name);
+    void count_declaration();
     void parse_property(const std::vector<std::string_view>& tokens);
     [[noreturn]] void fail_header(const std::string& message) const;
 
@@ -96,8 +101,7 @@ class PlyFile {
     std::optional<Format> format_;
     std::vector<PlyElement> elements_;
     std::vector<std::string> comments_;
-    std::unordered_set<std::string> declared_; ///< Elements and properties.
-    std::size_t declarations_ = 0;
+    std::size_t declarations_ = 0; ///< Elements and properties.
     Found unknown_lines_;
     std::uint64_t surplus_lines_ = 0;
     char line_end_ = '\n';                 ///< CR in files that have no LF after it.

@@ -174,12 +174,15 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     bool has_faces = false;
     for (const PlyElement& element : file.elements()) {
         if (element.name == "vertex") {
+            file.check_unique(element);
             has_vertices = true;
             read_vertices(path, file, element, wanted, mesh);
         } else if (element.name == "face") {
+            file.check_unique(element);
             has_faces = true;
             read_faces(file, element, mesh);
         } else if (element.name == "tristrips") {
+            file.check_unique(element);
             has_faces = true;
             read_strips(file, element, mesh);
             mesh.names.face = "triangle "; // Of some record.

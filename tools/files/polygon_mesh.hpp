@@ -37,6 +37,12 @@ struct PolygonMesh {
     }
 };
 
+/// Adds a warning of `count` NUL bytes that were dropped after the last line.
+inline void warn_of_final_nuls(PolygonMesh& mesh, std::uint64_t count) {
+    add_warning(mesh.warnings, "trailing_data", count, "", "NUL byte after the last line ignored",
+                "NUL bytes after the last line ignored");
+}
+
 /// Reads the `v`, `f` and, where asked for, `vt` records of an OBJ file; everything else in it is
 /// ignored. Understands every line end, line continuation, a byte order mark, relative
 /// indices and faces of any size. Throws UserError(bad_input) naming the line, like the readers of
@@ -49,7 +55,7 @@ PolygonMesh read_obj(const Path& path, bool has_uvs, const ReadingProgress& prog
 PolygonMesh read_stl(const Path& path, const ReadingProgress& progress);
 
 /// Reads an ascii OFF file, with or without normals, colours and texture coordinates in the lines
-/// of vertices and faces, one line to a record.
+/// of vertices and faces, one line to a record. nOFF has vertices of 3 to 8 coordinates.
 PolygonMesh read_off(const Path& path, const ReadingProgress& progress);
 
 /// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh

@@ -8,6 +8,8 @@
 #include "files/ply_file.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
+#include "files/text_file.hpp"
+#include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -159,6 +161,7 @@ SampleFile read_ply_samples(const Path& path, Domain domain) {
             file.read_records(element, [](std::uint64_t, const PlyRecord&) {});
             continue;
         }
+        file.check_unique(element);
         has_vertices = true;
         const ColumnPlaces places = find_places(
             path, domain, [&](std::string_view name) { return element.find_scalar(name); });
@@ -193,7 +196,7 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
 class CsvReader {
   public:
     CsvReader(const Path& path, Domain domain)
-        : path_(path), domain_(domain), bytes_(read_file(path)) {}
+        : path_(path), domain_(domain), bytes_(read_text(path)), position_(text_begin(bytes_)) {}
 
     SampleFile read() {
         SampleFile samples;
@@ -263,7 +266,7 @@ class CsvReader {
     const Path& path_;
     Domain domain_;
     std::string bytes_;
-    std::size_t position_ = 0;
+    std::size_t position_;
     std::size_t line_ = 0;
     std::vector<std::string_view> cells_;
 };

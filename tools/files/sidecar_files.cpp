@@ -5,7 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "files/input_file.hpp"
+#include "files/text_file.hpp"
+#include "files/text_lines.hpp"
 #include "geometry/mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -21,17 +22,13 @@ namespace {
 /// Calls visit(line, tokens) for every line that holds any.
 template <typename Visit>
 void for_each_line(const Path& path, const Visit& visit) {
-    const std::string bytes = read_file(path);
+    const std::string bytes = read_text(path);
     std::vector<std::string_view> tokens;
-    std::string_view rest = bytes;
-    for (std::size_t number = 1; !rest.empty(); ++number) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        std::string_view line = rest.substr(0, end);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-        line = line.substr(0, std::min(line.find('#'), line.size()));
-        split_tokens(line.substr(0, line.ends_with('\r') ? line.size() - 1 : line.size()), tokens);
+    TextLines lines(bytes);
+    for (std::string_view line; lines.next(line);) {
+        split_tokens(without_comment(line), tokens);
         if (!tokens.empty()) {
-            visit(number, tokens);
+            visit(lines.number(), tokens);
         }
     }
 }

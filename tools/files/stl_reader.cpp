@@ -11,6 +11,7 @@
 
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
+#include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -86,7 +87,7 @@ class AsciiReader {
         std::string_view line;
         while (lines_.next(line)) {
             if (line.find('\0') != std::string_view::npos) {
-                fail("contains a NUL byte, so this is not a text file");
+                fail(lines_.nul_message());
             }
             split_tokens(line, tokens_);
             if (!tokens_.empty()) {
@@ -168,35 +169,42 @@ class AsciiReader {
 };
 
 /// Some binary files begin with "solid" as well, and only these have just the size they tell.
-bool is_binary(std::string_view bytes) {
-    if (bytes.size() < kHeaderSize + kCountSize) {
-        return false;
-    }
-    const std::uint64_t count = little_endian(bytes.data() + kHeaderSize);
-    if (bytes.size() == kHeaderSize + kCountSize + kFacetSize * count) {
-        return true;
-    }
-    const std::size_t text = bytes.find_first_not_of(" \t\r\n");
-    return text == std::string_view::npos ||
-           lower_case(std::string(bytes.substr(text, 5))) != "solid";
+bool has_binary_size(std::string_view bytes) {
+    return bytes.size() >= kHeaderSize + kCountSize &&
+           bytes.size() ==
+               kHeaderSize + kCountSize +
+                   kFacetSize * std::uint64_t{little_endian(bytes.data() + kHeaderSize)};
+}
+
+bool begins_with_solid(std::string_view bytes) {
+    const std::size_t text = bytes.find_first_not_of(" \t\r\n", text_begin(bytes));
+    return text != std::string_view::npos &&
+           lower_case(std::string(bytes.substr(text, 5))) == "solid";
 }
 
 } // namespace
 
 PolygonMesh read_stl(const Path& path, const ReadingProgress& progress) {
-    const std::string bytes = read_file(path);
+    std::string bytes = read_file(path);
     if (bytes.empty()) {
         fail_input(path, "is empty");
     }
-    if (is_binary(bytes)) {
+    if (has_binary_size(bytes)) {
         return read_binary(path, bytes, progress);
     }
-    const std::size_t text = bytes.find_first_not_of(" \t\r\n");
-    if (text == std::string::npos || lower_case(std::string(bytes.substr(text, 5))) != "solid") {
+    refuse_other_content(path, bytes);
+    refuse_other_mesh(path, bytes, ".stl");
+    if (!begins_with_solid(bytes)) {
+        if (bytes.size() >= kHeaderSize + kCountSize) {
+            return read_binary(path, bytes, progress);
+        }
         fail_input(path, "is not an STL file: it is too short for a binary one and does not begin "
                          "with 'solid'");
     }
-    return AsciiReader(path, bytes, progress).read();
+    const std::size_t nuls = drop_final_nuls(bytes);
+    PolygonMesh mesh = AsciiReader(path, bytes, progress).read();
+    warn_of_final_nuls(mesh, nuls);
+    return mesh;
 }
 
 } // namespace geodisk::tools

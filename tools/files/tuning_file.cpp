@@ -8,8 +8,8 @@
 
 #include <geodisk/version.hpp>
 
-#include "files/input_file.hpp"
 #include "files/output_file.hpp"
+#include "files/text_file.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -65,7 +65,7 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
     constexpr const char* kRemedy = "; run geodisk_bench --tune again, or remove the file";
     Tuning tuning;
     try {
-        const Json document = Json::parse(read_file(path));
+        const Json document = Json::parse(read_text(path));
         tuning.local_size = document.at("local_size").get<std::uint32_t>();
         tuning.slot_local_size = document.at("slot_local_size").get<std::uint32_t>();
         tuning.pool_block = document.at("pool_block").get<std::uint32_t>();

@@ -40,6 +40,31 @@ double out_of_range_value(std::string_view text) {
 
 } // namespace
 
+namespace {
+
+/// The value of what old C libraries of Windows print for numbers that are not finite: "1.#IND",
+/// "1.#QNAN0", "1.#INF00" and so on.
+std::optional<double> windows_value(std::string_view text) {
+    const bool is_negative = text.starts_with('-');
+    text.remove_prefix(is_negative ? 1 : 0);
+    if (!text.starts_with("1.#")) {
+        return std::nullopt;
+    }
+    text.remove_prefix(3);
+    const std::string_view name = text.substr(0, text.find('0'));
+    if (text.find_first_not_of('0', name.size()) != std::string_view::npos) {
+        return std::nullopt;
+    }
+    using Limits = std::numeric_limits<double>;
+    if (name == "INF" || name == "J") { // J where the last digit of INF was rounded.
+        return is_negative ? -Limits::infinity() : Limits::infinity();
+    }
+    return name == "IND" || name == "QNAN" || name == "SNAN" ? std::optional(Limits::quiet_NaN())
+                                                             : std::nullopt;
+}
+
+} // namespace
+
 std::optional<double> parse_real(std::string_view text) {
     if (text.starts_with('+')) {
         text.remove_prefix(1);
@@ -51,7 +76,7 @@ std::optional<double> parse_real(std::string_view text) {
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc::invalid_argument || stop != end) {
-        return std::nullopt;
+        return windows_value(text);
     }
     return error == std::errc::result_out_of_range ? out_of_range_value(text) : value;
 }

@@ -33,8 +33,8 @@ void split_tokens(std::string_view line, std::vector<std::string_view>& tokens);
 /// `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// All of `text` as a decimal number, nan or inf; nothing if it is anything else. A number too
-/// big for a double is infinite, one too small is zero.
+/// All of `text` as a decimal number, nan or inf, also as "1.#IND" and "1.#INF"; nothing if it is
+/// anything else. A number too big for a double is infinite, one too small is zero.
 std::optional<double> parse_real(std::string_view text);
 
 /// All of `text` as a decimal integer; nothing if it is anything else or does not fit.

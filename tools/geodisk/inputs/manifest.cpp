@@ -3,7 +3,7 @@
 #include <string_view>
 #include <utility>
 
-#include "files/input_file.hpp"
+#include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "program/failure.hpp"
 
@@ -36,7 +36,7 @@ std::vector<std::string> split_words(const std::string& line) {
 }
 
 std::vector<ManifestLine> read_manifest(const Path& path) {
-    const std::string text = read_file(path);
+    const std::string text = read_text(path);
     std::vector<ManifestLine> lines;
     TextLines rest(text);
     for (std::string_view line; rest.next(line);) {
