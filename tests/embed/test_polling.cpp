@@ -147,6 +147,26 @@ TEST_SUITE("polling") {
         bench.check_run(runner);
     }
 
+    TEST_CASE("a run can be cancelled while its candidates are drawn") {
+        Bench bench;
+        RunnerOptions options;
+        options.submission_seconds = 1e-9; // Many submissions.
+        bench.params = params_for(bench.mesh, 20'000);
+        Runner runner = expect(bench.create(options));
+        std::uint32_t asked = 0, accepted = 0;
+        const auto cancelled =
+            runner.sample_and_wait(bench.mesh, bench.params, [&](const Progress& state) {
+                accepted = state.accepted;
+                CHECK(state.candidates > 0);
+                return ++asked < 5;
+            });
+        REQUIRE_FALSE(cancelled);
+        CHECK(cancelled.error().status == Status::cancelled);
+        CHECK(asked == 5);
+        CHECK(accepted == 0);
+        bench.check_run(runner);
+    }
+
     TEST_CASE("one run at a time") {
         Bench bench;
         Runner runner = expect(bench.create());

@@ -245,6 +245,33 @@ TEST_SUITE("darts") {
               points_of(sample(mesh, params)));
     }
 
+    TEST_CASE("darts come one stage at a time, whatever the plan asks for") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        const SampleParams params = darts_for(mesh, 200, 3'000);
+        BoxParams square{{1, 1}};
+        square.min_distance = 0.08;
+        square.throws = 2'000;
+        const Domain box = expect(Domain::box(square));
+        Context& context = shared_context();
+        Runner usual = expect(Runner::create(context.device(), context.queue()));
+        const auto points = expect(usual.sample_and_wait(box)).points;
+        for (const std::uint32_t stages : {1u, 2u, 6u}) {
+            CAPTURE(stages);
+            CHECK(points_of(sample(mesh, params, by_stages(stages))) ==
+                  points_of(sample(mesh, params)));
+            Runner runner =
+                expect(Runner::create(context.device(), context.queue(), by_stages(stages)));
+            CHECK(expect(runner.sample_and_wait(box)).points == points);
+        }
+        const Sampler& sampler = usual.sampler();
+        RunPlan plan = expect(sampler.plan_run(box, std::uint64_t{64} << 20));
+        plan.stages = 2;
+        const auto refused = sampler.workspace_needs(box, plan);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().status == Status::invalid_argument);
+        CHECK(refused.error().message.find("one stage at a time") != std::string::npos);
+    }
+
     TEST_CASE("stages that cannot be are refused") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 2));
         RunPlan plan;

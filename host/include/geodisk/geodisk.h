@@ -495,7 +495,7 @@ typedef struct geodisk_job geodisk_job;
 typedef struct geodisk_job_options {
     size_t struct_size;
     uint64_t pool_bytes; /* Most for disks in progress; 0 for 256 MiB. */
-    uint32_t stages;     /* Of candidates drawn at once, which take memory; 0 chooses. */
+    uint32_t stages;     /* Of candidates drawn at once, which take memory; 0 chooses, 1 for darts. */
     uint32_t regrowths;  /* So many times the buffers suffice where disks outgrow the first plan. */
 } geodisk_job_options;
 

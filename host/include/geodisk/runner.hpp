@@ -118,7 +118,8 @@ struct RunnerOptions {
     double stall_seconds = 0;
 };
 
-/// Called between submissions; return false to stop the run with `cancelled`.
+/// Called after every submission, also while a mesh is uploaded and candidates are drawn. Returns
+/// false to stop the run with `cancelled`.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 /// Not thread-safe; several runners may share a device, and a queue through QueueRef's lock.

@@ -169,7 +169,7 @@ struct RunPlan {
     std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
     std::uint32_t sample_capacity = 0; ///< Samples the buffers hold; more than slots.
     std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it.
-    std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once.
+    std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once; 1 of darts.
     std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
                                        ///< at most 2^23.
     bool trims = false; ///< Disks that make very many windows trim them, and windows that

@@ -1,6 +1,7 @@
 // How much work a submission gets, so that it takes about the time it should, on any device.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include <geodisk/export.hpp>
@@ -22,6 +23,9 @@ class GEODISK_API Pace {
     /// little of what they might: where lanes took `steps` in them, no more items come than would
     /// still be a short time if all lanes were busy in all dispatches.
     void took(double seconds, std::uint64_t items, std::uint64_t steps = 0);
+
+    /// Bounds the next submission: its work is of another kind than that before.
+    void bound(std::uint64_t items) { items_ = std::min(items_, items); }
 
   private:
     double target_;

@@ -304,6 +304,11 @@ RunPlan Sampler::widen_plan(const Domain& domain, RunPlan plan,
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report) {
     const Domain::Impl& of = Domain::Impl::of(domain);
+    if (of.stages.throws != 0 && plan.stages > 1) {
+        return Error{Status::invalid_argument,
+                     "darts are drawn one stage at a time; RunPlan::stages is " +
+                         std::to_string(plan.stages) + ", set it to 1"};
+    }
     const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
     const std::uint32_t buckets = bucket_count(candidates);
     const std::uint64_t starts = of.units * plan.stages + 1;

@@ -138,13 +138,17 @@ class Recorder {
         if (step_++ != cursor_.step) {
             return; // Recorded before, or to come.
         }
+        const bool is_new = cursor_.done == 0;
         while (cursor_.done < count) {
+            budget_.is_in_new = is_new && cursor_.done >= budget_.items_of_new;
             if (budget_.is_spent()) {
                 return;
             }
             const std::uint64_t groups = std::clamp<std::uint64_t>(
-                std::min<std::uint64_t>(job_.plan.dispatch_items, budget_.items) / per_group, 1,
-                kMostGroups);
+                std::min<std::uint64_t>(
+                    {job_.plan.dispatch_items, budget_.items, budget_.items_of_new}) /
+                    per_group,
+                1, kMostGroups);
             const std::uint64_t part = std::min(count - cursor_.done, groups * per_group);
             label();
             record(cursor_.done, part);

@@ -29,6 +29,8 @@ constexpr std::uint64_t kRoundsBeside = 6;
 constexpr std::uint32_t kMostPasses = 64;
 // Submissions that may leave no trace, before the device counts as stuck.
 constexpr std::uint32_t kMostIdle = 8;
+// Items of a pass before it is known how long they take.
+constexpr std::uint64_t kItemsOfNew = std::uint64_t{1} << 18;
 // Counts of candidates before an order until that of a number of darts is found.
 constexpr std::uint32_t kMostGuesses = 64;
 
@@ -44,12 +46,12 @@ class Run {
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
     /// The samples, or none where the run is to start over with the plan as it is then.
-    Task<Result<std::optional<SampleSet>>> go(const ProgressCallback& progress, RunPlan& plan);
+    Task<Result<std::optional<SampleSet>>> go(RunPlan& plan);
 
   private:
     Result<Done> prepare(const RunPlan& plan);
     Task<Result<Done>> upload();
-    Task<Result<Advice>> sample(const ProgressCallback& progress);
+    Task<Result<Advice>> sample();
     Task<Result<Done>> follow(Advice advice);
     Task<Result<Done>> begin_chunk();
     Task<Result<Done>> cut_darts();
@@ -185,6 +187,7 @@ Result<double> Run::took(Result<Done> end) {
     if (control_.abi != gpu::kAbi && job().begun.is_at_start()) {
         return Error{Status::internal, "the device did not write its control record"};
     }
+    runner_.progress = how_far();
     return runner_.now() - submitted_;
 }
 
@@ -196,7 +199,7 @@ Task<Result<Done>> Run::run_passes(Passes record, InOne in_one) {
         if (auto short_enough = shorten(passes_.items()); !short_enough) {
             co_return short_enough;
         }
-        Budget budget{kAllDispatches, passes_.items()};
+        Budget budget{kAllDispatches, passes_.items(), kItemsOfNew};
         if (auto done = submit([&](VkCommandBuffer commands) {
                 is_last = record(commands, job(), budget);
                 if (is_last && part == 0) {
@@ -211,6 +214,9 @@ Task<Result<Done>> Run::run_passes(Passes record, InOne in_one) {
             co_return seconds.error();
         }
         passes_.took(*seconds, passes_.items() - budget.items);
+        if (budget.is_in_new) {
+            passes_.bound(kItemsOfNew);
+        }
     }
     co_return Done{};
 }
@@ -257,7 +263,7 @@ Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
 }
 
 /// Until the samples are there, or the run has to start over.
-Task<Result<Advice>> Run::sample(const ProgressCallback& progress) {
+Task<Result<Advice>> Run::sample() {
     for (;;) {
         // What is free is asked for only where it matters.
         auto advice = job_->advance(control_, control_.overflow != 0 ? pool_bytes() : 0);
@@ -270,10 +276,6 @@ Task<Result<Advice>> Run::sample(const ProgressCallback& progress) {
         }
         if (auto done = co_await follow(*advice); !done) {
             co_return done.error();
-        }
-        runner_.progress = how_far();
-        if (progress && !progress(runner_.progress)) {
-            co_return Error{Status::cancelled, "cancelled"};
         }
     }
 }
@@ -473,7 +475,7 @@ Task<Result<std::vector<gpu::SampleRec>>> Run::read_samples() {
     co_return samples;
 }
 
-Task<Result<std::optional<SampleSet>>> Run::go(const ProgressCallback& progress, RunPlan& plan) {
+Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     double start = runner_.now();
     if (auto done = runner_.sampler.prepare(domain_); !done) {
         co_return done.error();
@@ -488,7 +490,7 @@ Task<Result<std::optional<SampleSet>>> Run::go(const ProgressCallback& progress,
     }
     report_.seconds.upload = runner_.now() - start;
     start = runner_.now();
-    const auto advice = co_await sample(progress);
+    const auto advice = co_await sample();
     if (!advice) {
         co_return advice.error();
     }
@@ -538,8 +540,7 @@ struct Releaser {
 
 } // namespace
 
-Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain,
-                            const ProgressCallback progress) {
+Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
     if (auto usable = runner.submitter->ready(); !usable) {
         co_return usable.error();
     }
@@ -556,7 +557,7 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain,
         plan.error_bound = std::max(plan.error_bound, error_bound);
         runner.keep();
         Run run(runner, domain, most);
-        auto set = co_await run.go(progress, plan);
+        auto set = co_await run.go(plan);
         if (set && *set) {
             releaser.has_succeeded = true;
             co_return std::move(**set);

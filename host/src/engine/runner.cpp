@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/domain_impl.hpp"
 #include "engine/run.hpp"
 #include "engine/runner_impl.hpp"
 #include "support/guard.hpp"
@@ -241,7 +242,10 @@ Result<Done> Runner::start(const Domain& domain, const ProgressCallback& progres
             return Error{Status::invalid_argument, "a run is in progress"};
         }
         impl_->progress = {};
-        impl_->run.emplace(geodisk::run(*impl_, domain, progress));
+        impl_->progress.candidates =
+            static_cast<std::uint32_t>(Domain::Impl::of(domain).stages.candidates());
+        impl_->on_progress = progress;
+        impl_->run.emplace(geodisk::run(*impl_, domain));
         impl_->run->resume();
         return Done{};
     });
@@ -253,17 +257,22 @@ Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience
             return Error{Status::invalid_argument, "no run is in progress"};
         }
         Submitter& submitter = *impl_->submitter;
-        if (submitter.is_awaited() && submitter.is_over(std::max(patience, {}))) {
+        const bool goes_on = submitter.is_awaited() && submitter.is_over(std::max(patience, {}));
+        if (goes_on) {
             submitter.resume();
         }
-        if (!impl_->run->is_done()) {
-            return std::optional<SampleSet>();
+        std::optional<SampleSet> set;
+        if (impl_->run->is_done()) {
+            auto ended = impl_->run->take();
+            if (!ended) {
+                return ended.error();
+            }
+            set = std::move(*ended);
         }
-        auto set = impl_->run->take();
-        if (!set) {
-            return set.error();
+        if (goes_on && impl_->on_progress && !impl_->on_progress(impl_->progress)) {
+            return Error{Status::cancelled, "cancelled"};
         }
-        return std::optional<SampleSet>(std::move(*set));
+        return set;
     });
     if (!polled || *polled) {
         impl_->cancel();

@@ -41,6 +41,7 @@ struct Runner::Impl {
     // Of the run that was started.
     std::optional<Task<Result<SampleSet>>> run;
     Progress progress{};
+    ProgressCallback on_progress;
 
     /// Seconds since some moment; of a test where it says so.
     std::function<double()> now;
