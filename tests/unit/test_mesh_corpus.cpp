@@ -170,6 +170,10 @@ TEST_CASE("files as other programs write them are read") {
     const double tetrahedron = 8 * std::sqrt(3.0);
     const Case cases[] = {
         {"bom.ply", 6, ""},
+        {"g_meshopt.gltf", 6, "undecoded_view"},
+        {"g_quant_u16.gltf", 6, ""},
+        {"light_fault.gltf", tetrahedron, ""},
+        {"techniques.gltf", tetrahedron, "ignored_extension"},
         {"indefinite_unused.obj", 0.5, "unused_not_finite"},
         {"nul_tail.obj", 0.5, "trailing_data"},
         {"off_glued.off", tetrahedron, "glued_header"},
@@ -184,6 +188,27 @@ TEST_CASE("files as other programs write them are read") {
     }
     check_fails(ExitCode::bad_input, "is UTF-16; save it as UTF-8",
                 [] { read_mesh(case_file("utf16.obj")); });
+    check_fails(ExitCode::bad_input, "is glTF 1.0; only 2.0 is read",
+                [] { read_mesh(case_file("gltf1_asset.gltf")); });
+    check_fails(ExitCode::bad_input, "is compressed by Draco", // And what it calls so is not.
+                [] { read_mesh(case_file("draco.gltf")); });
+}
+
+TEST_CASE("compressed glTF files are read where the libraries are there") {
+    // A cube of 8 vertices each.
+    for (const char* const name : {"meshopt_cube.gltf", "meshopt_exponential.gltf",
+                                   "draco_cube.gltf", "draco_sequential.gltf"}) {
+        CAPTURE(name);
+        MeshFile mesh;
+        const auto error = error_of([&] { mesh = read_mesh(case_file(name)); });
+        if (error) {
+            CHECK(contains(error->what(), "which this build does not read"));
+            continue;
+        }
+        CHECK(mesh.positions.size() == 24);
+        CHECK(total_area(mesh) == doctest::Approx(6).epsilon(1e-4));
+        CHECK(measure(mesh).is_closed_manifold());
+    }
 }
 
 TEST_CASE("cut and altered files are read or refused") {

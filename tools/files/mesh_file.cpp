@@ -368,11 +368,7 @@ MeshFile read_mesh(const MeshSources& sources) {
         return to_triangles(with_weld, read_stl(path, sources.progress));
     }
     if (extension == ".gltf" || extension == ".glb") {
-#ifdef GEODISK_GLTF
         return to_triangles(sources, read_gltf(path));
-#else
-        fail_input(path, "this geodisk was built without glTF");
-#endif
     }
     fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
                      "builtin:NAME");

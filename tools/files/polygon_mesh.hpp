@@ -59,9 +59,11 @@ PolygonMesh read_stl(const Path& path, const ReadingProgress& progress);
 PolygonMesh read_off(const Path& path, const ReadingProgress& progress);
 
 /// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh
-/// and primitive after the other, placed by their nodes; a mirrored one is turned over. Primitives
-/// of a mesh with the same positions share vertices. Buffers are read from the folder of the file
-/// alone, images not at all. Throws UserError(bad_input) naming mesh and primitive.
+/// and primitive after the other. Nodes place them, or joints and the default weights of morph
+/// targets, also several times as instances; a mirrored one is turned over. Primitives of a mesh
+/// with the same positions share vertices. Compressed ones are read as this build can. Buffers are
+/// read from the folder of the file alone, materials, images and the like not at all. Throws
+/// UserError(bad_input) naming mesh and primitive.
 PolygonMesh read_gltf(const Path& path);
 
 /// What to read of element `vertex`.

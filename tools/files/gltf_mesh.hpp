@@ -1,0 +1,77 @@
+// The meshes of a glTF file, before nodes place them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "files/draco_mesh.hpp"
+#include "files/gltf_data.hpp"
+#include "files/gltf_json.hpp"
+
+namespace geodisk::tools {
+
+/// Vertices that one primitive or several have.
+struct GltfVertices {
+    std::vector<glm::dvec3> points;
+    /// As many joints and weights for each point, where it has any.
+    std::size_t joints_per_point = 0;
+    std::vector<std::uint32_t> joints;
+    std::vector<double> weights;
+};
+
+struct GltfPrimitive {
+    std::uint32_t number = 0;           ///< In its mesh.
+    std::size_t vertices = 0;           ///< Index of its GltfVertices.
+    std::vector<std::uint32_t> corners; ///< Three of these vertices for each triangle.
+};
+
+struct GltfMesh {
+    std::vector<GltfVertices> vertices;
+    std::vector<GltfPrimitive> primitives; ///< Those of triangles.
+    std::uint64_t others = 0;              ///< Number of those of points and lines.
+};
+
+/// Reads triangles, strips and fans, also those that Draco has compressed. Primitives of the same
+/// positions share vertices. Throws UserError(bad_input) naming mesh and primitive.
+class GltfMeshReader {
+  public:
+    GltfMeshReader(const GltfDocument& document, GltfData& data)
+        : document_(document), data_(data) {}
+
+    /// Reads mesh `index` with its morph targets by `weights`, or by its own for none.
+    GltfMesh read(std::uint64_t index, std::vector<double> weights);
+
+  private:
+    /// Accessors of what makes vertices; those of other primitives that are equal share them.
+    using Key = std::vector<std::uint64_t>;
+    struct Source {
+        const GltfJson& primitive;
+        const GltfJson& attributes;
+        DracoMesh draco;
+        std::map<std::string, std::uint32_t> draco_ids; ///< By attribute.
+    };
+
+    void add_primitive(const GltfJson& primitive, std::uint32_t number, GltfMesh& mesh);
+    void decode_draco(Source& source);
+    Key key_of(const Source& source) const;
+    GltfVertices read_vertices(const Source& source);
+    void read_joints(const Source& source, GltfVertices& vertices);
+    void move_targets(const Source& source, std::vector<glm::dvec3>& points);
+    std::vector<double> attribute(const Source& source, const std::string& name,
+                                  std::uint64_t accessor, std::string_view type);
+    std::vector<std::uint32_t> corners_of(const Source& source, std::uint64_t mode,
+                                          std::size_t vertices);
+
+    const GltfDocument& document_;
+    GltfData& data_;
+    std::string place_;           ///< The primitive that is being read, for messages.
+    std::vector<double> weights_; ///< Of morph targets.
+    std::map<Key, std::size_t> known_;
+};
+
+} // namespace geodisk::tools
