@@ -27,6 +27,7 @@ struct Release {
     void operator()(geodisk_sampler* object) const { geodisk_sampler_release(object); }
     void operator()(geodisk_samples* object) const { geodisk_samples_release(object); }
     void operator()(geodisk_job* object) const { geodisk_job_release(object); }
+    void operator()(geodisk_frame_sampler* object) const { geodisk_frame_sampler_release(object); }
     void operator()(geodisk_placement* object) const { geodisk_placement_release(object); }
     void operator()(geodisk_count_search* object) const { geodisk_count_search_release(object); }
 };

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "c/api.hpp"
@@ -43,14 +44,16 @@ class Recording {
         return need;
     }
 
-    void bind_all() {
+    void bind_all(bool uploads = true) {
         WorkspaceNeeds needs;
         for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
             needs.bytes[i] = need(i).bytes;
         }
         workspace_ = workshop_.cut(needs);
         bind();
-        upload();
+        if (uploads) {
+            upload();
+        }
     }
 
     /// Frames until the samples are there; as many as are returned.
@@ -281,6 +284,37 @@ TEST_CASE("a job becomes one of another domain, in the same buffers or larger on
     CHECK(geodisk_job_renew(recording.job(), nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
     CHECK(geodisk_job_renew(nullptr, domain.get(), nullptr) == GEODISK_INVALID_ARGUMENT);
     CHECK(recording.placed(recording.run()) == wanted(many.get())); // As it was.
+}
+
+TEST_CASE("a job in one buffer by its layout; what is not uploaded is an error, not no samples") {
+    const auto domain = knot_domain();
+    Recording recording(domain.get(), small_options());
+    std::vector<geodisk_buffer_range> ranges(GEODISK_BUFFERS);
+    std::uint64_t bytes = 0, same = 0;
+    const auto lay_out = [&](std::uint64_t offset, std::uint64_t* size) {
+        return geodisk_job_lay_out(recording.job(), 7, offset, ranges.data(), size, nullptr);
+    };
+    REQUIRE(lay_out(0, &bytes) == GEODISK_OK);
+    std::uint64_t end = 0;
+    for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
+        CHECK(ranges[i].bytes == recording.need(i).bytes);
+        CHECK((ranges[i].bytes == 0 || (ranges[i].buffer == 7 && ranges[i].offset >= end)));
+        end = ranges[i].bytes == 0 ? end : ranges[i].offset + ranges[i].bytes;
+    }
+    CHECK(end <= bytes);
+    REQUIRE(lay_out(1 << 20, &same) == GEODISK_OK);
+    CHECK(same == bytes);
+    CHECK(ranges[0].offset == 1 << 20);
+    CHECK(lay_out(1, &same) == GEODISK_INVALID_ARGUMENT);
+    CHECK(lay_out(0, nullptr) == GEODISK_INVALID_ARGUMENT);
+
+    recording.bind_all(false);
+    auto error = sized<geodisk_error>();
+    recording.workshop().frame(0, [&](VkCommandBuffer commands) {
+        CHECK(geodisk_job_record(recording.job(), commands, GEODISK_BEGIN, 0, nullptr, &error) ==
+              GEODISK_INVALID_ARGUMENT);
+    });
+    CHECK(std::string(error.message).find("geodisk_job_upload") != std::string::npos);
 }
 
 TEST_CASE("a job in a box leaves its order on the device") {

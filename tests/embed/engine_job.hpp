@@ -59,16 +59,20 @@ class EngineJob {
         job_.emplace(expect(sampler.make_job(domain_, plan_, workspace_)));
     }
 
-    /// Through staging, in the frame's command buffer.
-    void record_upload(VkCommandBuffer commands) {
+    /// Through staging, in the frame's command buffer; or zeros, as of an engine that forgets to.
+    void record_upload(VkCommandBuffer commands, bool as_zeros = false) {
         std::size_t staged = 0;
         for (const BufferRole role : kUploaded) {
             const std::size_t size = sampler_.upload_size(domain_, role);
             if (size == 0) {
                 continue;
             }
-            expect(sampler_.write_upload(domain_, plan_, role,
-                                         workshop_.upload_bytes().subspan(staged, size)));
+            const auto bytes = workshop_.upload_bytes().subspan(staged, size);
+            if (as_zeros) {
+                std::memset(bytes.data(), 0, size);
+            } else {
+                expect(sampler_.write_upload(domain_, plan_, role, bytes));
+            }
             workshop_.record_upload(commands, range(role), staged, size);
             staged += size;
         }

@@ -233,6 +233,46 @@ TEST_SUITE("recording") {
         check_silent(context);
     }
 
+    TEST_CASE("a mesh that was not uploaded is an error, not a set of no samples") {
+        const Context context = validated_context();
+        {
+            const Sampler sampler = expect(Sampler::create(context.device()));
+            const Task knot = task(sampler, "torus-knot", 8, 200);
+            Workshop workshop(context);
+            EngineJob job(workshop, sampler, knot);
+            workshop.frame(0, [&](VkCommandBuffer commands) {
+                job.record_upload(commands, true);
+                sampler.record_begin(commands, job.job());
+                job.record_rounds(commands, 4);
+            });
+            const auto advice = job.job().advance(job.control());
+            REQUIRE_FALSE(advice);
+            CHECK(advice.error().status == Status::invalid_argument);
+            CHECK(advice.error().message.find("write_upload") != std::string::npos);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("all ranges laid out in one buffer") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const Task knot = task(sampler, "torus-knot", 8, 200);
+        const Domain domain = knot.domain();
+        const RunPlan plan = expect(sampler.plan_run(domain, Workshop::kPoolBytes));
+        const WorkspaceNeeds needs = expect(sampler.workspace_needs(domain, plan));
+        const WorkspaceLayout layout = sampler.lay_out(needs);
+        CHECK(layout.bytes >= needs.total());
+        CHECK(layout.bytes <= needs.total() + kBufferRoles * layout.alignment);
+        Workshop workshop(context);
+        const VkBuffer buffer = workshop.cut(needs)[0].buffer;
+        const Workspace workspace = layout.in(buffer, 4 * layout.alignment);
+        for (std::size_t i = 0; i < kBufferRoles; ++i) {
+            CHECK(workspace[i].size == needs.bytes[i]);
+            CHECK(workspace[i].buffer == (needs.bytes[i] > 0 ? buffer : VK_NULL_HANDLE));
+        }
+        CHECK(sampler.make_job(domain, plan, workspace)); // Which checks them.
+    }
+
     TEST_CASE("rounds after the last change nothing") {
         const Context context = expect(Context::create());
         const Sampler sampler = expect(Sampler::create(context.device()));

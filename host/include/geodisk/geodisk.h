@@ -477,7 +477,7 @@ GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
  * allocated there, submitted or waited for, and the samples stay there. It goes like this:
  *
  *     geodisk_job_create    plans the run
- *     geodisk_job_need      how large each buffer must be
+ *     geodisk_job_need      how large each buffer must be; geodisk_job_lay_out puts all in one
  *     geodisk_job_bind      takes the caller's buffers
  *     geodisk_job_upload    what to copy into them before the first commands
  *     geodisk_job_record    records what comes next, at first GEODISK_BEGIN; submit it, with a copy
@@ -538,13 +538,21 @@ typedef struct geodisk_buffer_range {
     uint64_t bytes;
 } geodisk_buffer_range;
 
+/* Lays out all buffers that the job needs in a single VkBuffer, from `offset` on, aligned as the
+ * device asks. Writes GEODISK_BUFFERS ranges for geodisk_job_bind to `ranges`, and how many bytes
+ * they span to `bytes`. Call it with a buffer of 0 to learn the size. */
+GEODISK_C_API geodisk_status geodisk_job_lay_out(geodisk_job *job, uint64_t buffer, uint64_t offset,
+                                                 geodisk_buffer_range *ranges, uint64_t *bytes,
+                                                 geodisk_error *error);
+
 /* Takes GEODISK_BUFFERS ranges that do not overlap; all 0 where none is needed. Where larger ones
  * are, the others stay the same; what GEODISK_SAMPLES_BUFFER and GEODISK_ACCEPTED_BUFFER held is
  * copied by the caller. No command buffer of the job may be pending. */
 GEODISK_C_API geodisk_status geodisk_job_bind(geodisk_job *job, const geodisk_buffer_range *ranges,
                                               geodisk_error *error);
 
-/* Writes the upload_bytes of a buffer to `data`: `bytes` is as many. */
+/* Writes the upload_bytes of a buffer to `data`: `bytes` is as many. Call it for each buffer that has
+ * some, after each geodisk_job_bind of all buffers; GEODISK_BEGIN fails before that. */
 GEODISK_C_API geodisk_status geodisk_job_upload(geodisk_job *job, uint32_t buffer, void *data,
                                                 size_t bytes, geodisk_error *error);
 
@@ -575,7 +583,7 @@ GEODISK_C_API geodisk_status geodisk_job_record(geodisk_job *job, void *command_
 typedef struct geodisk_advice {
     size_t struct_size;
     geodisk_next next;
-    uint32_t ready; /* Samples in order, and final. */
+    uint32_t ready; /* Samples in order and final, as far as the host knows. */
 } geodisk_advice;
 
 /* `control`: the first `bytes` of GEODISK_CONTROL_BUFFER, which are its read_bytes. Copies of any
@@ -643,6 +651,71 @@ GEODISK_C_API geodisk_status geodisk_placement_record(const geodisk_placement *p
                                                       geodisk_job *job, void *command_buffer,
                                                       geodisk_error *error);
 GEODISK_C_API void geodisk_placement_release(geodisk_placement *placement);
+
+/* ---- Samples in the frames of an engine -------------------------------------------------------- */
+
+/* A job with its memory and placement in one object: it allocates one buffer for all that stays on
+ * the device, records a bounded amount of work into the caller's command buffers, and keeps the
+ * samples where the caller draws them. geodisk/frame_sampler.hpp tells more. */
+typedef struct geodisk_frame_sampler geodisk_frame_sampler;
+
+/* All may be 0. */
+typedef struct geodisk_frame_options {
+    size_t struct_size;
+    uint64_t pool_bytes;    /* Memory for disks in progress; 0 for 16 MiB. */
+    uint32_t frames;        /* Command buffers in flight, 1 to 16; 0 for 2. */
+    uint32_t dispatches;    /* Most for drawing candidates in one record; 0 for 16. */
+    uint32_t rounds;        /* For deciding them in one record; 0 for 2. */
+    uint32_t vertices_each; /* Vertices of each instance of the indirect draw; 0 for 1. */
+    /* VkPipelineStageFlags and VkAccessFlags of the caller's commands that read the samples; both 0
+     * for indirect draws, compute shaders and transfers. */
+    uint32_t reader_stages;
+    uint32_t reader_access;
+} geodisk_frame_options;
+
+/* `options` may be NULL. The meshes of the domain must have 2 or 3 coordinates per vertex. */
+GEODISK_C_API geodisk_status geodisk_frame_sampler_create(const geodisk_device *device,
+                                                          const geodisk_domain *domain,
+                                                          const geodisk_frame_options *options,
+                                                          geodisk_frame_sampler **frames,
+                                                          geodisk_error *error);
+
+/* Records the next part of the work to a VkCommandBuffer, outside of a render pass, and writes to
+ * `is_complete`, which may be NULL, whether all samples are there. Call it only when the command
+ * buffer recorded `frames` calls ago has completed, and submit in the order of the calls. */
+GEODISK_C_API geodisk_status geodisk_frame_sampler_record(geodisk_frame_sampler *frames,
+                                                          void *command_buffer,
+                                                          int32_t *is_complete,
+                                                          geodisk_error *error);
+
+/* Submits on the sampler's queue and waits until all samples are there. No command buffer of
+ * geodisk_frame_sampler_record may be pending. */
+GEODISK_C_API geodisk_status geodisk_frame_sampler_wait(geodisk_frame_sampler *frames,
+                                                        geodisk_sampler *sampler,
+                                                        geodisk_error *error);
+
+/* Where the samples lie, until the next call that records or waits. */
+typedef struct geodisk_frame_samples {
+    size_t struct_size;
+    uint64_t buffer;           /* VkBuffer, which may also be bound as vertex buffer. */
+    uint64_t placed_offset;    /* Of a geodisk_placed_record for each sample, in dart order. */
+    uint64_t arguments_offset; /* Of a VkDrawIndirectCommand with an instance for each sample. */
+    uint64_t device_bytes;     /* Allocated on the device. */
+    uint32_t capacity;         /* Records that there is room for. */
+    uint32_t ready;            /* Samples in order and final, as far as the host knows. */
+    int32_t is_complete;       /* Not 0: those are all. */
+} geodisk_frame_samples;
+
+GEODISK_C_API geodisk_status geodisk_frame_sampler_describe(const geodisk_frame_sampler *frames,
+                                                            geodisk_frame_samples *samples,
+                                                            geodisk_error *error);
+
+/* Begins again with another seed. */
+GEODISK_C_API geodisk_status geodisk_frame_sampler_set_seed(geodisk_frame_sampler *frames,
+                                                            uint64_t seed, geodisk_error *error);
+
+/* No command buffer that it recorded may be pending. */
+GEODISK_C_API void geodisk_frame_sampler_release(geodisk_frame_sampler *frames);
 
 /* ---- Finding a distance by a count ------------------------------------------------------------- */
 

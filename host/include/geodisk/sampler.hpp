@@ -154,6 +154,18 @@ struct WorkspaceNeeds {
     GEODISK_API VkDeviceSize total() const noexcept;
 };
 
+/// A whole workspace in one buffer: where each of its ranges begins.
+struct WorkspaceLayout {
+    std::array<VkDeviceSize, kBufferRoles> offsets{}; ///< Bytes from the start of the layout.
+    WorkspaceNeeds needs;                             ///< What it was made for.
+    VkDeviceSize alignment = 1; ///< What the start of the layout must be a multiple of, in bytes.
+    VkDeviceSize bytes = 0;     ///< Size of the layout.
+
+    /// Returns the ranges where the layout begins `offset` bytes into `buffer`, a multiple of
+    /// `alignment`.
+    GEODISK_API Workspace in(VkBuffer buffer, VkDeviceSize offset = 0) const noexcept;
+};
+
 /// How a job is cut into work. Nothing but `error_bound` bears on which samples come out, and that
 /// only where a distance is within the guard of the minimum.
 struct RunPlan {
@@ -212,7 +224,7 @@ enum class Next : std::uint32_t {
     larger_pool,    ///< Job::set_plan with Advice::plan, then record_rewind.
     larger_samples, ///< Job::set_samples with Advice::sample_capacity, then record_rewind.
     start_over,     ///< A new job, of Advice::plan: the guard was made for shorter window chains.
-    complete,       ///< The samples are there, the first ControlRec::ready.
+    complete,       ///< The samples are there, the first Advice::ready.
 };
 
 /// Name of it as spelled above.
@@ -224,6 +236,9 @@ struct Advice {
     /// The job's, or the one to go on with. Its pool_bytes() tell how large the pool must be.
     RunPlan plan;
     std::uint32_t sample_capacity = 0; ///< The least that goes on, and half as many again.
+    /// Number of samples in order and final, as far as the host knows; grows until the next seed or
+    /// domain.
+    std::uint32_t ready = 0;
 };
 
 namespace gpu {
@@ -277,6 +292,9 @@ class GEODISK_API Sampler {
     /// grow_plan() for regrowths that no pool holds.
     Result<WorkspaceNeeds> workspace_needs(const Domain& domain, const RunPlan& plan,
                                            std::uint32_t regrowths = 0) const noexcept;
+
+    /// Lays out all buffers one after the other in a single one, each aligned as the device asks.
+    WorkspaceLayout lay_out(const WorkspaceNeeds& needs) const noexcept;
 
     /// Bytes that the caller is to upload into a buffer; 0 for buffers that need none.
     std::size_t upload_size(const Domain& domain, BufferRole role) const noexcept;
@@ -367,7 +385,8 @@ class GEODISK_API Job {
     /// workspace has.
     ///
     /// Errors: `mesh_rejected` where the mesh defeats single precision, naming the face of a
-    /// candidate (of several surfaces numbered on from one to the next); `internal` where the
+    /// candidate (of several surfaces numbered on from one to the next); `invalid_argument` where
+    /// no candidate was drawn, as what write_upload() gives was not uploaded; `internal` where the
     /// device defeats its control record; `workspace_too_small` as grow_plan(); `job_too_large`
     /// where no binding holds the samples.
     Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes = 0) noexcept;

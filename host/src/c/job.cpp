@@ -90,6 +90,7 @@ Result<Done> bind_all(geodisk_job& job, const Workspace& workspace) {
         job.recorded.emplace(std::move(*made));
     }
     job.is_begun = false;
+    job.uploaded = {};
     if (job.seed) {
         job.recorded->set_seed(*job.seed);
     }
@@ -132,6 +133,19 @@ Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges) {
     return Done{};
 }
 
+/// Fails where the buffers lack what is to be uploaded: the samples would be none.
+Result<Done> check_uploads(const geodisk_job& job) {
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        const auto role = static_cast<BufferRole>(i);
+        if (!job.uploaded[i] && job.sampler->upload_size(*job.domain->domain, role) > 0) {
+            return wrong("buffer " + std::to_string(i) + " (" + to_string(role) +
+                         ") has no upload: call geodisk_job_upload for each buffer with "
+                         "upload_bytes before GEODISK_BEGIN");
+        }
+    }
+    return Done{};
+}
+
 Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next what,
                     std::uint32_t amount) {
     const std::uint32_t dispatches = amount != 0 ? amount : kAllDispatches;
@@ -139,6 +153,11 @@ Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next wha
     const bool begins = what == GEODISK_BEGIN || what == GEODISK_START_OVER;
     if (!begins && !job.is_begun) { // What kernels would read has no values yet.
         return wrong("GEODISK_BEGIN comes first");
+    }
+    if (begins) {
+        if (const auto checked = check_uploads(job); !checked) {
+            return checked.error();
+        }
     }
     switch (what) {
     case GEODISK_BEGIN:
@@ -168,10 +187,10 @@ Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next wha
 
 Result<geodisk_advice> advise(geodisk_job& job, const gpu::ControlRec& control) {
     geodisk_advice advice{};
-    advice.ready = control.ready;
     // Until that is done the control record says the same.
     if (job.to_bind || job.to_record) {
         advice.next = static_cast<geodisk_next>(job.to_bind ? *job.to_bind : *job.to_record);
+        advice.ready = job.ready;
         return advice;
     }
     const auto found = job.recorded->advance(control, job.pool_bytes);
@@ -182,6 +201,7 @@ Result<geodisk_advice> advise(geodisk_job& job, const gpu::ControlRec& control) 
         return asked.error();
     }
     advice.next = static_cast<geodisk_next>(found->next);
+    advice.ready = job.ready = found->ready;
     return advice;
 }
 
@@ -284,6 +304,29 @@ geodisk_status geodisk_job_need(geodisk_job* job, uint32_t buffer, geodisk_buffe
     });
 }
 
+geodisk_status geodisk_job_lay_out(geodisk_job* job, uint64_t buffer, uint64_t offset,
+                                   geodisk_buffer_range* ranges, uint64_t* bytes,
+                                   geodisk_error* error) {
+    return with_job(job, error, [&](geodisk_job& own) -> Result<Done> {
+        if (ranges == nullptr || bytes == nullptr) {
+            return wrong("ranges or bytes is NULL");
+        }
+        WorkspaceNeeds needs;
+        std::copy(own.needed.begin(), own.needed.end(), needs.bytes.begin());
+        const WorkspaceLayout layout = own.sampler->lay_out(needs);
+        if (offset % layout.alignment != 0) {
+            return wrong("offset is " + std::to_string(offset) + ", no multiple of the device's " +
+                         std::to_string(layout.alignment));
+        }
+        const Workspace workspace = layout.in(handle_of<VkBuffer>(buffer), offset);
+        std::transform(workspace.begin(), workspace.end(), ranges, [](const BufferRange& range) {
+            return geodisk_buffer_range{number_of(range.buffer), range.offset, range.size};
+        });
+        *bytes = layout.bytes;
+        return Done{};
+    });
+}
+
 geodisk_status geodisk_job_bind(geodisk_job* job, const geodisk_buffer_range* ranges,
                                 geodisk_error* error) {
     return with_job(job, error, [&](geodisk_job& own) {
@@ -301,8 +344,10 @@ geodisk_status geodisk_job_upload(geodisk_job* job, uint32_t buffer, void* data,
         if (data == nullptr) {
             return wrong("data is NULL");
         }
-        return own.sampler->write_upload(*own.domain->domain, own.plan, *role,
-                                         {static_cast<std::byte*>(data), bytes});
+        auto written = own.sampler->write_upload(*own.domain->domain, own.plan, *role,
+                                                 {static_cast<std::byte*>(data), bytes});
+        own.uploaded[buffer] = own.uploaded[buffer] || static_cast<bool>(written);
+        return written;
     });
 }
 

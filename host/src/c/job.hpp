@@ -35,6 +35,7 @@ struct geodisk_job {
 
     geodisk::RunPlan plan; ///< To go on with, once there are buffers for it.
     std::uint32_t sample_capacity = 0;
+    std::uint32_t ready = 0; ///< As geodisk_job_advance said last.
     std::array<std::uint64_t, geodisk::kBufferRoles> needed{};
     geodisk::Workspace workspace{};
     std::optional<geodisk::Job> recorded; ///< Once it has buffers.
@@ -44,7 +45,8 @@ struct geodisk_job {
     std::optional<geodisk::Next> to_bind = geodisk::Next::start_over;
     /// What has been bound for and is to be recorded: larger_pool or larger_samples.
     std::optional<geodisk::Next> to_record;
-    bool is_begun = false; ///< With these buffers and this seed.
+    bool is_begun = false;                              ///< With these buffers and this seed.
+    std::array<bool, geodisk::kBufferRoles> uploaded{}; ///< Written for these buffers.
 
     std::atomic<bool> is_held = false; ///< A call has it.
 

@@ -50,6 +50,9 @@ Result<Done> check_overflow(const gpu::ControlRec& control, const gpu::Push& pus
     return Done{};
 }
 
+/// Candidates to expect from which on there are some: none have the probability e^-60.
+constexpr double kSurelySome = 60;
+
 } // namespace
 
 const char* to_string(Next next) noexcept {
@@ -69,7 +72,11 @@ std::uint32_t Job::Impl::stages_left(const gpu::ControlRec& control) const {
 }
 
 Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes) {
-    Advice advice{Next::go_on, plan, push.sample_capacity};
+    // A new seed has the generation of the one before until it begins.
+    const bool is_told =
+        !is_begin_due && control.generation == generation && control.abi == gpu::kAbi;
+    ready = is_told ? std::max(ready, control.ready) : ready;
+    Advice advice{Next::go_on, plan, push.sample_capacity, ready};
     if (is_begin_due || !begun.is_at_start()) {
         advice.next = Next::begin;
         return advice;
@@ -112,6 +119,12 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
     }
     if (control.done == 0) {
         return advice;
+    }
+    if (control.drawn == 0 && push.first_stage == 0 &&
+        stages.expected(0) * push.stages > kSurelySome) {
+        return Error{Status::invalid_argument,
+                     "no candidate was drawn: the buffers hold no mesh; upload what "
+                     "Sampler::write_upload gives before the first commands of the job"};
     }
     if (control.ready < std::min(control.accepted, push.stop_count)) {
         advice.next = Next::finish;

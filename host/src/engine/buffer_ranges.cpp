@@ -11,6 +11,17 @@ Error range_error(Status status, const std::string& name, const std::string& wha
 
 } // namespace
 
+VkDeviceSize range_alignment(const DeviceLimits& limits) {
+    return std::max<VkDeviceSize>(
+        {limits.min_storage_buffer_offset_alignment, limits.min_texel_buffer_offset_alignment, 1});
+}
+
+VkDeviceSize RangeCutter::cut(VkDeviceSize bytes) {
+    const VkDeviceSize start = (end_ + alignment_ - 1) / alignment_ * alignment_;
+    end_ = start + bytes;
+    return start;
+}
+
 Result<Done> check_range(const BufferRange& range, const std::string& name, VkDeviceSize needed,
                          const Sampler::Impl& sampler) {
     const DeviceLimits& limits = sampler.report.limits;
@@ -29,8 +40,7 @@ Result<Done> check_range(const BufferRange& range, const std::string& name, VkDe
                                "most " +
                                std::to_string(limits.max_storage_buffer_range));
     }
-    const std::uint64_t alignment = std::max(limits.min_storage_buffer_offset_alignment,
-                                             limits.min_texel_buffer_offset_alignment);
+    const VkDeviceSize alignment = range_alignment(limits);
     if (range.offset % alignment != 0) {
         return range_error(Status::invalid_argument, name,
                            "starts at " + std::to_string(range.offset) +

@@ -283,6 +283,7 @@ void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
     begun = finished = {};
     is_begin_due = true;
     thrown = first == 0 ? 0 : thrown;
+    ready = first == 0 ? 0 : ready;
     cut_darts = 0;
     push.first_stage = first;
     push.stages = count;

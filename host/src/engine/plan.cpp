@@ -9,6 +9,7 @@
 
 #include "bindings.h"
 #include "constants.h"
+#include "engine/buffer_ranges.hpp"
 #include "engine/domain_impl.hpp"
 #include "engine/plan.hpp"
 #include "engine/sampler_impl.hpp"
@@ -235,6 +236,28 @@ VkDeviceSize WorkspaceNeeds::total() const noexcept {
         sum += size;
     }
     return sum;
+}
+
+Workspace WorkspaceLayout::in(VkBuffer buffer, VkDeviceSize offset) const noexcept {
+    Workspace workspace;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs.bytes[i] > 0) {
+            workspace[i] = {buffer, offset + offsets[i], needs.bytes[i]};
+        }
+    }
+    return workspace;
+}
+
+WorkspaceLayout Sampler::lay_out(const WorkspaceNeeds& needs) const noexcept {
+    WorkspaceLayout layout;
+    layout.needs = needs;
+    layout.alignment = range_alignment(impl_->report.limits);
+    RangeCutter cutter(layout.alignment);
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        layout.offsets[i] = cutter.cut(needs.bytes[i]);
+    }
+    layout.bytes = cutter.end();
+    return layout;
 }
 
 Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes) const noexcept {

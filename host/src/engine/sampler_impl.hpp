@@ -95,6 +95,7 @@ struct Job::Impl {
     std::uint64_t thrown = 0;     ///< Candidates of the stages before.
     std::uint64_t cut_darts = 0;  ///< Of these stages, those that take part, unless all do.
     std::uint64_t dispatches = 0; ///< Recorded, empty ones included.
+    std::uint32_t ready = 0;      ///< Samples known to be in order and final.
 
     bool has(std::size_t kernel) const {
         return kernel_info(static_cast<Kernel>(kernel)).serves(variant.domain);

@@ -1,0 +1,76 @@
+// What one try of a FrameSampler runs in: its buffers, its job, and where the samples go.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <geodisk/frame_sampler.hpp>
+#include <geodisk/placement.hpp>
+#include <geodisk/sampler.hpp>
+
+#include "records.h"
+#include "vk/buffer.hpp"
+
+namespace geodisk {
+
+/// Vertices and faces of all surfaces, as Placement reads them.
+struct FrameMesh {
+    std::vector<float> positions;       ///< Three for each vertex.
+    std::vector<std::uint32_t> indices; ///< Three for each face.
+
+    /// Errors: `invalid_argument` for a mesh that does not fit the domain.
+    static Result<FrameMesh> copy(const Domain& domain, std::span<const MeshView> meshes);
+};
+
+/// Immovable: the job's commands refer to it. Destroy it when none of them is pending.
+class FrameMemory {
+  public:
+    /// Allocates what the plan takes and stages all that is to be uploaded. Errors: as
+    /// FrameSampler::create().
+    static Result<std::unique_ptr<FrameMemory>> create(const Sampler& sampler,
+                                                       const Domain& domain, const FrameMesh& mesh,
+                                                       const RunPlan& plan,
+                                                       const FrameSamplerOptions& options);
+
+    Job& job() { return *job_; }
+    const Placement& placement() const { return *placement_; }
+    const RunPlan& plan() const { return plan_; }
+    /// Handles, offsets and capacity; nothing of how far the run is.
+    FrameSamples samples() const;
+    std::uint64_t device_bytes() const { return buffer_.size(); }
+
+    /// Records the uploads, once.
+    void record_upload(const DeviceTable& vk, VkCommandBuffer commands);
+    /// Frees what was staged for them; their commands have completed.
+    void free_staging() { staging_ = DeviceBuffer(); }
+
+    /// Records a copy of the control record to a place of the host's, from 0 to `frames` - 1.
+    void record_control(const DeviceTable& vk, VkCommandBuffer commands, std::uint32_t turn) const;
+    gpu::ControlRec control(std::uint32_t turn) const;
+
+  private:
+    struct Upload {
+        VkDeviceSize from, to, bytes; ///< In the staging, in the buffer.
+    };
+
+    Result<Done> allocate(const Sampler& sampler, const Domain& domain, const FrameMesh& mesh,
+                          const FrameSamplerOptions& options);
+    Result<Done> stage(const Sampler& sampler, const Domain& domain, const FrameMesh& mesh);
+    BufferRange range(VkDeviceSize offset, VkDeviceSize bytes) const {
+        return {buffer_.handle(), offset, bytes};
+    }
+
+    DeviceBuffer buffer_, staging_, controls_;
+    WorkspaceLayout layout_;
+    VkDeviceSize vertices_ = 0, indices_ = 0, placed_ = 0, arguments_ = 0; ///< Offsets.
+    std::vector<Upload> uploads_;
+    RunPlan plan_;
+    // Before the buffers they go.
+    std::optional<Job> job_;
+    std::optional<Placement> placement_;
+};
+
+} // namespace geodisk

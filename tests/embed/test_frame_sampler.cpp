@@ -1,0 +1,311 @@
+// The object between Runner and Sampler: its samples in a buffer to draw from.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <geodisk/frame_sampler.hpp>
+
+#include "app_device.hpp"
+#include "arena.hpp"
+#include "engine_job.hpp"
+#include "gpu/sets.hpp"
+#include "samples.h"
+#include "support/meshes.hpp"
+#include "workshop.hpp"
+
+namespace geodisk::test {
+namespace {
+
+constexpr std::uint32_t kMostCalls = 20'000;
+
+std::shared_ptr<const Sampler> shared_sampler(const Context& context) {
+    return std::make_shared<const Sampler>(expect(Sampler::create(context.device())));
+}
+
+/// A torus knot, where its samples are to lie, and which they are.
+struct Subject {
+    TestMesh shape;
+    PreparedMesh mesh;
+    SampleParams params;
+    Domain domain;
+    Points wanted;
+
+    Subject(const Sampler& sampler, double count, std::uint64_t seed = 1, int resolution = 8)
+        : shape(builtin("torus-knot", resolution)), mesh(prepared(shape)),
+          params(params_for(mesh, count, seed)), domain(expect(Domain::surface(mesh, params))),
+          wanted(float_set(mesh, params,
+                           expect(sampler.plan_run(domain, Workshop::kPoolBytes)).error_bound)) {}
+};
+
+/// A workshop whose frames hold other work of its own.
+struct Bench : Workshop {
+    explicit Bench(const Context& context) : Workshop(context) { cut({}); }
+};
+
+/// What lies in the buffer: the records, and how many the draw has.
+struct Placed {
+    VkDrawIndirectCommand draw{};
+    std::vector<gpu::PlacedRec> records;
+
+    Points points() const {
+        Points points;
+        for (const gpu::PlacedRec& p : records) {
+            points.push_back({p.face, p.weight1, p.weight2});
+        }
+        return points;
+    }
+};
+
+Placed read(Workshop& workshop, const FrameSamples& samples) {
+    Placed placed;
+    const auto get = [&](VkDeviceSize offset, VkDeviceSize bytes, void* to) {
+        workshop.frame(0, [&](VkCommandBuffer commands) {
+            workshop.record_download(commands, {samples.buffer, offset, bytes}, bytes);
+        });
+        std::memcpy(to, workshop.download_bytes().data(), bytes);
+    };
+    get(samples.arguments_offset, sizeof placed.draw, &placed.draw);
+    placed.records.resize(placed.draw.instanceCount);
+    if (!placed.records.empty()) {
+        get(samples.placed_offset, placed.records.size() * sizeof(gpu::PlacedRec),
+            placed.records.data());
+    }
+    return placed;
+}
+
+/// Records a frame at a time; how many that took.
+std::uint32_t record_all(Workshop& workshop, FrameSampler& frames) {
+    std::uint32_t calls = 0;
+    for (bool is_complete = false; !is_complete; ++calls) {
+        REQUIRE(calls < kMostCalls);
+        workshop.frame(calls, [&](VkCommandBuffer commands) {
+            is_complete = expect(frames.record(commands));
+        });
+    }
+    return calls;
+}
+
+void check_all(Workshop& workshop, const FrameSampler& frames, const Subject& subject) {
+    const FrameSamples samples = frames.samples();
+    CHECK(samples.is_complete);
+    CHECK(samples.ready == subject.wanted.size());
+    const Placed placed = read(workshop, samples);
+    CHECK(placed.points() == subject.wanted);
+    // Where its weights put it, in the caller's coordinates.
+    const gpu::PlacedRec& p = placed.records.front();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double x = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t v = subject.shape.triangles[std::size_t{3} * p.face + k];
+            const double w1 = p.weight1, w2 = p.weight2;
+            const double weights[] = {1 - w1 - w2, w1, w2};
+            x += weights[k] * subject.shape.positions[3 * v + axis];
+        }
+        const float found[] = {p.x, p.y, p.z};
+        CHECK(double{found[axis]} == doctest::Approx(x).epsilon(1e-5));
+    }
+    CHECK(double{p.radius} == doctest::Approx(subject.params.min_distance / 2).epsilon(1e-6));
+}
+
+} // namespace
+
+TEST_SUITE("frame sampler") {
+    TEST_CASE("samples a few rounds a frame, with any number of frames in flight") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const Subject knot(*sampler, 200);
+            Bench workshop(context);
+            for (const std::uint32_t in_flight : {1u, 2u, 5u}) {
+                FrameSamplerOptions options;
+                options.frames = in_flight;
+                options.vertices_each = 6;
+                FrameSampler frames =
+                    expect(FrameSampler::create(sampler, knot.domain, knot.shape.view(), options));
+                CHECK(record_all(workshop, frames) > in_flight);
+                check_all(workshop, frames, knot);
+                CHECK(read(workshop, frames.samples()).draw.vertexCount == 6);
+            }
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("what is placed so far is final, and the host's count never ahead of it") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const Subject knot(*sampler, 200);
+            Bench workshop(context);
+            FrameSampler frames =
+                expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
+            std::size_t steps = 0, before = 0;
+            for (bool is_complete = false; !is_complete;) {
+                workshop.frame(0, [&](VkCommandBuffer commands) {
+                    is_complete = expect(frames.record(commands));
+                });
+                const Placed placed = read(workshop, frames.samples());
+                CHECK(placed.records.size() >= before);
+                CHECK(placed.records.size() >= frames.samples().ready);
+                const Points points = placed.points();
+                CHECK(std::equal(points.begin(), points.end(), knot.wanted.begin()));
+                steps += points.size() > before;
+                before = points.size();
+            }
+            CHECK(steps > 1);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("submits by itself, stops and goes on, and begins again with another seed") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const Subject knot(*sampler, 200, 1);
+            const Subject other(*sampler, 200, 2);
+            Bench workshop(context);
+            Runner runner = expect(Runner::create(sampler, context.queue()));
+            FrameSampler frames =
+                expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
+            const auto stopped =
+                frames.sample_and_wait(runner, [](const Progress&) { return false; });
+            REQUIRE_FALSE(stopped);
+            CHECK(stopped.error().status == Status::cancelled);
+            CHECK_FALSE(frames.samples().is_complete);
+            expect(frames.sample_and_wait(runner));
+            check_all(workshop, frames, knot);
+            frames.set_seed(2);
+            CHECK_FALSE(frames.samples().is_complete);
+            expect(frames.sample_and_wait(runner));
+            check_all(workshop, frames, other);
+            frames.set_seed(1);
+            record_all(workshop, frames);
+            check_all(workshop, frames, knot);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("takes a larger buffer where disks outgrow the first") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const Subject few(*sampler, 3, 1, 24);
+            Bench workshop(context);
+            FrameSamplerOptions options;
+            // The least that one lane fits in.
+            for (options.pool_bytes = 1024; !sampler->plan_run(few.domain, options.pool_bytes);) {
+                options.pool_bytes *= 2;
+            }
+            FrameSampler frames =
+                expect(FrameSampler::create(sampler, few.domain, few.shape.view(), options));
+            const VkBuffer first = frames.samples().buffer;
+            const std::uint64_t bytes = frames.device_bytes();
+            record_all(workshop, frames);
+            check_all(workshop, frames, few);
+            CHECK(frames.samples().buffer != first);
+            CHECK(frames.device_bytes() > bytes);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("places samples of several surfaces") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const TestMesh shapes[] = {builtin("icosphere", 3), builtin("torus-knot", 8)};
+            const PreparedMesh meshes[] = {prepared(shapes[0]), prepared(shapes[1])};
+            const SurfacePart parts[] = {{&meshes[0], params_for(meshes[0], 100)},
+                                         {&meshes[1], params_for(meshes[1], 100)}};
+            const Domain domain = expect(Domain::surfaces(parts));
+            Runner runner = expect(Runner::create(sampler, context.queue()));
+            const SampleSet wanted = expect(runner.sample_and_wait(domain));
+            const MeshView views[] = {shapes[0].view(), shapes[1].view()};
+            FrameSampler frames = expect(FrameSampler::create(sampler, domain, views));
+            expect(frames.sample_and_wait(runner));
+            Bench workshop(context);
+            const Placed placed = read(workshop, frames.samples());
+            REQUIRE(placed.records.size() == wanted.samples.size());
+            for (std::size_t i = 0; i < wanted.samples.size(); ++i) {
+                const gpu::PlacedRec& p = placed.records[i];
+                CHECK(p.face + domain.first_faces()[p.part] == wanted.samples[i].face);
+            }
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("takes its memory from the caller, in one buffer of the device") {
+        AppDevice app;
+        {
+            Arena arena(app.refs());
+            const MemoryHooks hooks = arena.hooks();
+            DeviceRefs refs = app.refs();
+            refs.memory_hooks = &hooks;
+            const auto sampler =
+                std::make_shared<const Sampler>(expect(Sampler::create(refs)));
+            const Subject knot(*sampler, 100);
+            {
+                Runner runner = expect(Runner::create(sampler, app.queue()));
+                const std::size_t before = arena.alive.size();
+                FrameSampler frames =
+                    expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
+                // One for the device; staging and control records for the host.
+                CHECK(arena.alive.size() - before == 3);
+                expect(frames.sample_and_wait(runner));
+                CHECK(frames.samples().ready == knot.wanted.size());
+            }
+            CHECK(arena.alive.empty());
+        }
+        CHECK(app.messages().empty());
+    }
+
+    TEST_CASE("refuses what cannot be") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const Subject knot(*sampler, 100);
+            const TestMesh other = builtin("cube", 1);
+            const auto status = [&](const Domain& domain, std::span<const MeshView> meshes,
+                                    const FrameSamplerOptions& options = {}) {
+                const auto made = FrameSampler::create(sampler, domain, meshes, options);
+                REQUIRE_FALSE(made);
+                return made.error().status;
+            };
+            const MeshView view = knot.shape.view();
+            const MeshView wrong = other.view();
+            CHECK(status(knot.domain, {}) == Status::invalid_argument);
+            CHECK(status(knot.domain, {&wrong, 1}) == Status::invalid_argument);
+            MeshView flat = view;
+            flat.dimension = 1;
+            CHECK(status(knot.domain, {&flat, 1}) == Status::invalid_argument);
+            std::vector<std::uint32_t> triangles = knot.shape.triangles;
+            triangles[7] = 1'000'000;
+            const MeshView out{view.positions, triangles};
+            CHECK(status(knot.domain, {&out, 1}) == Status::invalid_argument);
+            for (int i = 0; i < 5; ++i) {
+                FrameSamplerOptions options;
+                options.frames = i == 0 ? 0 : i == 1 ? 17 : 2;
+                options.rounds = i == 2 ? 0 : 1;
+                options.vertices_each = i == 3 ? 0 : 1;
+                options.readers.stages = i == 4 ? 0 : options.readers.stages;
+                CHECK(status(knot.domain, {&view, 1}, options) == Status::invalid_argument);
+            }
+            FrameSamplerOptions tiny;
+            tiny.pool_bytes = 16;
+            CHECK(status(knot.domain, {&view, 1}, tiny) == Status::workspace_too_small);
+            BoxParams box{{1, 1}, true};
+            box.min_distance = 0.1;
+            CHECK(status(expect(Domain::box(box)), {}) == Status::invalid_argument);
+            CHECK_FALSE(FrameSampler::create(nullptr, knot.domain, view));
+            FrameSampler frames = expect(FrameSampler::create(sampler, knot.domain, view));
+            CHECK_FALSE(frames.record(VK_NULL_HANDLE));
+        }
+        check_silent(context);
+    }
+}
+
+} // namespace geodisk::test
