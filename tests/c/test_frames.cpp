@@ -62,8 +62,7 @@ void check_set(Workshop& workshop, const geodisk_frame_samples& samples,
 } // namespace
 
 TEST_CASE("frames in C: recorded, waited for, and begun again with another seed") {
-    const auto device =
-        borrowed(lent_device(shared_context().device(), shared_context().queue()));
+    const auto device = borrowed(lent_device(shared_context().device(), shared_context().queue()));
     const auto domain = knot(1);
     Workshop workshop(shared_context());
     workshop.cut({});
@@ -89,8 +88,7 @@ TEST_CASE("frames in C: recorded, waited for, and begun again with another seed"
 }
 
 TEST_CASE("frames in C refuse NULL, boxes and options that cannot be") {
-    const auto device =
-        borrowed(lent_device(shared_context().device(), shared_context().queue()));
+    const auto device = borrowed(lent_device(shared_context().device(), shared_context().queue()));
     const auto domain = knot(1);
     geodisk_frame_sampler* made = nullptr;
     const auto create = [&](const geodisk_frame_options* options) {

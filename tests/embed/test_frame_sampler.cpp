@@ -245,8 +245,7 @@ TEST_SUITE("frame sampler") {
             const MemoryHooks hooks = arena.hooks();
             DeviceRefs refs = app.refs();
             refs.memory_hooks = &hooks;
-            const auto sampler =
-                std::make_shared<const Sampler>(expect(Sampler::create(refs)));
+            const auto sampler = std::make_shared<const Sampler>(expect(Sampler::create(refs)));
             const Subject knot(*sampler, 100);
             {
                 Runner runner = expect(Runner::create(sampler, app.queue()));

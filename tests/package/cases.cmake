@@ -225,6 +225,14 @@ elseif(CASE STREQUAL "engine")
         message(FATAL_ERROR "no samples are drawn in ${work}/engine.png")
     endif()
 
+elseif(CASE STREQUAL "record")
+    # As installed, since users take it from there. Both have the samples of the example in C.
+    configure("${installed}/${doc_folder}/examples/record" "${work}/record"
+        "-DCMAKE_PREFIX_PATH=${installed}")
+    build("${work}/record")
+    run_example("${work}/record/record_cpp")
+    run_example("${work}/record/record_c")
+
 elseif(CASE STREQUAL "headers")
     configure("${package_tests}/headers" "${work}/headers" "-DCMAKE_PREFIX_PATH=${installed}")
     build("${work}/headers")

@@ -76,12 +76,12 @@ class GEODISK_API FrameSampler {
     /// Errors: `invalid_argument` for other domains, meshes that do not match the domain, or
     /// options out of range; `workspace_too_small` when pool_bytes holds no disk; as
     /// Sampler::workspace_needs() and Sampler::prepare(); or as Vulkan fails.
-    static Result<FrameSampler> create(std::shared_ptr<const Sampler> sampler,
-                                       const Domain& domain, std::span<const MeshView> meshes,
+    static Result<FrameSampler> create(std::shared_ptr<const Sampler> sampler, const Domain& domain,
+                                       std::span<const MeshView> meshes,
                                        const FrameSamplerOptions& options = {}) noexcept;
     /// Does the same for the mesh of one surface.
-    static Result<FrameSampler> create(std::shared_ptr<const Sampler> sampler,
-                                       const Domain& domain, const MeshView& mesh,
+    static Result<FrameSampler> create(std::shared_ptr<const Sampler> sampler, const Domain& domain,
+                                       const MeshView& mesh,
                                        const FrameSamplerOptions& options = {}) noexcept;
     FrameSampler(FrameSampler&&) noexcept;
     FrameSampler& operator=(FrameSampler&&) noexcept;

@@ -77,8 +77,7 @@ Result<FrameMesh> FrameMesh::copy(const Domain& domain, std::span<const MeshView
 
 Result<std::unique_ptr<FrameMemory>> FrameMemory::create(const Sampler& sampler,
                                                          const Domain& domain,
-                                                         const FrameMesh& mesh,
-                                                         const RunPlan& plan,
+                                                         const FrameMesh& mesh, const RunPlan& plan,
                                                          const FrameSamplerOptions& options) {
     auto made = std::make_unique<FrameMemory>();
     made->plan_ = plan;

@@ -30,9 +30,8 @@ class FrameMemory {
   public:
     /// Allocates what the plan takes and stages all that is to be uploaded. Errors: as
     /// FrameSampler::create().
-    static Result<std::unique_ptr<FrameMemory>> create(const Sampler& sampler,
-                                                       const Domain& domain, const FrameMesh& mesh,
-                                                       const RunPlan& plan,
+    static Result<std::unique_ptr<FrameMemory>> create(const Sampler& sampler, const Domain& domain,
+                                                       const FrameMesh& mesh, const RunPlan& plan,
                                                        const FrameSamplerOptions& options);
 
     Job& job() { return *job_; }

@@ -49,10 +49,10 @@ struct FrameSampler::Impl {
 
     std::unique_ptr<FrameMemory> now;
     std::vector<Retired> retired;
-    std::uint64_t calls = 0;       ///< Of record_next().
-    std::uint64_t first_call = 0;  ///< The one that uploaded `now`.
-    bool is_uploaded = false;      ///< `now` is.
-    bool is_staged = true;         ///< What `now` has staged is still there.
+    std::uint64_t calls = 0;      ///< Of record_next().
+    std::uint64_t first_call = 0; ///< The one that uploaded `now`.
+    bool is_uploaded = false;     ///< `now` is.
+    bool is_staged = true;        ///< What `now` has staged is still there.
     std::uint32_t ready = 0;
     bool is_complete = false;
 
@@ -187,8 +187,8 @@ Result<bool> FrameSampler::Impl::record_next(VkCommandBuffer commands, std::uint
     if (auto recorded = record_work(commands, *advice); !recorded) {
         return recorded.error();
     }
-    barrier(Sampler::kLastUse, {kCopies.stages | options.readers.stages,
-                                kCopies.access | options.readers.access});
+    barrier(Sampler::kLastUse,
+            {kCopies.stages | options.readers.stages, kCopies.access | options.readers.access});
     now->record_control(vk, commands, static_cast<std::uint32_t>(calls % options.frames));
     barrier_transfer_to_host(vk, commands);
     ++calls;
@@ -251,9 +251,8 @@ Result<Done> FrameSampler::sample_and_wait(Runner& runner,
         }
         while (!impl_->is_complete) {
             Result<bool> recorded = false;
-            const auto submitted = with.submitter->run([&](VkCommandBuffer commands) {
-                recorded = impl_->record_next(commands, 1);
-            });
+            const auto submitted = with.submitter->run(
+                [&](VkCommandBuffer commands) { recorded = impl_->record_next(commands, 1); });
             if (!submitted) {
                 return submitted.error();
             }
