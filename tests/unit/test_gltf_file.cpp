@@ -1,5 +1,6 @@
 // glTF files: what is read of them, and that hostile ones are refused.
 #include "files/mesh_file.hpp"
+#include "files/part_columns.hpp"
 
 #include "mesh_facts.hpp"
 #include "test_files.hpp"
@@ -122,6 +123,38 @@ TEST_CASE("glTF nodes place meshes, also mirrored ones, in a tree") {
     CHECK(mesh_of(parts).triangle_count() == 2);
     parts.nodes = "";
     CHECK(mesh_of(parts).triangle_count() == 2);
+}
+
+TEST_CASE("glTF faces know their node, mesh and primitive") {
+    Parts parts;
+    parts.nodes = R"("nodes": [{}, {"mesh": 0}, {"mesh": 0, "translation": [3, 0, 0]}],)";
+    parts.primitives = R"([{"attributes": {"POSITION": 0}, "mode": 0},
+                           {"attributes": {"POSITION": 0}, "indices": 1},
+                           {"attributes": {"POSITION": 0}, "mode": 6}])";
+    const MeshFile mesh = mesh_of(parts);
+    REQUIRE(mesh.parts.size() == 4);
+    CHECK(mesh.part_of_triangle == Corners{0, 0, 1, 1, 2, 2, 3, 3});
+    std::vector<SampleRow> rows(2);
+    rows[0].face = 2;
+    rows[1].face = 4;
+    const auto columns = part_columns(mesh, {"node", "mesh", "primitive"}, rows);
+    REQUIRE(columns.size() == 3);
+    CHECK(columns[0].values == Corners{1, 2});
+    CHECK(columns[1].values == Corners{0, 0});
+    CHECK(columns[2].values == Corners{2, 1});
+    parts.nodes = "";
+    const MeshFile bare = mesh_of(parts);
+    check_parts("a.gltf", bare, {"mesh", "primitive"});
+    check_fails(ExitCode::bad_input, "a.gltf: does not tell the node of a face",
+                [&] { check_parts("a.gltf", bare, {"node"}); });
+}
+
+TEST_CASE("names of columns are checked") {
+    CHECK(parse_part_columns("").empty());
+    CHECK(parse_part_columns("primitive,mesh") == std::vector<std::string>{"primitive", "mesh"});
+    for (const std::string text : {"meshes", "mesh,", ",mesh", "mesh,mesh"}) {
+        check_fails(ExitCode::usage, "--columns: ", [&] { parse_part_columns(text); });
+    }
 }
 
 TEST_CASE("glTF positions may be sparse or quantized") {

@@ -60,6 +60,17 @@ TEST_CASE("STL facets hang together where their vertices lie in one place") {
     }
 }
 
+TEST_CASE("binary STL that begins with solid is told by the zeros of its head") {
+    std::string bytes = binary_stl("solid part") + "more"; // Not of the size that it tells.
+    const MeshFile mesh = mesh_of("a.stl", bytes);
+    CHECK(mesh.triangles == Corners{0, 1, 2, 0, 2, 5});
+    CHECK(warning_of(mesh).kind == "trailing_data");
+    const MeshFile apart =
+        mesh_of("a.stl", "solid x\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                         "vertex 0 1 0\nend loop\nEND FACET\nend solid\n");
+    CHECK(apart.triangle_count() == 1);
+}
+
 TEST_CASE("STL facets keep their numbers where they vanish") {
     const std::string point = "facet\nvertex 1 1 1\nvertex 1 1 1\nvertex 2 1 1\nendfacet\n";
     const std::string copies = std::string(kFacet) + std::string(kFacet);
@@ -107,7 +118,8 @@ TEST_CASE("OFF files are read whatever follows the coordinates and corners") {
     CHECK(plain.triangles == Corners{0, 1, 2, 0, 2, 3, 1, 3, 0});
     CHECK(plain.polygons == Corners{0, 0, 1});
     CHECK(plain.warnings.empty());
-    for (const std::string header : {"COFF 3 1 0", "NOFF\r\n3 1", "STCNOFF\n3\t1 0", "OFF 3 1 0"}) {
+    for (const std::string header :
+         {"COFF 3 1 0", "NOFF\r\n3 1", "STCNOFF\n3\t1 0", "NCOFF 3 1 0", "OFF 3 1 0"}) {
         CAPTURE(header);
         const MeshFile mesh =
             mesh_of("a.off", header + "\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2\n");

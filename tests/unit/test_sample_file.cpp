@@ -57,6 +57,42 @@ void check_refused(std::string_view name, std::string_view bytes, std::string_vi
 
 } // namespace
 
+TEST_CASE("columns of parts are written last and kept") {
+    const TemporaryFolder folder;
+    const std::vector<SampleRow> rows = some_rows(0);
+    ExtraColumn mesh{"mesh", {}}, primitive{"primitive", {}};
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        mesh.values.push_back(i / 7);
+        primitive.values.push_back(2000000000u + i);
+    }
+    const std::vector<ExtraColumn> extra{mesh, primitive};
+    for (const bool is_text : {false, true}) {
+        for (const char* const name : {"a.ply", "a.csv", "a.npz", "a.pcd"}) {
+            CAPTURE(name);
+            AtomicFile file(folder / name);
+            write_samples(file, sample_target(folder / name, {}, is_text), {}, rows, 3, extra);
+            file.commit();
+            if (name[2] == 'n' || name[3] == 'c') {
+                CHECK(contains(bytes_of(folder / name), "primitive"));
+                continue;
+            }
+            const SampleFile back = read_samples(folder / name);
+            REQUIRE(back.extra.size() == 2);
+            CHECK(back.extra[0].name == "mesh");
+            CHECK(back.extra[0].values == mesh.values);
+            CHECK(back.extra[1].values == primitive.values);
+        }
+    }
+    const std::vector<std::string> names{"mesh"};
+    check_columns(sample_target("a.glb"), names);
+    check_fails(ExitCode::usage, "holds points alone, so no column mesh",
+                [&] { check_columns(sample_target("a.xyz"), names); });
+    const SampleFile other = read_samples(
+        folder.write("b.csv", "x,y,z,face_index,bary_u,bary_v,bary_w,mesh\n0,0,0,0,1,0,0,chair\n"));
+    CHECK(other.rows.size() == 1);
+    CHECK(other.extra.empty());
+}
+
 TEST_CASE("samples read back as written") {
     const TemporaryFolder folder;
     for (const double offset : {0.0, 1e7}) {

@@ -223,12 +223,15 @@ class GltfReader {
         }
         for (const GltfPrimitive& primitive : mesh.primitives) {
             const auto [first, is_mirrored] = placed[primitive.vertices];
+            const auto part = static_cast<std::uint32_t>(mesh_.parts.size());
+            mesh_.parts.push_back({placement.node, placement.mesh, primitive.number});
             for (std::size_t i = 0; i + 2 < primitive.corners.size(); i += 3) {
                 const std::uint32_t* const c = &primitive.corners[i];
                 mesh_.corners.insert(
                     mesh_.corners.end(),
                     {first + c[0], first + c[is_mirrored ? 2 : 1], first + c[is_mirrored ? 1 : 2]});
                 mesh_.face_ends.push_back(mesh_.corners.size());
+                mesh_.part_of_face.push_back(part);
             }
         }
     }

@@ -33,6 +33,13 @@ float exact_float(std::uint32_t index) {
     return static_cast<float>(index);
 }
 
+std::string upper_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](char c) {
+        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    });
+    return text;
+}
+
 /// Collects the attributes of the points, all of them of floats.
 class Points {
   public:
@@ -91,6 +98,11 @@ void add_surface(Points& points, const SampleLayout& layout) {
         points.add("_RADIUS", 1, [](const SampleRow& row, std::size_t) {
             return static_cast<float>(row.radius);
         });
+    }
+    for (const ExtraColumn& column : layout.extra) {
+        const std::uint32_t* next = column.values.data();
+        points.add(("_" + upper_case(column.name)).c_str(), 1,
+                   [&next](const SampleRow&, std::size_t) { return exact_float(*next++); });
     }
     if (layout.has_polygon) {
         points.add("_POLYGON_INDEX", 1, [](const SampleRow& row, std::size_t) {

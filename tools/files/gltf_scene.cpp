@@ -42,7 +42,7 @@ std::vector<GltfPlacement> GltfScene::placements() {
         add_nodes(root, result);
     }
     if (document_.count("nodes") == 0) {
-        for (std::uint64_t mesh = 0; mesh < document_.count("meshes"); ++mesh) {
+        for (std::uint32_t mesh = 0; mesh < document_.count("meshes"); ++mesh) {
             result.push_back({{}, mesh, {glm::dmat4(1)}, {}, {}});
         }
     }
@@ -141,7 +141,9 @@ void GltfScene::add_nodes(std::uint64_t root, std::vector<GltfPlacement>& placem
         }
         const glm::dmat4 here = above * transform_of(object, name);
         if (const auto mesh = document_.find_index(object, "mesh", name)) {
-            GltfPlacement placement{index, *mesh, {}, {}, {}};
+            document_.at("meshes", "mesh", *mesh);
+            GltfPlacement placement{
+                static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(*mesh), {}, {}, {}};
             for (const glm::dmat4& instance : instances_of(object, name)) {
                 placement.transforms.push_back(here * instance);
             }

@@ -16,8 +16,8 @@ namespace geodisk::tools {
 
 /// A mesh that a node places.
 struct GltfPlacement {
-    std::optional<std::uint64_t> node;
-    std::uint64_t mesh = 0;
+    std::optional<std::uint32_t> node;
+    std::uint32_t mesh = 0;
     std::vector<glm::dmat4> transforms; ///< One, or those of instances.
     std::optional<std::uint64_t> skin;
     std::vector<double> weights; ///< Of morph targets, where the node has its own.

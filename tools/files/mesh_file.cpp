@@ -180,6 +180,17 @@ void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
                 "faces with a repeated vertex dropped or simplified");
 }
 
+void take_parts(PolygonMesh& polygons, MeshFile& mesh) {
+    mesh.parts = std::move(polygons.parts);
+    if (mesh.polygons.empty()) {
+        mesh.part_of_triangle = std::move(polygons.part_of_face);
+        return;
+    }
+    for (std::size_t t = 0; t < mesh.triangle_count() && !mesh.parts.empty(); ++t) {
+        mesh.part_of_triangle.push_back(polygons.part_of_face[mesh.polygons[t]]);
+    }
+}
+
 void drop_copied_triangles(MeshFile& mesh) {
     if (const Found copies = drop_copies(mesh); copies.count > 0) {
         add_warning(mesh.warnings, "duplicate_faces", copies.count,
@@ -265,6 +276,7 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     }
     check_size(path, polygons);
     split_polygons(polygons, mesh);
+    take_parts(polygons, mesh);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;
     mesh.attributes = std::move(polygons.attributes);

@@ -80,6 +80,13 @@ void add_surface_arrays(ZipWriter& zip, std::span<const SampleRow> rows,
         add_array(zip, "radius", "<f8", numbers, rows,
                   [](std::string& bytes, const auto& row) { append_double(bytes, row.radius); });
     }
+    for (const ExtraColumn& column : layout.extra) {
+        std::string bytes = array_header("<u4", numbers);
+        for (const std::uint32_t value : column.values) {
+            append_little_endian(bytes, value);
+        }
+        zip.add(column.name + ".npy", bytes);
+    }
     if (layout.has_polygon) {
         add_array(zip, "polygon_index", "<u4", numbers, rows,
                   [](std::string& bytes, const auto& row) {

@@ -67,7 +67,7 @@ class OffReader {
     /// after the coordinates, or how many these are.
     void take_keyword() {
         std::string_view rest = tokens_[0];
-        for (const std::string_view part : {"ST", "C", "N"}) {
+        for (const std::string_view part : {"ST", "C", "N", "C"}) { // Some write NCOFF.
             rest.remove_prefix(rest.starts_with(part) ? part.size() : 0);
         }
         if (rest == "4OFF" || rest == "4nOFF") {

@@ -16,7 +16,7 @@ std::string field_name(std::string_view column) {
 void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                bool is_text, const SampleLayout& layout) {
     std::string fields, sizes, types, counts;
-    visit_columns({}, layout, [&](std::string_view name, auto value) {
+    visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
         fields += ' ' + field_name(name);
         sizes += ' ' + std::to_string(sizeof value);
         types += std::floating_point<decltype(value)> ? " F" : " U";

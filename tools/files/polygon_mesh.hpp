@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files/reading_progress.hpp"
+#include "geometry/mesh.hpp"
 #include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
@@ -24,6 +25,9 @@ struct PolygonMesh {
     /// Where asked for: texture coordinates, two each, and the one of every corner, or kNoUv.
     std::vector<double> uvs;
     std::vector<std::uint32_t> corner_uvs;
+    /// Where the file divides its faces: the parts, and the index there of each face's.
+    std::vector<MeshPart> parts;
+    std::vector<std::uint32_t> part_of_face;
     ElementNames names;
     std::vector<MeshWarning> warnings;
 

@@ -47,12 +47,19 @@ struct SampleHeader {
     const std::string* find(std::string_view key) const;
 };
 
+/// A column of whole numbers beyond those of SampleRow, a value for each row.
+struct ExtraColumn {
+    std::string name;
+    std::vector<std::uint32_t> values;
+};
+
 class AtomicFile;
 
 struct SampleFile {
     std::vector<SampleRow> rows;
     SampleHeader header;
-    std::uint32_t dimension = 3; ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
+    std::uint32_t dimension = 3;    ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
+    std::vector<ExtraColumn> extra; ///< Those that part_columns() makes.
 };
 
 /// Writes `rows` in the format of `target`:
@@ -72,9 +79,11 @@ struct SampleFile {
 /// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY and PCD have besides
 /// x y z so that viewers show the first three, and there are no normals; with 0, of a mesh of edge
 /// lengths without coordinates, there are neither. check_dimension() tells which formats take that.
-/// Numbers in text are the shortest that read back exactly. Equal samples make equal bytes.
+/// All but xyz and obj have the columns `extra` last, glTF in attributes as _MESH. Numbers in text
+/// are the shortest that read back exactly. Equal samples make equal bytes.
 void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
-                   std::span<const SampleRow> rows, std::uint32_t dimension = 3);
+                   std::span<const SampleRow> rows, std::uint32_t dimension = 3,
+                   std::span<const ExtraColumn> extra = {});
 
 /// The same into a file of its own, in the format of its extension, that appears complete or not at
 /// all. Throws UserError as sample_target(), check_dimension() and AtomicFile do.
@@ -86,6 +95,9 @@ void write_samples(const Path& path, const SampleHeader& header, std::span<const
 /// lacks; CSV and NPZ have just the coordinates there are.
 void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                        std::span<const SampleRow> rows, std::uint32_t dimension);
+
+/// UserError(usage) if the format cannot hold columns of these names.
+void check_columns(const SampleTarget& target, std::span<const std::string> columns);
 
 /// UserError(usage) if the format cannot hold samples of so many coordinates.
 void check_dimension(const SampleTarget& target, std::uint32_t dimension);

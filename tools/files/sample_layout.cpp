@@ -46,9 +46,9 @@ void write_entries(AtomicFile& file, const SampleHeader& header, const char* pre
 void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const SampleLayout& layout,
                      char separator) {
     std::string line;
-    for (const SampleRow& row : rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
         line.clear();
-        visit_columns(row, layout, [&](std::string_view, auto value) {
+        visit_columns(rows[i], i, layout, [&](std::string_view, auto value) {
             append_number(line, value);
             line += separator;
         });
@@ -60,9 +60,9 @@ void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const Sa
 void write_binary_rows(AtomicFile& file, std::span<const SampleRow> rows,
                        const SampleLayout& layout) {
     std::string record;
-    for (const SampleRow& row : rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
         record.clear();
-        visit_columns(row, layout,
+        visit_columns(rows[i], i, layout,
                       [&](std::string_view, auto value) { append_little_endian(record, value); });
         file.write(record);
     }

@@ -21,14 +21,16 @@ struct SampleLayout {
     bool has_radius;
     bool has_polygon = false;
     bool is_on_surface = true;
+    std::span<const ExtraColumn> extra = {};
 
     std::size_t numbered() const { return dimension > 3 ? dimension : 0; }
     bool has_normals() const { return is_on_surface && dimension == 3; }
 };
 
-/// Calls visit(name, value) for each column of a row, in order.
+/// Calls visit(name, value) for each column of row `index`, in order; some value for no row.
 template <typename Visit>
-void visit_columns(const SampleRow& row, const SampleLayout& layout, const Visit& visit) {
+void visit_columns(const SampleRow& row, std::size_t index, const SampleLayout& layout,
+                   const Visit& visit) {
     const auto visit_position = [&](std::span<const std::string_view> names) {
         for (std::size_t axis = 0; axis < names.size(); ++axis) {
             if (layout.has_float_positions) {
@@ -57,6 +59,10 @@ void visit_columns(const SampleRow& row, const SampleLayout& layout, const Visit
     }
     if (layout.has_polygon) {
         visit(name_of(SampleColumn::polygon_index), row.polygon.value_or(0));
+    }
+    for (const ExtraColumn& column : layout.extra) {
+        visit(std::string_view(column.name),
+              index < column.values.size() ? column.values[index] : 0);
     }
 }
 

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "files/input_file.hpp"
+#include "files/part_columns.hpp"
 #include "files/ply_file.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
@@ -143,6 +146,41 @@ SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fa
     return row;
 }
 
+/// Keeps the columns that part_columns() makes, where a file has them and they hold whole numbers.
+class ExtraReader {
+  public:
+    template <typename PlaceOf>
+    explicit ExtraReader(const PlaceOf& place_of) {
+        for (const std::string& name : part_column_names()) {
+            if (const std::optional<std::size_t> place = place_of(name)) {
+                places_.push_back(*place);
+                columns_.push_back({name, {}});
+            }
+        }
+    }
+
+    /// `value_at(place)` may be nothing, which is no number.
+    template <typename ValueAt>
+    void add_row(const ValueAt& value_at) {
+        for (std::size_t i = 0; i < places_.size();) {
+            const std::optional<double> value = value_at(places_[i]);
+            std::uint32_t index = 0;
+            if (value && set_index(index, *value)) {
+                columns_[i++].values.push_back(index);
+            } else { // A column of that name from some other program.
+                places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));
+                columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+        }
+    }
+
+    std::vector<ExtraColumn> columns() && { return std::move(columns_); }
+
+  private:
+    std::vector<std::size_t> places_;
+    std::vector<ExtraColumn> columns_;
+};
+
 void add_entry(SampleHeader& header, std::string_view comment) {
     if (const std::size_t colon = comment.find(": "); colon != std::string_view::npos) {
         header.entries.emplace_back(comment.substr(0, colon), comment.substr(colon + 2));
@@ -163,15 +201,18 @@ SampleFile read_ply_samples(const Path& path, Domain domain) {
         }
         file.check_unique(element);
         has_vertices = true;
-        const ColumnPlaces places = find_places(
-            path, domain, [&](std::string_view name) { return element.find_scalar(name); });
+        const auto place_of = [&](std::string_view name) { return element.find_scalar(name); };
+        const ColumnPlaces places = find_places(path, domain, place_of);
+        ExtraReader extra(place_of);
         samples.dimension = places.dimension();
         samples.rows.reserve(file.possible_records(element));
         file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
             samples.rows.push_back(make_row(
                 places, [&](std::size_t place) { return record.scalars[place]; },
                 [&](const std::string& message) { file.fail(element, index, message); }));
+            extra.add_row([&](std::size_t place) { return std::optional(record.scalars[place]); });
         });
+        samples.extra = std::move(extra).columns();
     }
     if (!has_vertices) {
         fail_input(path, "has no element vertex");
@@ -201,11 +242,13 @@ class CsvReader {
     SampleFile read() {
         SampleFile samples;
         ColumnPlaces places;
+        std::optional<ExtraReader> extra;
         std::size_t column_count = 0;
         while (next_row(samples.header)) {
             if (column_count == 0) {
                 column_count = cells_.size();
-                places = find_columns();
+                places = find_places(path_, domain_, place_of());
+                extra.emplace(place_of());
                 samples.dimension = places.dimension();
                 continue;
             }
@@ -216,10 +259,12 @@ class CsvReader {
             samples.rows.push_back(make_row(
                 places, [this](std::size_t place) { return value_at(place); },
                 [this](const std::string& message) { fail(message); }));
+            extra->add_row([this](std::size_t place) { return parse_real(cells_[place]); });
         }
         if (column_count == 0) {
             fail_input(path_, "has no header row");
         }
+        samples.extra = std::move(*extra).columns();
         return samples;
     }
 
@@ -242,13 +287,14 @@ class CsvReader {
         return false;
     }
 
-    ColumnPlaces find_columns() const {
-        return find_places(path_, domain_, [this](std::string_view name) {
+    /// Finds columns in the header row.
+    std::function<std::optional<std::size_t>(std::string_view)> place_of() const {
+        return [this](std::string_view name) {
             const auto cell = std::find(cells_.begin(), cells_.end(), name);
             return cell == cells_.end()
                        ? std::nullopt
                        : std::optional(static_cast<std::size_t>(cell - cells_.begin()));
-        });
+        };
     }
 
     double value_at(std::size_t place) const {

@@ -25,7 +25,7 @@ void write_ply_header(AtomicFile& file, const SampleHeader& header, std::size_t 
     file.write(ascii ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
     write_entries(file, header, "comment ");
     file.write("element vertex " + std::to_string(count) + "\n");
-    visit_columns({}, layout, [&](std::string_view name, auto value) {
+    visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
         file.write(std::string("property ") + ply_type(value) + ' ' + std::string(name) + '\n');
     });
     file.write("end_header\n");
@@ -45,7 +45,7 @@ void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                const SampleLayout& layout) {
     write_entries(file, header, "# ");
     std::string line;
-    visit_columns({}, layout, [&](std::string_view name, auto) {
+    visit_columns({}, 0, layout, [&](std::string_view name, auto) {
         line += line.empty() ? "" : ",";
         line += name;
     });
@@ -110,11 +110,18 @@ void write_samples(const Path& path, const SampleHeader& header, std::span<const
 }
 
 void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
-                   std::span<const SampleRow> rows, std::uint32_t dimension) {
+                   std::span<const SampleRow> rows, std::uint32_t dimension,
+                   std::span<const ExtraColumn> extra) {
     const bool has_radius = has_radii(rows), has_polygon = has_polygons(rows);
-    const SampleLayout for_viewers{dimension, dimension >= 3 ? 3u : 0u,
-                                   float_is_enough(rows, dimension), has_radius, has_polygon};
-    const SampleLayout exact{dimension, dimension == 3 ? 3u : 0u, false, has_radius, has_polygon};
+    const SampleLayout for_viewers{dimension,
+                                   dimension >= 3 ? 3u : 0u,
+                                   float_is_enough(rows, dimension),
+                                   has_radius,
+                                   has_polygon,
+                                   true,
+                                   extra};
+    const SampleLayout exact{
+        dimension, dimension == 3 ? 3u : 0u, false, has_radius, has_polygon, true, extra};
     write(file, target, header, rows, for_viewers, exact);
 }
 
@@ -156,6 +163,16 @@ void check_dimension(const SampleTarget& target, std::uint32_t dimension) {
     case SampleFormat::csv:
     case SampleFormat::npz:
         break;
+    }
+}
+
+void check_columns(const SampleTarget& target, std::span<const std::string> columns) {
+    const bool is_points_alone =
+        target.format == SampleFormat::xyz || target.format == SampleFormat::obj;
+    if (is_points_alone && !columns.empty()) {
+        fail_usage(target.path.string() + ": an " + extension_of(target.format) +
+                   " file holds points alone, so no column " + columns.front() +
+                   "; use .ply, .csv, .npz, .pcd or .glb");
     }
 }
 

@@ -116,6 +116,9 @@ class AsciiReader {
             if (in_facet_) {
                 fail("a facet is not ended");
             }
+        } else if (keyword == "end" && tokens_.size() > 1) { // "end facet"
+            tokens_.erase(tokens_.begin());
+            read_record("end" + lower_case(std::string(tokens_[0])));
         } else if (keyword != "outer" && keyword != "endloop") {
             fail("unknown record " + in_quotes(tokens_[0]));
         }
@@ -168,7 +171,8 @@ class AsciiReader {
     int vertices_ = 0; ///< Of the facet so far.
 };
 
-/// Some binary files begin with "solid" as well, and only these have just the size they tell.
+/// Some binary files begin with "solid" as well; these have just the size they tell, or a count
+/// with a zero byte where text has none.
 bool has_binary_size(std::string_view bytes) {
     return bytes.size() >= kHeaderSize + kCountSize &&
            bytes.size() ==
@@ -194,8 +198,11 @@ PolygonMesh read_stl(const Path& path, const ReadingProgress& progress) {
     }
     refuse_other_content(path, bytes);
     refuse_other_mesh(path, bytes, ".stl");
-    if (!begins_with_solid(bytes)) {
-        if (bytes.size() >= kHeaderSize + kCountSize) {
+    const std::string_view head = std::string_view(bytes).substr(0, kHeaderSize + kCountSize);
+    const bool has_binary_head =
+        head.size() == kHeaderSize + kCountSize && head.find('\0') != std::string_view::npos;
+    if (!begins_with_solid(bytes) || has_binary_head) {
+        if (head.size() == kHeaderSize + kCountSize) {
             return read_binary(path, bytes, progress);
         }
         fail_input(path, "is not an STL file: it is too short for a binary one and does not begin "

@@ -7,6 +7,7 @@
 
 #include <geodisk/domain.hpp>
 
+#include "files/part_columns.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -71,6 +72,7 @@ RunDevice device_for(const SampleJob& job) {
 SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                          ProgressLine& progress) {
     check_space(job, mesh);
+    check_parts(job.mesh.mesh, mesh.file, job.columns);
     SampleParams params = params_on(mesh, job);
     const auto task_at = [&](double min_distance) {
         params.min_distance = min_distance;
@@ -85,12 +87,14 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
 
 void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,
                        const SampleResult& result, const SampleReport& report) {
-    write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension());
+    write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension(),
+                  part_columns(mesh.file, job.columns, result.rows));
 }
 
 DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                     ProgressLine& progress) {
     check_space(job, mesh);
+    check_parts(job.mesh.mesh, mesh.file, job.columns);
     const SampleParams params = params_on(mesh, job);
     const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
     return dry_run_on_device(device, {domain_of(job, mesh, params), job.method.expected(room)},

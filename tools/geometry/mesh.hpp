@@ -24,6 +24,11 @@ struct VertexUv {
     friend auto operator<=>(const VertexUv&, const VertexUv&) = default;
 };
 
+/// A part of a mesh file, as the file divides its faces: a primitive that a node places.
+struct MeshPart {
+    std::optional<std::uint32_t> node, mesh, primitive; ///< Their numbers in a glTF file.
+};
+
 /// What joining vertices did.
 struct WeldCounts {
     std::uint64_t merged_vertices = 0;  ///< That became another one.
@@ -43,6 +48,9 @@ struct MeshFile {
     /// that the numbers are the same.
     std::vector<std::uint32_t> polygons;
     std::uint32_t polygon_count = 0; ///< Faces of the file, where `polygons` is not empty.
+    /// Where the file divides its faces: the parts, and the index there of each triangle's.
+    std::vector<MeshPart> parts;
+    std::vector<std::uint32_t> part_of_triangle;
     std::uint32_t dimension = 3;
     /// Of the edges of each triangle, from corner to corner, where they and not the positions make
     /// the surface; else empty.

@@ -137,7 +137,7 @@ void run_transfer(const TransferOptions& options) {
     const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
     AtomicFile file(options.out.output);
     write_samples(file, options.out.target(), transferred_header(options, samples.header, closest),
-                  samples.rows, to.dimension());
+                  samples.rows, to.dimension(), samples.extra);
     file.sync();
     publish(options.out, {&file}, report_text(options, from, to, samples, closest),
             summary_text(options, from, to, samples, closest));

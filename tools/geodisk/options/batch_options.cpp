@@ -19,6 +19,7 @@ void add_line_options(Command command, LineOptions& line) {
     command.add_option("-o,--output", line.name, "NAME", "File to write, in the folder");
     add_subject_options(command, line.sample);
     add_ascii_option(command, line.sample.out);
+    add_columns_option(command, line.sample.out);
 }
 
 void parse_words(const std::vector<std::string>& words, LineOptions& line) {
@@ -113,6 +114,7 @@ void add_batch_options(Command command, BatchOptions& options) {
     add_limit_options(command, options.sample.run);
     add_json_option(command, options.sample.out);
     add_ascii_option(command, options.sample.out);
+    add_columns_option(command, options.sample.out);
     add_quiet_option(command, options.sample.out);
 }
 

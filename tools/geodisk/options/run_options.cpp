@@ -37,6 +37,12 @@ void add_ascii_option(Command command, OutputOptions& options) {
     command.add_flag("--ascii", options.ascii, "Write PLY or PCD as text");
 }
 
+void add_columns_option(Command command, OutputOptions& options) {
+    command.add_option("--columns", options.columns, "LIST",
+                       "Further columns for each sample, of mesh, primitive and node:\n"
+                       "their numbers in a glTF file, such as mesh,primitive");
+}
+
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
     command

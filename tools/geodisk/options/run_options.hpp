@@ -18,9 +18,10 @@ struct NamedFile {
 
 /// What a command leaves behind, as given on the command line.
 struct OutputOptions {
-    std::string output; ///< The samples.
-    std::string json;   ///< The report for programs; "-" is standard output. Or "".
-    std::string format; ///< Of the samples; "" for that of their extension.
+    std::string output;  ///< The samples.
+    std::string json;    ///< The report for programs; "-" is standard output. Or "".
+    std::string format;  ///< Of the samples; "" for that of their extension.
+    std::string columns; ///< Names of part_columns() with commas, or "".
     bool ascii = false, quiet = false, is_dry_run = false;
 
     /// Where and how to write the samples. Throws UserError(usage).
@@ -52,6 +53,9 @@ void add_quiet_option(Command command, OutputOptions& options,
 
 /// Adds --ascii.
 void add_ascii_option(Command command, OutputOptions& options);
+
+/// Adds --columns.
+void add_columns_option(Command command, OutputOptions& options);
 
 /// Adds --json, --format, --ascii and --quiet.
 void add_output_options(Command command, OutputOptions& options);

@@ -67,6 +67,7 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--throws", options.method.throws);
     list.add("--seed", options.run.seed, usual.run.seed);
     list.add_flag("--ascii", options.out.ascii);
+    list.add("--columns", options.out.columns);
     return command_text("geodisk", list.words());
 }
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "files/part_columns.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -43,6 +44,10 @@ SampleJob parse_job(const SampleOptions& options) {
     job.mesh = options.mesh;
     job.density = options.density;
     job.out = options.out;
+    job.columns = parse_part_columns(options.out.columns);
+    if (!job.out.output.empty()) {
+        check_columns(job.out.target(), job.columns);
+    }
     job.run = options.run;
     job.metric = options.metric;
     job.picture = options.picture;
@@ -76,6 +81,7 @@ void add_sample_options(Command command, SampleOptions& options) {
                        "Draw the samples and their disks as well: *.png; geodisk render\n"
                        "has other styles and views");
     add_output_options(command, options.out);
+    add_columns_option(command, options.out);
     add_verbose_option(command, options.run.device);
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <geodisk/runner.hpp>
 
@@ -41,6 +42,7 @@ struct SampleJob {
     MeshOptions mesh;
     DensityOptions density;
     OutputOptions out;
+    std::vector<std::string> columns; ///< Of the samples, besides those that all have.
     RunOptions run;
     std::string metric; ///< "geodesic", or one that is not along the surface.
     Method method;
