@@ -59,7 +59,7 @@ Channel open_channel(bool is_terminal) {
         setenv(name.c_str(), value.c_str(), 1);
     }
     if (!setting.stdout_path.empty()) {
-        out = open(setting.stdout_path.c_str(), O_WRONLY | O_CLOEXEC);
+        out = open(setting.stdout_path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     }
     if (setting.file_size_limit) {
         const rlimit limit{*setting.file_size_limit, *setting.file_size_limit};
@@ -69,7 +69,7 @@ Channel open_channel(bool is_terminal) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
         std::signal(signal, SIG_DFL);
     }
-    if (chdir((folder / "").c_str()) == 0 && dup2(out, STDOUT_FILENO) >= 0 &&
+    if (chdir((folder / setting.folder).c_str()) == 0 && dup2(out, STDOUT_FILENO) >= 0 &&
         dup2(err, STDERR_FILENO) >= 0) {
         for (const int stream : setting.closed) {
             close(stream);

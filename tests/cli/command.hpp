@@ -32,7 +32,8 @@ struct Setting {
     std::string program = GEODISK_COMMAND;
     std::vector<std::pair<std::string, std::string>> environment; ///< Added to that of the tests.
     std::optional<std::size_t> file_size_limit;
-    std::string stdout_path; ///< A file for standard output instead of a pipe.
+    std::string folder;      ///< To run in, below that of the test.
+    std::string stdout_path; ///< A file to append standard output to instead of a pipe.
     bool stdout_has_reader = true;
     std::vector<int> closed; ///< Numbers of streams that are closed.
 

@@ -77,7 +77,45 @@ TEST_CASE("an output never replaces an input or another output") {
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--json", "mesh.ply"});
     check_fails(folder, 2, "replace the samples",
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--json", "./a.ply"});
+    check_fails(folder, 2, "replace the samples",
+                {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--picture", "a.ply"});
+    check_fails(folder, 2, "the report would go where the samples is",
+                {"sample", "mesh.ply", "-o", "-", "--format", "csv", "-n", "9", "--json", "-"});
+    folder.write("textured.obj", "mtllib wood.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("wood.mtl", "map_Kd wood.png\n");
+    folder.write("wood.png", "old");
+    check_fails(folder, 2, "wood.png: the picture would replace a file that textured.obj names",
+                {"sample", "textured.obj", "-o", "a.ply", "-n", "9", "--picture", "wood.png"});
+    Setting appended; // Standard output is the mesh itself.
+    appended.stdout_path = (folder / "mesh.ply").string();
+    check_fails(folder, 2, "standard output: the summary would go where the mesh is",
+                {"verify", "mesh.ply", "mesh.ply"}, appended);
     CHECK(bytes_of(folder / "mesh.ply") == before);
+}
+
+TEST_CASE("samples go to a stream behind what is there, and what is told goes elsewhere") {
+    const TemporaryFolder folder;
+    const Arguments sample{"sample", "builtin:cube", "-n", "20", "--format", "csv"};
+    REQUIRE(run(folder, joined(sample, {"-o", "file.csv"})).status == 0);
+    const std::string samples = bytes_of(folder / "file.csv");
+    for (const char* const name : {"-", "/dev/stdout"}) {
+        const Outcome piped = run(folder, joined(sample, {"-o", name, "--json", "a.json"}));
+        CHECK(piped.status == 0);
+        CHECK(piped.out == samples);
+        CHECK(contains(piped.err, "min distance"));
+        folder.write("log", "kept\n");
+        Setting appended;
+        appended.stdout_path = (folder / "log").string();
+        CHECK(run(folder, joined(sample, {"-o", name}), appended).status == 0);
+        CHECK(bytes_of(folder / "log") == "kept\n" + samples);
+    }
+    const Outcome errors = run(folder, joined(sample, {"-o", "/dev/stderr"}));
+    CHECK(errors.err == samples);
+    CHECK(contains(errors.out, "min distance"));
+    CHECK(run(folder, joined(sample, {"-o", "/dev/null"})).status == 0);
+    check_fails(folder, 2, "give --format", {"sample", "builtin:cube", "-n", "20", "-o", "-"});
+    const Outcome shape = run(folder, {"shapes", "cube", "-o", "-"});
+    CHECK(shape.out.starts_with("ply\n"));
 }
 
 /// Whether samples can be drawn at all where no file may be larger. Some drivers compile into files
@@ -133,12 +171,20 @@ TEST_CASE("what standard output does not take leaves no file") {
     closed.closed = {STDIN_FILENO, STDOUT_FILENO};
     for (const Setting& setting : {full, unread, closed}) {
         check_fails(folder, 4, "the summary cannot be written to standard output", sample, setting);
-        check_fails(folder, 4, "the report cannot be written to standard output",
-                    joined(sample, {"--json", "-"}), setting);
         check_fails(folder, 4, "standard output", {"--help"}, setting);
         const Outcome quiet = run(folder, joined(sample, {"--quiet"}), setting);
         CHECK(quiet.status == 0);
         std::filesystem::remove(folder / "a.ply");
+    }
+    for (const Arguments& data :
+         {joined(sample, {"--json", "-"}),
+          Arguments{"sample", "builtin:cube", "-o", "-", "--format", "ply", "-n", "9"}}) {
+        check_fails(folder, 4, "standard output: cannot write: ", data, full);
+        check_fails(folder, 4, "standard output: cannot write: is not open", data, closed);
+        const Outcome enough = run(folder, data, unread); // As of a reader like `head`.
+        CHECK(enough.status == 4);
+        CHECK(enough.err.empty());
+        CHECK(files_in(folder).empty());
     }
     Setting silent;
     silent.closed = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};

@@ -226,9 +226,18 @@ TEST_CASE("wrong lines of a manifest are told before any work") {
     check("builtin:cube --help\n", 2, "--help");
     check("builtin:cube -o ../a\n", 2, "line 1: --output: '../a' is no name");
     check("builtin:cube\n", 2, "line 1: no distance given", {"-q"});
-    check("builtin:cube\n# \nlist.txt -o cube\n", 2,
-          "list.txt: line 1 and list.txt: line 3 would both write out/cube.ply");
-    check("out/a.ply -o a\n", 2, "line 1: its samples would replace out/a.ply");
+    check("out/a.ply -o a\n", 2,
+          "out/a.ply: the samples of list.txt: line 1 would replace the mesh");
+    check("out/b.ply\nbuiltin:cube -o b\n", 2,
+          "out/b.ply: the samples of list.txt: line 2 would replace the mesh");
+    check("builtin:cube\n", 2, "the report would replace the samples of list.txt: line 1",
+          {"-n", "9", "--json", "out/cube.ply"});
+    check("builtin:cube\nmesh.ply\n", 2, "the report would replace the mesh",
+          {"-n", "9", "--json", "./mesh.ply"});
+    check("builtin:cube\n", 2, "the report would replace the manifest",
+          {"-n", "9", "--json", "list.txt"});
+    check("builtin:cube\n", 2, "the report would replace the log",
+          {"-n", "9", "--json", "out/batch.jsonl"});
     check("# nothing\n", 3, "list.txt: names no mesh");
     check("builtin:cube\n", 2, "--shard: '2/2' is not", {"-n", "9", "--shard", "2/2"});
     check("builtin:cube\n", 2, "--shard", {"-n", "9", "--shard", "1"});
@@ -237,10 +246,50 @@ TEST_CASE("wrong lines of a manifest are told before any work") {
     std::filesystem::create_directory(folder / "empty");
     check_fails(folder, 3, "empty: holds no mesh", {"batch", "empty", "-o", "out", "-n", "9"});
     check_fails(folder, 3, "absent: ", {"batch", "absent", "-o", "out", "-n", "9"});
+}
+
+TEST_CASE("meshes whose samples would be one file fail, and the others are done") {
+    const TemporaryFolder folder;
     write_shape(folder, "cube", "two/a.ply");
     write_shape(folder, "cube", "two/b.ply");
+    write_shape(folder, "cube", "two/c.ply");
     std::filesystem::rename(folder / "two/b.ply", folder / "two/a.PLY");
-    check_fails(folder, 2, "would both write out/a.ply", {"batch", "two", "-o", "out", "-n", "9"});
+    const Arguments batch{"batch", "two", "-o", "out", "-n", "9"};
+    const std::string clash = "two/a.PLY and two/a.ply would both write out/a.ply";
+    const Outcome first = run(folder, batch);
+    CHECK(first.status == 1);
+    CHECK(contains(first.out, "3 of two: 1 ok, 2 failed"));
+    CHECK(contains(first.err, clash));
+    CHECK(files_below(folder, "out") == std::vector<std::string>{"out/batch.jsonl", "out/c.ply"});
+    const Outcome again = run(folder, joined(batch, {"--resume"}));
+    CHECK(again.status == 1);
+    CHECK(contains(again.out, "0 ok, 2 failed, 1 skipped"));
+    // A report may not replace samples that are done, by whatever name.
+    check_fails(folder, 2, "the report would replace the samples of two/c.ply",
+                joined(batch, {"--resume", "--json", "out/../out/c.ply"}));
+
+    const Outcome kept = run(
+        folder, {"batch", "two", "-o", "kept", "-n", "9", "--format", "csv", "--keep-extensions"});
+    CHECK(kept.status == 0);
+    CHECK(files_below(folder, "kept") ==
+          std::vector<std::string>{"kept/a.PLY.csv", "kept/a.ply.csv", "kept/batch.jsonl",
+                                   "kept/c.ply.csv"});
+}
+
+TEST_CASE("a batch goes on from any folder, and takes no mesh for another of its name") {
+    const TemporaryFolder folder;
+    write_shape(folder, "cube", "a/m/x.ply");
+    write_shape(folder, "icosphere:2", "b/m/x.ply");
+    const std::string out = (folder / "out").string();
+    Setting in_a, in_b;
+    in_a.folder = "a";
+    in_b.folder = "b";
+    REQUIRE(run(folder, {"batch", "m", "-o", out, "-n", "50"}, in_a).status == 0);
+    const Outcome same = run(folder, {"batch", "a/m", "-o", "out", "-n", "50", "--resume"});
+    CHECK(contains(same.out, "1 of a/m: 0 ok, 0 failed, 1 skipped"));
+    const Outcome other = run(folder, {"batch", "m", "-o", out, "-n", "50", "--resume"}, in_b);
+    CHECK(contains(other.out, "1 of m: 1 ok, 0 failed, 0 skipped"));
+    CHECK(run(folder, {"verify", "b/m/x.ply", "out/x.ply"}).status == 0);
 }
 
 TEST_CASE("samples whose names differ by case alone are told where they would be one file") {
@@ -250,9 +299,11 @@ TEST_CASE("samples whose names differ by case alone are told where they would be
     std::filesystem::create_directory(folder / "out");
     // The folder answers to both names, as with a file system that ignores case.
     std::filesystem::create_directory_symlink("out", folder / "OUT");
-    check_fails(folder, 2, "list.txt: line 1 and list.txt: line 2 would both write out/A.ply",
-                batch);
+    const Outcome clash = run(folder, batch);
+    CHECK(clash.status == 1);
+    CHECK(contains(clash.err, "list.txt: line 1 and list.txt: line 2 would both write out/A.ply"));
     std::filesystem::remove(folder / "OUT");
+    std::filesystem::remove(folder / "out/batch.jsonl");
     CHECK(run(folder, batch).status == 0);
     CHECK(files_below(folder, "out") ==
           std::vector<std::string>{"out/A.ply", "out/a.ply", "out/batch.jsonl"});

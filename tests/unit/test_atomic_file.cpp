@@ -4,7 +4,9 @@
 
 #ifndef _WIN32
 #include <csignal>
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #endif
@@ -130,8 +132,87 @@ TEST_CASE("temporary files that are noted can all be removed") {
     CHECK(folder.file_count() == 0);
 }
 
+TEST_CASE("a stream gets all bytes at once, behind what is there") {
+    const TemporaryFolder folder;
+    const std::filesystem::path log = folder.write("log", "kept\n");
+    const int descriptor = open(log.c_str(), O_WRONLY | O_APPEND);
+    const std::string name = "/dev/fd/" + std::to_string(descriptor);
+    std::filesystem::create_symlink(name, folder / "link");
+    for (const std::filesystem::path& path : {std::filesystem::path(name), folder / "link"}) {
+        AtomicFile file(path);
+        file.write("more ");
+        file.write("text\n");
+        file.sync();
+        CHECK_FALSE(contains(bytes_of(log), path == name ? "more" : "text\nmore"));
+        file.commit();
+    }
+    CHECK(bytes_of(log) == "kept\nmore text\nmore text\n");
+    close(descriptor);
+    CHECK(folder.file_count() == 2);
+    check_fails(ExitCode::bad_output, "is not open for writing", [&] { AtomicFile file(name); });
+    const int read_only = open(log.c_str(), O_RDONLY);
+    check_fails(ExitCode::bad_output, "is not open for writing",
+                [&] { AtomicFile file("/dev/fd/" + std::to_string(read_only)); });
+    close(read_only);
+}
+
+TEST_CASE("a pipe is written to, and ends in silence when nobody reads it any more") {
+    const TemporaryFolder folder;
+    const std::filesystem::path pipe = folder / "pipe";
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    AtomicFile file(pipe);
+    file.write("text");
+    file.commit();
+    char bytes[8] = {};
+    CHECK(read(reader, bytes, sizeof bytes) == 4);
+    CHECK(std::string(bytes) == "text");
+    const int writer = open(pipe.c_str(), O_WRONLY);
+    close(reader);
+    std::signal(SIGPIPE, SIG_IGN); // As programs do.
+    AtomicFile unread("/dev/fd/" + std::to_string(writer));
+    unread.write("text");
+    const auto error = error_of([&] { unread.commit(); });
+    REQUIRE(error);
+    CHECK(error->code() == ExitCode::bad_output);
+    CHECK(std::string(error->what()).empty());
+    close(writer);
+}
+
+TEST_CASE("a claimed name replaces nothing and goes without commit") {
+    const TemporaryFolder folder;
+    folder.write("taken", "old");
+    std::filesystem::create_symlink("nowhere", folder / "dangling");
+    {
+        AtomicFile file(folder / "first");
+        file.write("new");
+        CHECK_FALSE(file.claim(folder / "taken"));
+        CHECK_FALSE(file.claim(folder / "dangling"));
+        REQUIRE(file.claim(folder / "free"));
+        CHECK(bytes_of(folder / "free") == "new");
+        AtomicFile second(folder / "first");
+        CHECK_FALSE(second.claim(folder / "free"));
+    }
+    CHECK(folder.file_count() == 2);
+    AtomicFile file(folder / "first");
+    file.write("new");
+    REQUIRE(file.claim(folder / "given"));
+    file.release();
+    REQUIRE(file.claim(folder / "free"));
+    file.commit();
+    CHECK(bytes_of(folder / "free") == "new");
+    CHECK(bytes_of(folder / "taken") == "old");
+    CHECK(folder.file_count() == 3);
+}
+
 TEST_CASE("devices and links are not replaced") {
-    check_fails(ExitCode::bad_output, "not a regular file", [] { AtomicFile file("/dev/null"); });
+    {
+        AtomicFile file("/dev/null");
+        CHECK(file.stream());
+        file.write("new");
+        file.commit();
+    }
+    CHECK(std::filesystem::is_character_file("/dev/null"));
     const TemporaryFolder folder;
     folder.write("real", "old");
     std::filesystem::create_symlink("real", folder / "link");

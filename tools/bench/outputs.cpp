@@ -6,6 +6,7 @@
 
 #include "bench/line_plot.hpp"
 #include "bench/report.hpp"
+#include "files/files_in_use.hpp"
 #include "files/output_file.hpp"
 #include "program/failure.hpp"
 
@@ -93,16 +94,13 @@ std::vector<std::string> plot_texts(const Circumstances& circumstances,
 } // namespace
 
 void check_outputs(const Options& options) {
-    const std::vector<std::string> paths = all_paths(options);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        std::vector<std::string> others = options.meshes;
-        others.insert(others.end(), paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(i));
-        for (const std::string& other : others) {
-            if (tools::is_same_file(paths[i], other)) {
-                tools::fail_usage(paths[i] + ": the output would replace " + other);
-            }
-        }
-        tools::check_writable(paths[i]);
+    tools::FilesInUse files;
+    for (const std::string& mesh : options.meshes) {
+        files.add_read({mesh, mesh});
+    }
+    for (const std::string& path : all_paths(options)) {
+        files.add_written({"the output", path});
+        tools::check_writable(path);
     }
     if (!options.plot.empty()) {
         check_gnuplot();

@@ -25,7 +25,7 @@ std::string header_of(const MeshFile& mesh, std::size_t vertices) {
 } // namespace
 
 void write_mesh(const Path& path, const MeshFile& mesh) {
-    if (lower_extension(path) != ".ply") {
+    if (lower_extension(path) != ".ply" && !output_stream(path)) {
         fail_usage(path.string() + ": meshes are written as .ply only");
     }
     AtomicFile file(path);

@@ -4,7 +4,9 @@
 #include <system_error>
 #include <utility>
 
+#include "files/stream_writer.hpp"
 #include "files/temporary_file.hpp"
+#include "program/failure.hpp"
 
 #ifdef _WIN32
 #include <io.h>
@@ -27,6 +29,9 @@ int sync_to_disk(std::FILE* file) {
 } // namespace
 
 AtomicFile::AtomicFile(const Path& path) : given_(path), target_(output_target(path)) {
+    if (stream()) {
+        return;
+    }
     TemporaryFile made = make_temporary(target_.path);
     file_ = made.file;
     if (file_ == nullptr) {
@@ -46,6 +51,10 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
+    if (stream()) {
+        bytes_ += bytes;
+        return;
+    }
     errno = 0;
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
         fail(errno);
@@ -53,6 +62,9 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::sync() {
+    if (stream()) {
+        return;
+    }
     errno = 0;
     if (std::fflush(file_) != 0) {
         fail(errno);
@@ -63,18 +75,57 @@ void AtomicFile::sync() {
 }
 
 void AtomicFile::commit() {
+    if (stream()) {
+        write_to_stream();
+        return;
+    }
     sync();
 #ifdef _WIN32
     close(); // Open files cannot be renamed there.
 #endif
-    std::error_code error;
-    std::filesystem::rename(temporary_, target_.path, error);
-    if (error) {
+    if (const int error = move_file(temporary_, claimed_.empty() ? target_.path : claimed_);
+        error != 0) {
         discard();
-        fail_to_write(given_, error.message());
+        fail(error);
     }
     temporary_.clear();
+    claimed_.clear();
+    noted_claim_ = {};
     close();
+}
+
+bool AtomicFile::claim(const Path& path) {
+    sync();
+    const int error = claim_name(temporary_, path);
+    if (error == EEXIST) {
+        return false;
+    }
+    given_ = path;
+    if (error != 0) {
+        fail(error);
+    }
+    claimed_ = path;
+    noted_claim_ = NotedTemporary(claimed_);
+    return true;
+}
+
+void AtomicFile::release() noexcept {
+    if (!claimed_.empty()) {
+        std::error_code ignored;
+        std::filesystem::remove(claimed_, ignored);
+        claimed_.clear();
+        noted_claim_ = {};
+    }
+}
+
+void AtomicFile::write_to_stream() {
+    const int error = write_stream(target_.path, *target_.stream, bytes_);
+    if (error == EPIPE) {
+        fail_output(""); // Whoever reads has enough, as of `| head`.
+    }
+    if (error != 0) {
+        fail(error);
+    }
 }
 
 void AtomicFile::fail(int error) const {
@@ -89,6 +140,7 @@ void AtomicFile::close() noexcept {
 }
 
 void AtomicFile::discard() noexcept {
+    release();
 #ifdef _WIN32
     close();
 #endif
@@ -98,18 +150,6 @@ void AtomicFile::discard() noexcept {
         temporary_.clear();
     }
     close(); // Only now, as it ends the lock.
-}
-
-bool is_same_file(const Path& a, const Path& b) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(a, b, ignored)) {
-        return true;
-    }
-    // Paths of files that do not exist yet stay relative unless made absolute first.
-    const auto canonical = [&](const Path& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
-    };
-    return !canonical(a).empty() && canonical(a) == canonical(b);
 }
 
 void check_writable(const Path& path) {

@@ -8,6 +8,7 @@
 #ifdef _WIN32
 #include <io.h>
 #else
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #endif
@@ -15,26 +16,15 @@
 namespace geodisk::tools {
 namespace {
 
-std::filesystem::path follow_links(const Path& path) {
-    constexpr int kMostLinks = 40; // As Linux has it.
-    std::filesystem::path end = path;
-    std::error_code ignored;
-    for (int links = 0; std::filesystem::is_symlink(end, ignored); ++links) {
-        const std::filesystem::path next = std::filesystem::read_symlink(end, ignored);
-        if (links == kMostLinks || next.empty()) {
-            fail_to_write(path, "its symbolic links lead nowhere");
-        }
-        end = end.parent_path() / next; // `next` alone where it is absolute.
-    }
-    return end;
-}
-
 #ifdef _WIN32
 bool is_write_protected(const std::filesystem::path& path) {
     return _waccess(path.c_str(), 2) != 0;
 }
 std::optional<FileRights> rights_of(const std::filesystem::path& /*path*/) {
     return FileRights{};
+}
+bool is_open_to_write(int descriptor) {
+    return _get_osfhandle(descriptor) != -1;
 }
 #else
 bool is_write_protected(const std::filesystem::path& path) {
@@ -47,12 +37,30 @@ std::optional<FileRights> rights_of(const std::filesystem::path& path) {
     }
     return FileRights{status.st_mode & 07777, status.st_uid, status.st_gid};
 }
+bool is_open_to_write(int descriptor) {
+    const int flags = fcntl(descriptor, F_GETFL);
+    return flags != -1 && (flags & O_ACCMODE) != O_RDONLY;
+}
 #endif
+
+void check_stream(const Path& path, const StreamPath& stream) {
+    if (stream.descriptor >= 0 ? !is_open_to_write(stream.descriptor) : is_write_protected(path)) {
+        fail_to_write(path, "is not open for writing");
+    }
+}
 
 } // namespace
 
 OutputTarget output_target(const Path& path) {
-    OutputTarget target{follow_links(path), {}};
+    if (const auto stream = output_stream(path)) {
+        check_stream(path, *stream);
+        return {path, {}, stream};
+    }
+    const auto end = followed(path);
+    if (!end) {
+        fail_to_write(path, "its symbolic links lead nowhere");
+    }
+    OutputTarget target{*end, {}, {}};
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(target.path, ignored);
     if (std::filesystem::is_directory(status)) {
@@ -95,7 +103,7 @@ int take_rights(std::FILE* file, const FileRights& rights) {
 #endif
 
 void fail_to_write(const Path& path, const std::string& reason) {
-    fail_output(path.string() + ": cannot write: " + reason);
+    fail_output((path == "-" ? "standard output" : path.string()) + ": cannot write: " + reason);
 }
 
 } // namespace geodisk::tools

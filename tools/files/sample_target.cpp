@@ -43,7 +43,8 @@ SampleFormat format_of(const Path& path, std::string_view name) {
     if (const auto format = find_format(extension.empty() ? "" : extension.substr(1))) {
         return *format;
     }
-    fail_usage(path.string() + ": unknown sample format; known are " + all_names("."));
+    fail_usage(path.string() + ": unknown sample format; known are " + all_names(".") +
+               ", or give --format");
 }
 
 } // namespace

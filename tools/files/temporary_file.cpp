@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <string>
+#include <system_error>
 
 #ifdef _WIN32
 #include <fcntl.h>
@@ -54,6 +55,17 @@ std::FILE* open_new(const std::filesystem::path& path) {
 void remove_if_abandoned(const std::filesystem::path& path) {
     _wremove(path.c_str());
 }
+
+/// 0 or an errno value.
+int make_empty(const std::filesystem::path& path) {
+    std::FILE* const file = open_new(path);
+    return file == nullptr ? errno : std::fclose(file);
+}
+
+// An open file has no second name there.
+int link_file(const std::filesystem::path& /*from*/, const std::filesystem::path& /*to*/) {
+    return ENOSYS;
+}
 #else
 bool is_at(int descriptor, const std::filesystem::path& path) {
     struct stat opened {
@@ -100,6 +112,17 @@ void remove_if_abandoned(const std::filesystem::path& path) {
     }
     close(descriptor);
 }
+
+/// 0 or an errno value.
+int make_empty(const std::filesystem::path& path) {
+    const int descriptor =
+        open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0666);
+    return descriptor < 0 ? errno : close(descriptor);
+}
+
+int link_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+    return link(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
 #endif
 
 } // namespace
@@ -121,6 +144,21 @@ TemporaryFile make_temporary(const std::filesystem::path& target) {
         }
     }
     return made;
+}
+
+int claim_name(const std::filesystem::path& temporary, const std::filesystem::path& target) {
+    const int error = link_file(temporary, target);
+    return error == 0 || error == EEXIST ? error : make_empty(target);
+}
+
+int move_file(const std::filesystem::path& temporary, const std::filesystem::path& target) {
+    std::error_code error;
+    if (std::filesystem::equivalent(temporary, target, error)) { // By claim_name().
+        std::filesystem::remove(temporary, error);
+    } else {
+        std::filesystem::rename(temporary, target, error);
+    }
+    return error ? error.default_error_condition().value() : 0;
 }
 
 } // namespace geodisk::tools

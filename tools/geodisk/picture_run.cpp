@@ -111,7 +111,7 @@ void write_picture(const RenderOptions& options, const Subject& subject, const C
 } // namespace
 
 void check_picture_path(const Path& path) {
-    if (lower_extension(path) != ".png") {
+    if (lower_extension(path) != ".png" && !output_stream(path)) {
         fail_usage(path.string() + ": pictures are written as *.png");
     }
     check_writable(path);

@@ -26,6 +26,9 @@ std::string noted_command;
 
 int fail(const char* program, ExitCode code, const std::string& message) {
     std::cout.flush();
+    if (message.empty()) {
+        return static_cast<int>(code);
+    }
     const std::string mark = std::string(program) + ':';
     const bool is_signal = static_cast<int>(code) > 128; // Which was wanted, so no error.
     std::cerr << (is_signal ? mark : coloured(mark, Colour::red)) << ' ' << one_line(message)

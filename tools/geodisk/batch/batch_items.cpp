@@ -8,9 +8,10 @@
 #include <system_error>
 #include <utility>
 
+#include "files/file_identity.hpp"
+#include "files/files_in_use.hpp"
 #include "files/input_file.hpp"
 #include "files/mesh_file.hpp"
-#include "files/name_case.hpp"
 #include "files/sample_target.hpp"
 #include "geodisk/inputs/manifest.hpp"
 #include "geodisk/inputs/mesh_folder.hpp"
@@ -28,18 +29,21 @@ bool stays_inside(const std::filesystem::path& path) {
            std::ranges::none_of(path, [](const auto& part) { return part == ".." || part == "."; });
 }
 
-/// The name in DIR of the samples of `mesh`, a path as given, without extension.
-std::filesystem::path name_of(const std::string& mesh) {
+/// The name in DIR of the samples of `mesh`, a path as given.
+std::filesystem::path name_of(const std::string& mesh, const BatchOptions& batch) {
     if (is_builtin(mesh)) {
         std::string name = mesh.substr(mesh.find(':') + 1);
         std::ranges::replace(name, ':', '-'); // Which no file of Windows may have in its name.
-        return Path(name);
+        return Path(name + '.' + batch.format);
     }
     std::filesystem::path name = Path(mesh).lexically_normal();
     if (!stays_inside(name)) {
         name = name.filename();
     }
-    return name.replace_extension();
+    if (!batch.keeps_extensions) {
+        name.replace_extension();
+    }
+    return name += '.' + batch.format;
 }
 
 /// As given with -o, with the extension of a format.
@@ -57,10 +61,34 @@ std::filesystem::path given_name(const std::string& name, const std::string& for
     return path;
 }
 
+/// The name of a file from any folder: links to folders are followed, that of the file is kept.
+std::string from_anywhere(const std::string& path) {
+    if (path.empty() || path == "-" || is_builtin(path)) {
+        return path;
+    }
+    std::error_code ignored;
+    const std::filesystem::path whole = std::filesystem::absolute(Path(path), ignored);
+    const std::filesystem::path folder =
+        std::filesystem::weakly_canonical(whole.parent_path(), ignored);
+    const std::u8string text =
+        (folder.empty() ? whole : folder / whole.filename()).generic_u8string();
+    return {text.begin(), text.end()};
+}
+
+/// The same job with names of files from any folder.
+SampleOptions from_anywhere(SampleOptions options) {
+    for (std::string* const path :
+         {&options.mesh.mesh, &options.mesh.coordinates, &options.mesh.edge_lengths,
+          &options.density.file, &options.density.map, &options.out.output}) {
+        *path = from_anywhere(*path);
+    }
+    return options;
+}
+
 BatchItem make_item(SampleOptions options, const BatchOptions& batch,
                     const std::filesystem::path& name, std::string place) {
     options.out.output = (Path(batch.folder) / name).string();
-    return {parse_job(options), sample_command(options), std::move(place)};
+    return {parse_job(options), sample_command(from_anywhere(options)), std::move(place), {}};
 }
 
 std::vector<BatchItem> items_in_folder(const BatchOptions& batch) {
@@ -68,9 +96,8 @@ std::vector<BatchItem> items_in_folder(const BatchOptions& batch) {
     for (const std::filesystem::path& file : mesh_files_in(batch.input, batch.folder)) {
         SampleOptions options = batch.sample;
         options.mesh.mesh = (Path(batch.input) / file).string();
-        std::filesystem::path name = file;
-        name.replace_extension('.' + batch.format);
-        items.push_back(make_item(options, batch, name, options.mesh.mesh));
+        items.push_back(
+            make_item(options, batch, name_of(file.string(), batch), options.mesh.mesh));
     }
     return items;
 }
@@ -78,13 +105,8 @@ std::vector<BatchItem> items_in_folder(const BatchOptions& batch) {
 BatchItem item_of_line(const std::vector<std::string>& words, const BatchOptions& batch,
                        const std::string& place) {
     LineOptions line = parse_line(batch.sample, words, Path(batch.input).parent_path());
-    std::filesystem::path name;
-    if (line.name.empty()) {
-        name = name_of(line.mesh);
-        name += '.' + batch.format;
-    } else {
-        name = given_name(line.name, batch.format);
-    }
+    const std::filesystem::path name =
+        line.name.empty() ? name_of(line.mesh, batch) : given_name(line.name, batch.format);
     return make_item(std::move(line.sample), batch, name, place);
 }
 
@@ -101,38 +123,16 @@ std::vector<BatchItem> items_in_manifest(const BatchOptions& batch) {
     return items;
 }
 
-/// What is the same for two paths to one file, be it there or not.
-std::string identity(const std::string& path, bool one_case) {
-    std::error_code ignored;
-    const std::filesystem::path whole = std::filesystem::absolute(Path(path), ignored);
-    const std::filesystem::path found = std::filesystem::weakly_canonical(whole, ignored);
-    const std::u8string text = (found.empty() ? whole.lexically_normal() : found).u8string();
-    std::string name(text.begin(), text.end());
-    return one_case ? lower_case(std::move(name)) : name;
-}
-
-/// Each file in `folder` is written once, and none is written that is read.
-void check_files(const std::vector<BatchItem>& items, const std::string& folder) {
-    const bool one_case = ignores_case(Path(folder));
-    std::map<std::string, const BatchItem*> written;
-    for (const BatchItem& item : items) {
-        const auto [other, is_new] =
-            written.emplace(identity(item.job.out.output, one_case), &item);
+/// Marks items that would write the same file: none of them has a better right to it.
+void find_clashes(std::vector<BatchItem>& items) {
+    std::map<std::string, BatchItem*> writers;
+    for (BatchItem& item : items) {
+        const auto [other, is_new] = writers.emplace(file_identity(item.job.out.output), &item);
         if (!is_new) {
-            fail_usage(other->second->place + " and " + item.place + " would both write " +
-                       item.job.out.output + "; a line of a manifest gives another name by -o");
-        }
-    }
-    for (const BatchItem& item : items) {
-        for (const NamedFile& file : files_read(item.job)) {
-            if (is_builtin(file.path)) {
-                continue;
-            }
-            const auto writer = written.find(identity(file.path, one_case));
-            if (writer != written.end()) {
-                fail_usage(writer->second->place + ": its samples would replace " + file.path +
-                           "; give another folder");
-            }
+            item.fault = other->second->place + " and " + item.place + " would both write " +
+                         item.job.out.output +
+                         "; give --keep-extensions, or another name by -o in a manifest";
+            other->second->fault = item.fault;
         }
     }
 }
@@ -150,8 +150,32 @@ std::vector<BatchItem> batch_items(const BatchOptions& options) {
                    is_folder ? "holds no mesh (*.gltf, *.glb, *.obj, *.off, *.ply or *.stl)"
                              : "names no mesh");
     }
-    check_files(items, options.folder);
+    find_clashes(items);
     return items;
+}
+
+void check_batch_files(const BatchOptions& options, const std::vector<BatchItem>& items,
+                       const std::string& log, const std::set<std::string>& done) {
+    FilesInUse files;
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(Path(options.input), ignored)) {
+        files.add_read({"the manifest", options.input});
+    }
+    for (const BatchItem& item : items) {
+        for (const NamedFile& file : files_read(item.job)) {
+            files.add_read(file);
+        }
+    }
+    for (const BatchItem& item : items) {
+        const NamedFile samples{"the samples of " + item.place, item.job.out.output};
+        if (done.contains(item.command)) {
+            files.add_read(samples);
+        } else if (item.fault.empty()) {
+            files.add_written(samples);
+        }
+    }
+    files.add_appended({"the log", log});
+    files.add_written({"the report", options.sample.out.json});
 }
 
 } // namespace geodisk::tools

@@ -1,6 +1,7 @@
 // What a batch is to do: one job for each mesh.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,19 @@ namespace geodisk::tools {
 
 struct BatchItem {
     SampleJob job;       ///< With its output.
-    std::string command; ///< As sample_command() gives it: what `geodisk sample` does alike.
+    std::string command; ///< As sample_command() gives it, from any folder.
     std::string place;   ///< Where the user named it: a mesh file, or a line of the manifest.
+    std::string fault;   ///< Error of an item whose output is also that of another, or "".
 };
 
 /// All meshes of the folder or manifest, of whatever shard. Throws UserError: `usage` for options
-/// and lines of a manifest that will not do, and for files that two would write or that one would
-/// write and another read; `bad_input` for an input that cannot be read or names no mesh.
+/// and lines of a manifest that will not do; `bad_input` for an input that cannot be read or names
+/// no mesh.
 std::vector<BatchItem> batch_items(const BatchOptions& options);
+
+/// Throws UserError(usage) if the samples of an item, the log or the report would replace a file
+/// that is read or written otherwise. Samples of the commands `done` stay as they are.
+void check_batch_files(const BatchOptions& options, const std::vector<BatchItem>& items,
+                       const std::string& log, const std::set<std::string>& done);
 
 } // namespace geodisk::tools

@@ -108,6 +108,9 @@ class BatchRun {
         entry.command = item.command;
         const Stopwatch watch;
         try {
+            if (!item.fault.empty()) {
+                fail_usage(item.fault);
+            }
             sample_item(item.job, entry, watch);
             return;
         } catch (const UserError& error) {

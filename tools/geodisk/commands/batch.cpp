@@ -78,13 +78,6 @@ void make_folder(const std::string& folder) {
     }
 }
 
-/// The log, and the report for programs, are written beside what is read.
-void check_paths(const BatchOptions& options, const std::string& log) {
-    OutputOptions out = options.sample.out;
-    out.output = log;
-    check_outputs(out, "the log", {{"the manifest", options.input}}, [](const Path&) {});
-}
-
 void run_items(const BatchOptions& options, const std::vector<const BatchItem*>& items,
                LineLog& log, BatchResult& result) {
     ProgressLine progress(options.sample.out.quiet);
@@ -104,10 +97,13 @@ void run_batch_command(const BatchOptions& options) {
     if (!options.resumes) {
         check_no_log(result.log);
     }
-    make_folder(options.folder);
-    check_paths(options, result.log);
-    LineLog log(result.log);
     const auto done = options.resumes ? commands_done(options.folder) : std::set<std::string>();
+    check_batch_files(options, items, result.log, done);
+    make_folder(options.folder);
+    if (!options.sample.out.json.empty()) {
+        check_writable(options.sample.out.json);
+    }
+    LineLog log(result.log);
     const std::vector<const BatchItem*> left = items_to_do(items, shard, done, result);
     if (!left.empty()) {
         run_items(options, left, log, result);

@@ -2,11 +2,13 @@
 // its work, which throws UserError on failure.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace geodisk::tools {
 
+class AtomicFile;
 class Command;
 
 struct OutputOptions;
@@ -21,8 +23,12 @@ void add_sample_command(Command app);
 /// could not be.
 void add_batch_command(Command app);
 
+/// Settles the names of samples and picture once both files are written, samples first.
+using NameOutputs = std::function<void(const std::vector<AtomicFile*>& files, std::string& output,
+                                       std::string& picture)>;
+
 /// What `sample` does.
-void sample_to_files(const SampleOptions& options);
+void sample_to_files(const SampleOptions& options, const NameOutputs& name_outputs = {});
 
 /// Samples a mesh and draws the samples, into files of the current folder named by the mesh.
 void add_quick_command(Command app);

@@ -33,22 +33,52 @@ std::string base_name(const std::string& mesh) {
     return name + "-samples";
 }
 
-/// Names samples and picture as no file is named yet.
-void choose_names(SampleOptions& options) {
-    const std::string base = base_name(options.mesh.mesh);
-    std::string name = base;
-    for (int number = 2; exists(name + ".ply") || exists(name + ".png"); ++number) {
-        name = base + '-' + std::to_string(number);
+/// The name for a try, from 1, without extension.
+std::string numbered(const std::string& base, int number) {
+    return number == 1 ? base : base + '-' + std::to_string(number);
+}
+
+/// The first number from `number` on whose names no file has yet.
+int free_number(const std::string& base, int number) {
+    while (exists(numbered(base, number) + ".ply") || exists(numbered(base, number) + ".png")) {
+        ++number;
     }
-    options.out.output = name + ".ply";
-    options.picture = name + ".png";
+    return number;
+}
+
+/// Returns false if another program was faster, and then takes no name.
+bool claim_names(const std::vector<AtomicFile*>& files, const std::string& name) {
+    const char* const extensions[] = {".ply", ".png"};
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!files[i]->claim(name + extensions[i])) {
+            std::ranges::for_each(files, &AtomicFile::release);
+            return false;
+        }
+    }
+    return true;
+}
+
+void name_outputs(const std::string& base, const std::vector<AtomicFile*>& files,
+                  std::string& output, std::string& picture) {
+    int number = free_number(base, 1);
+    while (!claim_names(files, numbered(base, number))) {
+        number = free_number(base, number + 1);
+    }
+    output = numbered(base, number) + ".ply";
+    picture = picture.empty() ? "" : numbered(base, number) + ".png";
 }
 
 /// A device that cannot draw may still sample.
 void sample_and_draw(SampleOptions options) {
-    choose_names(options);
+    const std::string base = base_name(options.mesh.mesh);
+    const auto name = [&base](const auto& files, std::string& output, std::string& picture) {
+        name_outputs(base, files, output, picture);
+    };
+    const std::string first = numbered(base, free_number(base, 1));
+    options.out.output = first + ".ply";
+    options.picture = first + ".png";
     try {
-        sample_to_files(options);
+        sample_to_files(options, name);
         return;
     } catch (const UserError& error) {
         if (error.code() != ExitCode::no_device) {
@@ -56,7 +86,7 @@ void sample_and_draw(SampleOptions options) {
         }
         options.picture.clear();
     }
-    sample_to_files(options);
+    sample_to_files(options, name);
     if (options.out.has_summary()) {
         std::cout << "picture       none, the device cannot draw\n";
         flush_or_fail("the summary");

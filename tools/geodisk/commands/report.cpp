@@ -26,7 +26,7 @@ namespace {
 
 void check_page_path(const Path& path) {
     const std::string extension = lower_extension(path);
-    if (extension != ".html" && extension != ".htm") {
+    if (extension != ".html" && extension != ".htm" && !output_stream(path)) {
         fail_usage(path.string() + ": reports are written as *.html");
     }
     check_writable(path);

@@ -33,9 +33,9 @@ void draw_samples(const MeshInput& mesh, SampleResult& result, RunDevice& device
 
 } // namespace
 
-void sample_to_files(const SampleOptions& options) {
+void sample_to_files(const SampleOptions& options, const NameOutputs& name_outputs) {
     check_output_or_dry_run(options.out);
-    const SampleJob job = parse_job(options);
+    SampleJob job = parse_job(options);
     const NamedFile picture{"the picture", job.picture};
     check_outputs(job.out, "the samples", files_read(job), nullptr, {picture});
     if (!job.picture.empty()) {
@@ -67,7 +67,11 @@ void sample_to_files(const SampleOptions& options) {
     const auto write = [&](AtomicFile& file) {
         write_sample_file(file, job, mesh, result, report);
     };
-    write_outputs(job.out, "the samples", progress, report, write, further);
+    const auto name_files = [&](const std::vector<AtomicFile*>& files) {
+        name_outputs(files, job.out.output, job.picture);
+    };
+    write_outputs(job.out, "the samples", progress, report, write, further,
+                  name_outputs ? NameFiles(name_files) : nullptr);
 }
 
 void add_sample_command(Command app) {

@@ -34,7 +34,7 @@ using analysis::SurfaceSpectrum;
 constexpr double kWantedReach = 2;
 
 void check_surface_spectrum_path(const Path& path) {
-    if (lower_extension(path) != ".csv") {
+    if (lower_extension(path) != ".csv" && !output_stream(path)) {
         fail_usage(path.string() + ": spectra of surfaces are written as *.csv, the radial mean "
                                    "and anisotropy; they have no directions to show in a picture");
     }

@@ -41,7 +41,7 @@ struct BoxSpectrum {
 
 void check_box_spectrum_path(const Path& path) {
     const std::string extension = lower_extension(path);
-    if (extension != ".png" && extension != ".csv") {
+    if (extension != ".png" && extension != ".csv" && !output_stream(path)) {
         fail_usage(path.string() + ": spectra are written as *.png, a picture, or *.csv, the "
                                    "radial mean and anisotropy");
     }

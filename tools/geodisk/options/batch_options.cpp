@@ -102,6 +102,10 @@ void add_batch_options(Command command, BatchOptions& options) {
                      "Go on with a batch: leave out what the logs in DIR tell\n"
                      "is done with the same options",
                      group);
+    command.add_flag("--keep-extensions", options.keeps_extensions,
+                     "Name the samples of a.obj a.obj.ply, so that those of a.ply\n"
+                     "can stand beside them",
+                     group);
     command
         .add_option("--device", options.devices, "NAME|INDEX",
                     "Device by name, index or UUID (geodisk info), or all; may\n"

@@ -31,6 +31,7 @@ struct BatchOptions {
     int jobs = 0; ///< 0 for what suits the devices.
     std::string shard;
     bool resumes = false;
+    bool keeps_extensions = false; ///< a.obj.ply rather than a.ply.
 
     /// The whole unless a part is given. Throws UserError(usage).
     Shard parsed_shard() const;

@@ -5,16 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "files/files_in_use.hpp"
 #include "files/sample_target.hpp"
+#include "files/stream_path.hpp"
 
 namespace geodisk::tools {
 
 class Command;
-
-/// A file of the command line, and what it is to the user: "the mesh".
-struct NamedFile {
-    std::string what, path;
-};
 
 /// What a command leaves behind, as given on the command line.
 struct OutputOptions {
@@ -28,7 +25,7 @@ struct OutputOptions {
     SampleTarget target() const { return sample_target(output, format, ascii); }
 
     /// Whether to print the results for people.
-    bool has_summary() const { return !quiet && json != "-"; }
+    bool has_summary() const { return !quiet && !is_standard_output(json); }
 };
 
 inline constexpr const char* kSampleFiles =

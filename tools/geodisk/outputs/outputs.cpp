@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <vector>
 
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -12,33 +13,42 @@
 namespace geodisk::tools {
 namespace {
 
-/// An empty path and "-" are no files.
-bool is_file(const std::string& path) {
-    return !path.empty() && path != "-";
-}
-
-void check_pair(const NamedFile& written, const NamedFile& other) {
-    if (is_file(written.path) && is_file(other.path) && is_same_file(written.path, other.path)) {
-        fail_usage(written.path + ": " + written.what + " would replace " + other.what);
+/// Prints the summary for people where no data goes.
+void print_text(const std::string& text, bool is_output_taken, const char* what) {
+    if (is_output_taken) {
+        std::cerr << text << std::flush;
+        return;
     }
+    std::cout << text;
+    flush_or_fail(what);
 }
 
-/// Brings the report to the disk, as `file`, and all else to standard output. The file appears
-/// under its name once nothing can fail any more.
-void bring_out(const OutputOptions& options, std::optional<AtomicFile>& file,
+/// Writes `report` to the disk, then everything to streams, and last of all lets the files appear,
+/// when nothing can fail any more.
+void bring_out(const OutputOptions& options, std::vector<AtomicFile*> files,
                const std::string& report, const std::string& text, const char* what) {
-    if (is_file(options.json)) {
-        file.emplace(options.json).write(report);
-        file->sync();
+    std::optional<AtomicFile> json;
+    if (!options.json.empty()) {
+        files.push_back(&json.emplace(options.json));
+        json->write(report);
+        json->sync();
     }
     check_interrupted();
-    if (options.json == "-") {
-        std::cout << report;
-        flush_or_fail("the report");
+    bool is_output_taken = false;
+    for (AtomicFile* const file : files) {
+        if (const auto& stream = file->stream()) {
+            is_output_taken |= stream->descriptor == 1;
+            file->commit();
+        }
     }
     if (options.has_summary()) {
-        std::cout << text;
-        flush_or_fail(what);
+        print_text(text, is_output_taken, what);
+    }
+    const Uninterrupted all;
+    for (AtomicFile* const file : files) {
+        if (!file->stream()) {
+            file->commit();
+        }
     }
 }
 
@@ -47,45 +57,39 @@ void bring_out(const OutputOptions& options, std::optional<AtomicFile>& file,
 void check_outputs(const OutputOptions& options, const std::string& what,
                    const std::vector<NamedFile>& read, void (*check_path)(const Path&),
                    const std::vector<NamedFile>& further) {
-    std::vector<NamedFile> known = read;
-    const auto add = [&known](const NamedFile& written) {
-        for (const NamedFile& other : known) {
-            check_pair(written, other);
-        }
-        known.push_back(written);
-    };
-    add({what, options.output});
-    std::ranges::for_each(further, add);
-    add({"the report", options.json});
+    FilesInUse files;
+    for (const NamedFile& file : read) {
+        files.add_read(file);
+    }
+    files.add_written({what, options.output});
+    for (const NamedFile& file : further) {
+        files.add_written(file);
+    }
+    files.add_written({"the report", options.json});
+    const bool is_output_taken =
+        is_standard_output(options.output) || is_standard_output(options.json) ||
+        std::ranges::any_of(further,
+                            [](const auto& file) { return is_standard_output(file.path); });
+    if (!options.quiet && !is_output_taken) {
+        files.add_written({"the summary", "-"});
+    }
     if (!options.output.empty() && check_path != nullptr) {
         check_path(options.output);
     } else if (!options.output.empty()) {
         check_writable(options.target().path);
     }
-    if (is_file(options.json)) {
+    if (!options.json.empty()) {
         check_writable(options.json);
     }
 }
 
 void publish(const OutputOptions& options, const std::vector<AtomicFile*>& files,
              const std::string& report, const std::string& summary) {
-    std::optional<AtomicFile> json;
-    bring_out(options, json, report, summary, "the summary");
-    const Uninterrupted all;
-    for (AtomicFile* const file : files) {
-        file->commit();
-    }
-    if (json) {
-        json->commit();
-    }
+    bring_out(options, files, report, summary, "the summary");
 }
 
 void publish(const OutputOptions& options, const std::string& report, const std::string& result) {
-    std::optional<AtomicFile> json;
-    bring_out(options, json, report, result, "the result");
-    if (json) {
-        json->commit();
-    }
+    bring_out(options, {}, report, result, "the result");
 }
 
 void flush_or_fail(const std::string& what) {

@@ -37,12 +37,15 @@ void publish(const OutputOptions& options, const std::vector<AtomicFile*>& files
 /// The same without a file: the report, then `result` for people.
 void publish(const OutputOptions& options, const std::string& report, const std::string& result);
 
-/// Writes what a command makes, "the samples" or so, with `write(file)`, and what else, and
-/// publishes it with `report`.
+/// Settles the names of files, the output first, that are written already.
+using NameFiles = std::function<void(const std::vector<AtomicFile*>& files)>;
+
+/// Writes what a command makes, "the samples" or so, with `write(file)`, and what else, has
+/// `name_files` settle the names if there is one, and publishes all with `report`.
 template <class Report, class Write>
 void write_outputs(const OutputOptions& options, std::string_view what, ProgressLine& progress,
                    const Report& report, const Write& write,
-                   const std::vector<FurtherFile>& further = {}) {
+                   const std::vector<FurtherFile>& further = {}, const NameFiles& name_files = {}) {
     progress.begin_stage("writing " + std::string(what));
     std::deque<AtomicFile> files;
     std::vector<AtomicFile*> written;
@@ -58,6 +61,9 @@ void write_outputs(const OutputOptions& options, std::string_view what, Progress
         }
     });
     progress.clear();
+    if (name_files) {
+        name_files(written);
+    }
     publish(options, written, report.json(seconds), report.summary(seconds));
 }
 

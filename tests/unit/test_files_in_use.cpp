@@ -1,0 +1,105 @@
+// What a command reads is never written.
+#include "files/files_in_use.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "files/file_identity.hpp"
+#include "files/named_files.hpp"
+
+#include "test_files.hpp"
+
+using namespace geodisk::tools;
+
+namespace {
+
+std::vector<std::string> names_in(const TemporaryFolder& folder, const char* file) {
+    std::vector<std::string> names;
+    for (const Path& path : files_named_in(folder / file)) {
+        names.push_back(path.filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+using Names = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("a file is the same by whatever name") {
+    const TemporaryFolder folder;
+    folder.write("one", "");
+    std::filesystem::create_directory(folder / "sub");
+    CHECK(is_same_file(folder / "one", folder / "sub/../one"));
+    CHECK(is_same_file(folder / "none", folder / "sub/.././none"));
+    CHECK(is_same_file(folder / "no/such/a", folder / "no/such/a"));
+    CHECK_FALSE(is_same_file(folder / "one", folder / "none"));
+    CHECK_FALSE(is_same_file(folder / "none", folder / "sub/none"));
+    CHECK_FALSE(is_same_file(folder / "no/such/a", folder / "no/such/A"));
+#ifndef _WIN32
+    std::filesystem::create_hard_link(folder / "one", folder / "two");
+    CHECK(is_same_file(folder / "one", folder / "two"));
+    std::filesystem::create_symlink("none", folder / "dangling");
+    CHECK(is_same_file(folder / "none", folder / "dangling"));
+    std::filesystem::create_directory_symlink("sub", folder / "SUB"); // As where case is ignored.
+    CHECK(is_same_file(folder / "sub/none", folder / "SUB/NONE"));
+    CHECK(file_identity("/dev/null").empty());
+    CHECK_FALSE(is_same_file("/dev/null", "/dev/null"));
+    CHECK(is_same_file("-", "/dev/stdout"));
+#endif
+}
+
+TEST_CASE("no file that is read or written otherwise is written") {
+    const TemporaryFolder folder;
+    folder.write("mesh.ply", "");
+    FilesInUse files;
+    files.add_read({"the mesh", "builtin:cube"});
+    files.add_read({"the mesh", ""});
+    files.add_read({"the mesh", (folder / "mesh.ply").string()});
+    files.add_written({"the samples", (folder / "a.ply").string()});
+    files.add_written({"the report", ""});
+    check_fails(ExitCode::usage, "mesh.ply: the report would replace the mesh",
+                [&] { files.add_written({"the report", (folder / "./mesh.ply").string()}); });
+    check_fails(ExitCode::usage, "a.ply: the report would replace the samples",
+                [&] { files.add_written({"the report", (folder / "a.ply").string()}); });
+#ifndef _WIN32
+    files.add_read({"the mesh", "-"});
+    check_fails(ExitCode::usage, "a stream is read once, but the mesh and the samples",
+                [&] { files.add_read({"the samples", "/dev/stdin"}); });
+    files.add_written({"the samples", "/dev/null"});
+    files.add_written({"the report", "/dev/null"});
+#endif
+}
+
+TEST_CASE("files that a mesh names are read") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"a b.bin", "tex.png", "my wood.png", "bump.jpg", "old.tga"}) {
+        folder.write(name, "");
+    }
+    folder.write("wood.mtl", "newmtl wood\nmap_Kd -s 1 1 1 my wood.png\nbump -bm .5 bump.jpg\n");
+    folder.write("mesh.obj", "mtllib wood.mtl missing.mtl\nv 0 0 0\n");
+    folder.write("dos.obj", "mtllib .\\wood.mtl\r\nv 0 0 0\r\n");
+    folder.write("mesh.ply", "ply\ncomment TextureFile old.tga\nend_header\n");
+    const std::string json = R"({"buffers": [{"uri": "a%20b.bin"}, {"uri": "data:x,y"}],)"
+                             R"( "images": [{"extras": {"uri": "tex.png"}}]})";
+    folder.write("mesh.gltf", json);
+    const auto size = static_cast<char>(json.size());
+    folder.write("mesh.glb", std::string("glTF\2\0\0\0\0\0\0\0", 12) + size +
+                                 std::string("\0\0\0JSON", 7) + json + "binary");
+    CHECK(names_in(folder, "mesh.obj") == Names{"bump.jpg", "my wood.png", "wood.mtl"});
+    CHECK(names_in(folder, "dos.obj") == Names{"bump.jpg", "my wood.png", "wood.mtl"});
+    CHECK(names_in(folder, "mesh.ply") == Names{"old.tga"});
+    CHECK(names_in(folder, "mesh.gltf") == Names{"a b.bin", "tex.png"});
+    CHECK(names_in(folder, "mesh.glb") == Names{"a b.bin", "tex.png"});
+    CHECK(names_in(folder, "missing.obj").empty());
+    folder.write("deep.gltf", std::string(100000, '['));
+    CHECK(names_in(folder, "deep.gltf").empty());
+
+    FilesInUse files;
+    files.add_read({"the mesh", (folder / "mesh.obj").string()});
+    files.add_written({"the samples", (folder / "new.png").string()});
+    check_fails(ExitCode::usage, "my wood.png: the picture would replace a file that ",
+                [&] { files.add_written({"the picture", (folder / "my wood.png").string()}); });
+}
