@@ -79,7 +79,7 @@ TEST_CASE("an output never replaces an input or another output") {
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--json", "./a.ply"});
     check_fails(folder, 2, "replace the samples",
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--picture", "a.ply"});
-    check_fails(folder, 2, "the report would go where the samples is",
+    check_fails(folder, 2, "the report would go to the same place as the samples",
                 {"sample", "mesh.ply", "-o", "-", "--format", "csv", "-n", "9", "--json", "-"});
     folder.write("textured.obj", "mtllib wood.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.write("wood.mtl", "map_Kd wood.png\n");
@@ -88,7 +88,7 @@ TEST_CASE("an output never replaces an input or another output") {
                 {"sample", "textured.obj", "-o", "a.ply", "-n", "9", "--picture", "wood.png"});
     Setting appended; // Standard output is the mesh itself.
     appended.stdout_path = (folder / "mesh.ply").string();
-    check_fails(folder, 2, "standard output: the summary would go where the mesh is",
+    check_fails(folder, 2, "standard output: the summary would go to the same place as the samples",
                 {"verify", "mesh.ply", "mesh.ply"}, appended);
     CHECK(bytes_of(folder / "mesh.ply") == before);
 }

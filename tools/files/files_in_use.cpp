@@ -47,10 +47,10 @@ void FilesInUse::add_appended(const NamedFile& file) {
     }
     const auto check = [&](const std::map<std::string, NamedFile>& files) {
         if (const auto other = files.find(identity); other != files.end()) {
-            const bool is_stream = output_stream(file.path).has_value();
             fail_usage((file.path == "-" ? "standard output" : file.path) + ": " + file.what +
-                       (is_stream ? " would go where " : " would replace ") + other->second.what +
-                       (is_stream ? " is" : ""));
+                       (output_stream(file.path) ? " would go to the same place as "
+                                                 : " would replace ") +
+                       other->second.what);
         }
     };
     check(read_);

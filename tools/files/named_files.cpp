@@ -1,7 +1,6 @@
 #include "files/named_files.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -10,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/data_uri.hpp"
 #include "files/input_file.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
@@ -33,20 +33,6 @@ std::string bytes_of(const Path& path) {
     }
 }
 
-/// "a b" of "a%20b".
-std::string without_escapes(std::string_view text) {
-    std::string plain;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned char code = 0;
-        const char* const digits = text.data() + i + 1;
-        const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
-                               std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-        plain += is_escape ? static_cast<char>(code) : text[i];
-        i += is_escape ? 2 : 0;
-    }
-    return plain;
-}
-
 /// Collects all values of the key "uri", at any depth.
 class UriCollector : public nlohmann::json_sax<nlohmann::json> {
   public:
@@ -60,7 +46,7 @@ class UriCollector : public nlohmann::json_sax<nlohmann::json> {
     bool string(string_t& value) override {
         if (is_uri_ && !value.starts_with("data:")) {
             names.push_back(value);
-            names.push_back(without_escapes(value));
+            names.push_back(percent_decoded(value));
         }
         return true;
     }

@@ -36,7 +36,7 @@ std::optional<std::filesystem::path> followed(const Path& path) {
     std::filesystem::path end = path;
     std::error_code ignored;
     for (int links = 0; std::filesystem::is_symlink(end, ignored); ++links) {
-        if (is_open_file(end)) {
+        if (is_open_file(end) || descriptor_at(end)) {
             return end;
         }
         const std::filesystem::path next = std::filesystem::read_symlink(end, ignored);
