@@ -175,9 +175,7 @@ void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
     add_warning(mesh.warnings, "small_faces", small.count, place(small),
                 "face with fewer than 3 corners makes no triangle",
                 "faces with fewer than 3 corners make no triangle");
-    add_warning(mesh.warnings, "repeated_vertices", repeating.count, place(repeating),
-                "face with a repeated vertex dropped or simplified",
-                "faces with a repeated vertex dropped or simplified");
+    warn_of_repeated_vertices(mesh.warnings, repeating.count, place(repeating));
 }
 
 void take_parts(PolygonMesh& polygons, MeshFile& mesh) {
@@ -331,6 +329,10 @@ MeshSources joined(MeshSources sources) {
 }
 
 } // namespace
+
+MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
+    return to_triangles(sources, std::move(polygons));
+}
 
 bool is_builtin(const std::string& path) {
     return path.starts_with(kBuiltin);

@@ -39,6 +39,12 @@ struct MeshSources {
 /// other.
 MeshFile read_mesh(const MeshSources& sources);
 
+struct PolygonMesh;
+
+/// Makes a mesh of polygons that no file has, as read_mesh() does of those of a file. `sources.mesh`
+/// names them in messages.
+MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons);
+
 /// Whether `path` is "builtin:NAME" rather than a file.
 bool is_builtin(const std::string& path);
 

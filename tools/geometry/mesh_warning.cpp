@@ -28,4 +28,11 @@ void add_warning(std::vector<MeshWarning>& warnings, std::string_view kind, std:
     }
 }
 
+void warn_of_repeated_vertices(std::vector<MeshWarning>& warnings, std::uint64_t count,
+                               const std::string& first) {
+    add_warning(warnings, "repeated_vertices", count, first,
+                "face with a repeated vertex dropped or simplified",
+                "faces with a repeated vertex dropped or simplified");
+}
+
 } // namespace geodisk::tools

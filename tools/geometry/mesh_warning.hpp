@@ -49,4 +49,8 @@ struct ElementNames {
 void add_warning(std::vector<MeshWarning>& warnings, std::string_view kind, std::uint64_t count,
                  const std::string& first, std::string_view one, std::string_view many);
 
+/// Appends a warning of faces that name a vertex twice, unless there are none.
+void warn_of_repeated_vertices(std::vector<MeshWarning>& warnings, std::uint64_t count,
+                               const std::string& first);
+
 } // namespace geodisk::tools

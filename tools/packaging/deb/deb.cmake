@@ -61,19 +61,18 @@ library, CMake and pkg-config files, and examples.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-geodisk)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "libgeodisk${soversion} (= ${version}), python3 (>= 3.9), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "geodisk (= ${version})") # For verify, transfer and render.
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-tqdm, python3-trimesh")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.9), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "geodisk (= ${version}), ${vulkan}") # For verify, transfer and render.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-tqdm, python3-pandas")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Poisson-disk samples of triangle meshes, Python package
 ${about}
-This package has the modules for Python.")
+This package has the modules for Python, and the library that they call.")
 
-# The package for Python, over the library of the system. A wheel has its metadata from pyproject.toml.
+# The package for Python, with a library of its own that reads files. A wheel has its metadata from pyproject.toml.
 set(modules lib/python3/dist-packages)
 install(DIRECTORY tools/python/geodisk DESTINATION "${modules}" COMPONENT python
     FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+install(TARGETS geodisk_python LIBRARY DESTINATION "${modules}/geodisk" COMPONENT python)
 set(written "${PROJECT_BINARY_DIR}/deb")
 file(WRITE "${written}/METADATA" "Metadata-Version: 2.1\nName: geodisk\nVersion: ${PROJECT_VERSION}\n"
     "Summary: ${PROJECT_DESCRIPTION}\nRequires-Dist: numpy\n")

@@ -9,17 +9,19 @@ True
 """
 
 from ._devices import Device, devices
-from ._library import (
+from ._errors import (
     Cancelled,
     DeviceLost,
     Error,
+    GeodiskWarning,
     InvalidArgument,
     MeshRejected,
+    MeshWarning,
     NoDevice,
     NoProgram,
     OutOfMemory,
-    version,
 )
+from ._library import version
 from ._mesh import Mesh
 from ._picture import Picture, render
 from ._reading import read
@@ -34,9 +36,11 @@ __all__ = [
     "Device",
     "DeviceLost",
     "Error",
+    "GeodiskWarning",
     "InvalidArgument",
     "Mesh",
     "MeshRejected",
+    "MeshWarning",
     "NoDevice",
     "NoProgram",
     "OutOfMemory",

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _library as c
+from . import _errors as e
 
 
 def real(array: ArrayLike, name: str) -> NDArray[Any]:
@@ -30,7 +30,7 @@ def rows(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def indices(
-    values: ArrayLike, name: str, error: type[c.Error] = c.InvalidArgument
+    values: ArrayLike, name: str, error: type[e.Error] = e.InvalidArgument
 ) -> NDArray[Any]:
     """As uint32, or uint16 where it is that. Other numbers raise `error`."""
     array = np.asarray(values)
@@ -49,7 +49,7 @@ def indices(
         place = np.argwhere(bad)[0]
         raise error(
             f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}, which is no index",
-            "mesh_rejected" if error is c.MeshRejected else "invalid_argument",
+            "mesh_rejected" if error is e.MeshRejected else "invalid_argument",
             int(place[0]),
         )
     return np.ascontiguousarray(array, dtype=np.uint32)

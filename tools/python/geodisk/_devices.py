@@ -8,6 +8,7 @@ import threading
 from dataclasses import dataclass
 
 from . import _library as c
+from . import _structs as s
 
 
 @dataclass(frozen=True)
@@ -52,9 +53,9 @@ def devices() -> list[Device]:
     """
     count = ctypes.c_size_t()
     c.call("geodisk_list_devices", None, 0, ctypes.byref(count))
-    infos = (c.DeviceInfo * count.value)()
+    infos = (s.DeviceInfo * count.value)()
     if count.value:
-        infos[0].struct_size = ctypes.sizeof(c.DeviceInfo)
+        infos[0].struct_size = ctypes.sizeof(s.DeviceInfo)
         c.call("geodisk_list_devices", infos, count.value, ctypes.byref(count))
     return [
         Device(
@@ -94,7 +95,7 @@ def sampler_on(device: str) -> c.Handle:
     if device not in samplers:
         with _lock:
             if device not in _opened:
-                options = c.DeviceOptions(device=device.encode())
+                options = s.DeviceOptions(device=device.encode())
                 _opened[device] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
             opened = _opened[device]
         samplers[device] = c.Handle("sampler", "geodisk_sampler_create", opened.value, None)

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _library as c
-from ._mesh import MeshLike, Surface, mesh_of
+from . import _errors as e
+from ._mesh import mesh_of
+from ._protocols import MeshLike
 from ._samples import Samples
+from ._surface import Surface
 from ._writing import header_of, write_ply
 
 
@@ -29,12 +31,12 @@ def surface_of(
         )
     if vertices is not None:
         if samples.face_index is None:
-            raise c.invalid("samples without face_index and barycentric lie on no mesh")
+            raise e.invalid("samples without face_index and barycentric lie on no mesh")
         return mesh_of(vertices, faces, edge_lengths, weld)._surface
     if faces is not None or edge_lengths is not None or weld is not False:
         raise TypeError("faces, edge_lengths and weld are of a mesh whose vertices are given")
     if samples._surface is None and samples.extents is None:
-        raise c.invalid("these samples do not know their mesh, so it has to be given")
+        raise e.invalid("these samples do not know their mesh, so it has to be given")
     return samples._surface
 
 
@@ -89,7 +91,7 @@ def write_density(folder: pathlib.Path, surface: Surface, density: ArrayLike) ->
     corners = surface.indices()
     small = corners[factors[corners] < 0.001]  # Which the program raises, and the library refuses.
     if small.size > 0:
-        raise c.invalid(f"the density of vertex {small[0]} is {factors[small[0]]}, below 0.001")
+        raise e.invalid(f"the density of vertex {small[0]} is {factors[small[0]]}, below 0.001")
     np.savetxt(folder / "density.txt", factors, fmt="%.17g")
     return ["--density-file", "density.txt"]
 

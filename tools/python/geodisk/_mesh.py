@@ -1,214 +1,163 @@
-"""Meshes as arrays, or as other packages have them."""
+"""Meshes that are prepared for any number of runs."""
 
 from __future__ import annotations
 
 import ctypes
-import operator
 import os
-from dataclasses import dataclass
-from typing import Any, Protocol, Union
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _errors as e
 from . import _library as c
-from ._arrays import indices, real, rows
-
-
-class HasFaces(Protocol):
-    """A mesh as trimesh has it."""
-
-    vertices: Any
-    faces: Any
-
-
-class HasTriangles(Protocol):
-    """A mesh as Open3D has it."""
-
-    vertices: Any
-    triangles: Any
-
-
-class HasTensors(Protocol):
-    """A mesh as Open3D has it in tensors."""
-
-    vertex: Any
-    triangle: Any
-
-
-#: What brings its faces.
-MeshLike = Union["Mesh", HasFaces, HasTriangles, HasTensors, str, "os.PathLike[str]"]
-
-
-def _read(path: str | os.PathLike[str]) -> tuple[Any, Any]:
-    """Vertices and faces of a file, by trimesh."""
-    if not os.path.exists(path):
-        raise FileNotFoundError(f"{os.fspath(path)}: no such file")
-    try:
-        import trimesh
-    except ImportError:
-        raise ImportError(
-            "geodisk reads meshes from files by trimesh, which is not installed "
-            "(pip install trimesh)"
-        ) from None
-    loaded = trimesh.load(path, process=False, force="mesh")
-    return loaded.vertices, loaded.faces
-
-
-def is_mesh(source: Any) -> bool:
-    """Whether it brings its faces, rather than being coordinates."""
-    return isinstance(source, (Mesh, str, os.PathLike)) or any(
-        hasattr(source, name) for name in ("vertex", "vertices")
-    )
-
-
-def _arrays_of(source: Any) -> tuple[Any, Any]:
-    """Vertices and faces of what is not an array."""
-    if isinstance(source, (str, os.PathLike)):
-        return _read(source)
-    if hasattr(source, "vertex") and hasattr(source, "triangle"):  # Open3D's tensor meshes.
-        return source.vertex.positions.numpy(), source.triangle.indices.numpy()
-    for name in ("faces", "triangles"):  # trimesh; Open3D.
-        if hasattr(source, "vertices") and hasattr(source, name):
-            return np.asarray(source.vertices), np.asarray(getattr(source, name))
-    raise TypeError(
-        "a mesh is vertices and faces, a geodisk.Mesh, a trimesh.Trimesh, an Open3D mesh or a path, "
-        f"not {type(source).__name__}"
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class Surface:
-    """What a mesh was made of, as it was given: arrays are kept by reference."""
-
-    vertices: Any  #: Or their number, where there are lengths.
-    faces: Any
-    edge_lengths: Any = None
-    weld: bool | float = False
-
-    def indices(self) -> NDArray[Any]:
-        """The faces, of uint32 or uint16."""
-        array = indices(self.faces, "faces", c.MeshRejected)
-        if array.ndim != 2 or array.shape[1] != 3:
-            raise c.invalid(f"faces have the shape {array.shape}, not (f, 3)")
-        return array
-
-    def coordinates(self) -> NDArray[Any]:
-        """The vertices, of float64 or float32."""
-        array = rows(real(self.vertices, "vertices"))
-        if array.ndim != 2 or not 2 <= array.shape[1] <= 8:
-            raise c.invalid(f"vertices have the shape {array.shape}, not (v, 2) to (v, 8)")
-        return array
-
-    def lengths(self) -> NDArray[np.float64]:
-        """Those of the edges, by face."""
-        array = np.ascontiguousarray(real(self.edge_lengths, "edge_lengths"), np.float64)
-        shape = np.shape(self.faces)
-        if array.shape != shape:
-            raise c.invalid(f"edge_lengths have the shape {array.shape}, the faces {shape}")
-        return array
-
-    def dimension(self) -> int:
-        """Coordinates of each vertex, 0 without any."""
-        return 0 if self.edge_lengths is not None else int(self.coordinates().shape[1])
-
-    def vertex_count(self) -> int:
-        if self.edge_lengths is not None:
-            return _vertex_number(self.vertices)
-        return len(self.coordinates())
-
-    def factors(self, density: ArrayLike) -> NDArray[Any]:
-        """One of float64 or float32 for each vertex."""
-        array = np.ascontiguousarray(real(density, "density"))
-        if array.shape != (self.vertex_count(),):
-            raise c.invalid(
-                f"density has the shape {array.shape}, not ({self.vertex_count()},), "
-                "one for each vertex"
-            )
-        return array.astype(array.dtype.newbyteorder("="), copy=False)
+from . import _structs as s
+from ._arrays import indices
+from ._background import interruptible
+from ._objects import arrays_of, faces_of, is_object
+from ._oddities import oddities_of, warn
+from ._polygons import Polygons
+from ._protocols import MeshLike
+from ._source import Source, read_file, split
+from ._surface import Surface
 
 
 class Mesh:
-    """A triangle mesh, prepared for any number of runs.
+    """A mesh, prepared for any number of runs.
 
     Parameters
     ----------
     vertices : array_like of float, shape (v, d), or a mesh
-        Coordinates, d from 2 to 8, in any unit, which is that of all distances. Or a
-        ``trimesh.Trimesh``, an Open3D mesh or the path of a file, which bring their faces.
-    faces : array_like of int, shape (f, 3)
-        Vertices of each triangle.
+        Coordinates, d from 2 to 8, in any unit, which is that of all distances. Or a mesh that
+        brings its faces: the path of a file, or an object of trimesh (meshes and scenes), Open3D
+        (legacy and tensor meshes), PyVista, meshio or vedo, or any with ``vertices`` and ``faces``.
+    faces : array_like of int, shape (f, 3) or (f, k), or sequence of sequences
+        Vertices of each face. Polygons are split into triangles.
     edge_lengths : array_like of float, shape (f, 3), optional
         The surface by its lengths instead of its coordinates: of each face from its first corner
         to the second, to the third and back. ``vertices`` is then their number.
     weld : bool or float
         Join vertices that lie in one place, or no farther apart than so much.
+    attributes : sequence of str
+        Names of vertex attributes to read from a file.
+
+    Attributes
+    ----------
+    vertices : ndarray of float, shape (v, d), or int
+    triangles : ndarray of int, shape (f, 3)
+        What ``Samples.face_index`` counts.
+    polygons : ndarray of uint32, shape (f,), or None
+        The face, as given, that each triangle is part of. None if all faces are triangles, so that
+        the numbers are the same.
+    attributes : dict of ndarray, shape (v,)
+    warnings : tuple of MeshWarning
+        Everything odd about the mesh. They are also shown, once, when the mesh is made.
 
     Raises
     ------
     MeshRejected
-        Where the mesh cannot be sampled; ``element`` is the face or vertex.
+        For a mesh that cannot be sampled; ``element`` is the face or vertex. Also for a file that
+        holds no mesh.
+    OSError
+        For a file that is not there or may not be read.
     TypeError, InvalidArgument
         For arrays of another kind or shape.
 
+    Warns
+    -----
+    MeshWarning
+        For open seams and whatever else is odd, in the words of the program.
+
     Notes
     -----
+    Files are read as the program reads them: *.gltf, *.glb, *.obj, *.off, *.ply, *.stl and
+    ``builtin:NAME``.
+
     float32 and float64 coordinates are read where they are, also with other columns beside them;
     all else is copied first. The mesh and samples on it refer to the arrays, for :func:`verify` and
     the like: change copies of them. Faces may be oriented either way, share an edge by any number
     and leave borders open.
 
+    Meshes can be pickled and copied, with their arrays.
+
     Examples
     --------
     >>> import geodisk
-    >>> mesh = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
-    >>> mesh.area
-    0.5
+    >>> mesh = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> mesh.area, mesh.triangles.tolist(), mesh.polygons.tolist()
+    (1.0, [[0, 1, 2], [0, 2, 3]], [0, 0])
     """
 
     def __init__(
         self,
         vertices: ArrayLike | MeshLike,
-        faces: ArrayLike | None = None,
+        faces: ArrayLike | Sequence[Sequence[int]] | None = None,
         *,
         edge_lengths: ArrayLike | None = None,
         weld: bool | float = False,
+        attributes: Sequence[str] = (),
     ) -> None:
-        if faces is None:
-            vertices, faces = _arrays_of(vertices)
-        self._surface = surface = Surface(vertices, faces, edge_lengths, weld)
-        corners = surface.indices()
-        params = c.MeshParams(
-            indices=corners.ctypes.data,
-            index_type=c.UINT16 if corners.dtype == np.uint16 else c.UINT32,
-            face_count=len(corners),
-        )
-        if weld is not False:
-            params.weld = 1
-            params.weld_distance = 0.0 if weld is True else float(weld)
-        if edge_lengths is None:
-            coordinates = surface.coordinates()
-            params.positions = coordinates.ctypes.data
-            params.position_type = c.FLOAT32 if coordinates.dtype == np.float32 else c.FLOAT64
-            params.dimension = coordinates.shape[1]
-            params.vertex_count = len(coordinates)
-            params.position_stride = coordinates.strides[0]
+        source: Source | None = None
+        if faces is None and isinstance(vertices, (str, os.PathLike)):
+            if edge_lengths is not None:
+                raise TypeError("edge_lengths are of faces that are given as well, not of a file")
+            path, names = vertices, tuple(attributes)
+            source = interruptible(lambda stop: read_file(path, weld, names, stop))
+            surface = _surface_of(source, source.vertices)
         else:
-            lengths = surface.lengths()
-            params.edge_lengths = lengths.ctypes.data
-            params.vertex_count = surface.vertex_count()
-        self._handle = c.Handle("mesh", "geodisk_mesh_create", ctypes.byref(params))
-        self._info = c.MeshInfo()
+            if attributes:
+                raise TypeError("attributes are read from files")
+            if faces is None:
+                vertices, faces = arrays_of(vertices)
+            given = faces_of(faces)
+            if isinstance(given, Polygons):
+                if edge_lengths is not None:
+                    raise e.invalid("with edge lengths, all faces must be triangles")
+                polygons, points = given, Surface(vertices, None).coordinates()
+                source = interruptible(lambda stop: split(points, polygons, weld, stop))
+                surface = _surface_of(source, vertices)
+            else:
+                surface = Surface(vertices, given, edge_lengths, weld)
+        self._prepare(surface)
+        self.warnings = oddities_of(self._handle, source.handle if source else None)
+        warn(self.warnings)
+
+    def _prepare(self, surface: Surface) -> None:
+        self._surface = surface
+        self._handle = interruptible(lambda stop: _created(surface))
+        self._info = s.MeshInfo()
         c.call("geodisk_mesh_describe", self._handle.value, ctypes.byref(self._info))
 
     @property
+    def vertices(self) -> Any:
+        """Coordinates, or the number of vertices of a mesh of edge lengths."""
+        if self._surface.edge_lengths is not None:
+            return self._surface.vertex_count()
+        return self._surface.coordinates()
+
+    @property
+    def triangles(self) -> NDArray[Any]:
+        """Vertices of each triangle."""
+        return self._surface.indices()
+
+    @property
+    def polygons(self) -> NDArray[np.uint32] | None:
+        """The face, as given, of each triangle; None if the numbers are the same."""
+        return self._surface.polygons
+
+    @property
+    def attributes(self) -> dict[str, NDArray[np.float64]]:
+        """Vertex attributes that were read, by name."""
+        return dict(self._surface.attributes)
+
+    @property
     def area(self) -> float:
-        """Of the surface."""
+        """Area of the surface."""
         return float(self._info.area)
 
     @property
     def diagonal(self) -> float:
-        """Of the bounding box; 0 for a mesh of lengths."""
+        """Diagonal of the bounding box; 0 for a mesh of lengths."""
         return float(self._info.diagonal)
 
     @property
@@ -216,28 +165,70 @@ class Mesh:
         """Counts of vertices, faces, components, boundary edges and the like."""
         return {
             name: getattr(self._info, name)
-            for name, _ in c.MeshInfo._fields_
+            for name, _ in s.MeshInfo._fields_
             if name != "struct_size"
         }
 
     def __repr__(self) -> str:
         return f"<geodisk.Mesh of {self._info.faces} faces, area {self.area:.6g}>"
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {"surface": self._surface, "warnings": self.warnings}
 
-def _vertex_number(value: Any) -> int:
-    number = operator.index(value)
-    if not 0 <= number <= 2**32 - 1:
-        raise c.invalid(f"there are {number} vertices, not from 0 to {2**32 - 1}")
-    return number
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._prepare(state["surface"])
+        self.warnings = state["warnings"]  # Which were shown when it was made.
+
+    def __copy__(self) -> Mesh:
+        copied = Mesh.__new__(Mesh)
+        copied.__dict__.update(self.__dict__)
+        return copied
+
+
+def _surface_of(source: Source, vertices: Any) -> Surface:
+    """Returns the surface that a source is, where `vertices` are. Its vertices are joined already."""
+    return Surface(
+        vertices, source.triangles, polygons=source.polygons, attributes=source.attributes
+    )
+
+
+def _created(surface: Surface) -> c.Handle:
+    """Returns the library's mesh."""
+    corners = surface.indices()
+    params = s.MeshParams(
+        indices=corners.ctypes.data,
+        index_type=s.UINT16 if corners.dtype == np.uint16 else s.UINT32,
+        face_count=len(corners),
+    )
+    if surface.weld is not False:
+        params.weld = 1
+        params.weld_distance = 0.0 if surface.weld is True else float(surface.weld)
+    if surface.edge_lengths is None:
+        coordinates = surface.coordinates()
+        params.positions = coordinates.ctypes.data
+        params.position_type = s.FLOAT32 if coordinates.dtype == np.float32 else s.FLOAT64
+        params.dimension = coordinates.shape[1]
+        params.vertex_count = len(coordinates)
+        params.position_stride = coordinates.strides[0]
+    else:
+        lengths = surface.lengths()
+        params.edge_lengths = lengths.ctypes.data
+        params.vertex_count = surface.vertex_count()
+    return c.Handle("mesh", "geodisk_mesh_create", ctypes.byref(params))
+
+
+def is_mesh(source: Any) -> bool:
+    """Returns whether it brings its faces, rather than being coordinates."""
+    return isinstance(source, (Mesh, str, os.PathLike)) or is_object(source)
 
 
 def mesh_of(
     vertices: ArrayLike | MeshLike,
-    faces: ArrayLike | None,
+    faces: ArrayLike | Sequence[Sequence[int]] | None,
     edge_lengths: ArrayLike | None,
     weld: bool | float,
 ) -> Mesh:
-    """The mesh that the arguments of a function name."""
+    """Returns the mesh that the arguments of a function name."""
     if not isinstance(vertices, Mesh):
         return Mesh(vertices, faces, edge_lengths=edge_lengths, weld=weld)
     if faces is not None or edge_lengths is not None or weld is not False:
@@ -246,21 +237,23 @@ def mesh_of(
 
 
 def radii_of(mesh: Mesh, density: ArrayLike) -> c.Handle:
+    """Returns the library's radii."""
     factors = mesh._surface.factors(density)
     return c.Handle(
         "radii",
         "geodisk_radii_create",
         mesh._handle.value,
         factors.ctypes.data,
-        c.FLOAT32 if factors.dtype == np.float32 else c.FLOAT64,
+        s.FLOAT32 if factors.dtype == np.float32 else s.FLOAT64,
         len(factors),
     )
 
 
 def keys_of(mesh: Mesh, face_keys: ArrayLike) -> NDArray[np.uint32]:
+    """Returns keys of faces as the library takes them."""
     keys = indices(face_keys, "face_keys").astype(np.uint32, copy=False)
     if keys.shape != (mesh._info.faces,):
-        raise c.invalid(f"face_keys have the shape {keys.shape}, not ({mesh._info.faces},)")
+        raise e.invalid(f"face_keys have the shape {keys.shape}, not ({mesh._info.faces},)")
     if len(np.unique(keys)) != len(keys):
-        raise c.invalid("two face_keys are alike")
+        raise e.invalid("two face_keys are alike")
     return keys

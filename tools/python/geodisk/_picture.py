@@ -7,11 +7,11 @@ from typing import Sequence
 
 from numpy.typing import ArrayLike
 
-from . import _library as c
+from . import _errors as e
 from ._files import complete
 from ._inputs import surface_of, write_subject
-from ._mesh import MeshLike
 from ._program import folder, run
+from ._protocols import MeshLike
 from ._samples import Samples
 
 
@@ -36,7 +36,7 @@ class Picture:
         """Writes it to a file, ``*.png``, which is complete or not there."""
         path = os.fspath(path)
         if os.path.splitext(path)[1].lower() != ".png":
-            raise c.invalid(f"{path}: pictures are saved as *.png")
+            raise e.invalid(f"{path}: pictures are saved as *.png")
         with complete(path) as file:
             file.write(self.png)
 

@@ -14,24 +14,26 @@ import sysconfig
 import tempfile
 from typing import Iterator, Sequence
 
+from . import _errors as e
 from . import _library as c
 
 _NAME = "geodisk.exe" if sys.platform == "win32" else "geodisk"
 _HOW_TO_GET_IT = (
-    "it comes with the Debian package geodisk and with a build of the sources (tools/quickstart), "
-    "and is looked for in the environment variable GEODISK_COMMAND, beside Python and in PATH"
+    "it comes with the wheel, with the Debian package geodisk and with a build of the sources "
+    "(tools/quickstart), and is looked for in the environment variable GEODISK_COMMAND, in this "
+    "package, beside Python and in PATH"
 )
 
 # By exit status, as `geodisk --help` has them; 1 means something to verify alone.
-_FAILURES: dict[int, tuple[type[c.Error], str]] = {
-    2: (c.InvalidArgument, "invalid_argument"),
-    3: (c.InvalidArgument, "invalid_argument"),
-    5: (c.NoDevice, "no_device"),
-    6: (c.OutOfMemory, "out_of_host_memory"),
-    129: (c.Cancelled, "cancelled"),
-    130: (c.Cancelled, "cancelled"),
-    131: (c.Cancelled, "cancelled"),
-    143: (c.Cancelled, "cancelled"),
+_FAILURES: dict[int, tuple[type[e.Error], str]] = {
+    2: (e.InvalidArgument, "invalid_argument"),
+    3: (e.InvalidArgument, "invalid_argument"),
+    5: (e.NoDevice, "no_device"),
+    6: (e.OutOfMemory, "out_of_host_memory"),
+    129: (e.Cancelled, "cancelled"),
+    130: (e.Cancelled, "cancelled"),
+    131: (e.Cancelled, "cancelled"),
+    143: (e.Cancelled, "cancelled"),
 }
 
 
@@ -40,12 +42,12 @@ def _find() -> str:
     if named:
         path = shutil.which(named)
         if path is None:
-            raise c.NoProgram(f"GEODISK_COMMAND is {named}, which is no program", "no_program")
+            raise e.NoProgram(f"GEODISK_COMMAND is {named}, which is no program", "no_program")
         return os.path.abspath(path)
-    beside = os.pathsep.join([os.path.dirname(__file__), sysconfig.get_path("scripts")])
-    path = shutil.which(_NAME, path=beside) or shutil.which(_NAME)
+    folders = [os.path.join(os.path.dirname(__file__), "bin"), sysconfig.get_path("scripts")]
+    path = shutil.which(_NAME, path=os.pathsep.join(folders)) or shutil.which(_NAME)
     if path is None:
-        raise c.NoProgram(f"there is no program {_NAME}: {_HOW_TO_GET_IT}", "no_program")
+        raise e.NoProgram(f"there is no program {_NAME}: {_HOW_TO_GET_IT}", "no_program")
     return os.path.abspath(path)
 
 
@@ -57,9 +59,9 @@ def _check(path: str) -> None:
             [path, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True
         ).stdout.partition("\n")[0]
     except OSError as error:
-        raise c.NoProgram(f"{path} does not run: {error}", "no_program") from error
+        raise e.NoProgram(f"{path} does not run: {error}", "no_program") from error
     if told != f"geodisk {c.version()}":
-        raise c.NoProgram(
+        raise e.NoProgram(
             f"{path} is {told or 'no program of geodisk'}, but this package is of geodisk "
             f"{c.version()}: {_HOW_TO_GET_IT}",
             "no_program",
@@ -91,10 +93,10 @@ def run(folder: pathlib.Path, arguments: Sequence[str], accepted: Sequence[int] 
             errors="replace",
         )
     except OSError as error:
-        raise c.NoProgram(f"{program} does not run: {error}", "no_program") from error
+        raise e.NoProgram(f"{program} does not run: {error}", "no_program") from error
     if ended.returncode in accepted:
         return
-    kind, status = _FAILURES.get(ended.returncode, (c.Error, "internal"))
+    kind, status = _FAILURES.get(ended.returncode, (e.Error, "internal"))
     told = _in_python(ended.stderr)
     raise kind(told or f"{program} ended with status {ended.returncode}", status)
 

@@ -11,7 +11,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _library as c
+from . import _errors as e
 from ._samples import Samples
 from ._writing import Header
 
@@ -58,12 +58,12 @@ def read(path: str | os.PathLike[str]) -> Samples:
     readers = {".npz": _from_npz, ".csv": _from_csv, ".ply": _from_ply}
     reader = readers.get(os.path.splitext(path)[1].lower())
     if reader is None:
-        raise c.invalid(f"{path}: samples are read from *.npz, *.csv and *.ply")
+        raise e.invalid(f"{path}: samples are read from *.npz, *.csv and *.ply")
     with open(path, "rb") as file:
         try:
             return reader(file)
         except Exception as error:  # Broken archives make numpy raise nearly anything.
-            raise c.invalid(f"{path}: {error or type(error).__name__}") from error
+            raise e.invalid(f"{path}: {error or type(error).__name__}") from error
 
 
 def _samples(header: Header, **arrays: Any) -> Samples:

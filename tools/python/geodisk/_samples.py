@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _errors as e
 from . import _library as c
+from . import _structs as s
 from ._arrays import indices, real
 from ._files import complete
-from ._mesh import Surface
+from ._surface import Surface
 from ._writing import header_of, write_csv, write_npz, write_ply
 
 
@@ -22,10 +24,10 @@ def _table(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.f
     """As float64 of that shape, all finite."""
     array = real(values, name).astype(np.float64, copy=False)
     if array.shape != shape:
-        raise c.invalid(f"{name} have the shape {array.shape}, not {shape}")
+        raise e.invalid(f"{name} have the shape {array.shape}, not {shape}")
     if not np.isfinite(array).all():
         place = np.argwhere(~np.isfinite(array))[0]
-        raise c.invalid(f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}")
+        raise e.invalid(f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}")
     return array
 
 
@@ -98,41 +100,41 @@ class Samples:
 
         some = self.points if self.points is not None else self.face_index
         if some is None or (self.face_index is None) != (self.barycentric is None):
-            raise c.invalid("samples have points, or face_index and barycentric, or all of them")
+            raise e.invalid("samples have points, or face_index and barycentric, or all of them")
         n = len(some)
         if self.points is not None:
             shape = np.shape(self.points)
             if len(shape) != 2 or not 1 <= shape[1] <= 8:
-                raise c.invalid(f"points have the shape {shape}, not (n, 1) to (n, 8)")
+                raise e.invalid(f"points have the shape {shape}, not (n, 1) to (n, 8)")
             keep("points", _table(self.points, "points", (n, shape[1])))
         if self.normals is not None:
             keep("normals", _table(self.normals, "normals", (n, 3)))
         if self.face_index is not None and self.barycentric is not None:
             faces = indices(self.face_index, "face_index").astype(np.uint32, copy=False)
             if faces.shape != (n,):
-                raise c.invalid(f"face_index have the shape {faces.shape}, not {(n,)}")
+                raise e.invalid(f"face_index have the shape {faces.shape}, not {(n,)}")
             keep("face_index", faces)
             keep("barycentric", _table(self.barycentric, "barycentric", (n, 3)))
         distance = float(self.min_distance)
         if distance < 0 or math.isinf(distance):
-            raise c.invalid(f"the minimum distance is {distance}, not positive")
+            raise e.invalid(f"the minimum distance is {distance}, not positive")
         keep("min_distance", distance)
         if self.radius is None or np.isnan(self.radius).all():
             keep("radius", np.full(n, distance / 2))
         else:
             keep("radius", _table(self.radius, "radius", (n,)))
             if (self.radius < 0).any():
-                raise c.invalid(f"a radius is {self.radius.min()}, not positive")
+                raise e.invalid(f"a radius is {self.radius.min()}, not positive")
         order = np.arange(n) if self.order is None else np.asarray(self.order, np.int64)
         if order.shape != (n,):
-            raise c.invalid(f"order has the shape {order.shape}, not {(n,)}")
+            raise e.invalid(f"order has the shape {order.shape}, not {(n,)}")
         keep("order", order)
         if self.extents is not None:
             sides = tuple(float(side) for side in self.extents)
             if not all(side > 0 and math.isfinite(side) for side in sides):
-                raise c.invalid(f"extents are {sides}, not all positive")
+                raise e.invalid(f"extents are {sides}, not all positive")
             if self.points is None or self.points.shape[1] != len(sides):
-                raise c.invalid(f"extents are {len(sides)} sides, not one for each coordinate")
+                raise e.invalid(f"extents are {len(sides)} sides, not one for each coordinate")
             keep("extents", sides)
 
     def __len__(self) -> int:
@@ -162,7 +164,7 @@ class Samples:
         writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
         write = writers.get(os.path.splitext(path)[1].lower())
         if write is None:
-            raise c.invalid(f"{path}: samples are saved as *.npz, *.csv or *.ply")
+            raise e.invalid(f"{path}: samples are saved as *.npz, *.csv or *.ply")
         with complete(path) as file:
             write(file, self, header_of(self))
 
@@ -173,7 +175,7 @@ def _copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any
         return None
     count = c.samples_count(samples)
     array = np.empty((count, width), dtype)
-    kind = c.UINT32 if dtype == np.uint32 else c.FLOAT64
+    kind = s.UINT32 if dtype == np.uint32 else s.FLOAT64
     c.call("geodisk_samples_copy", samples, attribute, kind, array.ctypes.data, 0, count)
     return array
 
@@ -181,21 +183,21 @@ def _copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any
 def samples_of(handle: c.Handle, seed: int, **domain: Any) -> Samples:
     """What a run gave, in a `domain`: the extents of a box, or the surface."""
     samples = handle.value
-    report = c.Report()
+    report = s.Report()
     c.call("geodisk_samples_report", samples, ctypes.byref(report))
     told = {
         name: getattr(report, name)
-        for name, _ in c.Report._fields_
+        for name, _ in s.Report._fields_
         if name not in ("struct_size", "calls")
     }
-    face = _copied(samples, c.FACE, np.uint32)
-    radius = _copied(samples, c.RADIUS, np.float64)
+    face = _copied(samples, s.FACE, np.uint32)
+    radius = _copied(samples, s.RADIUS, np.float64)
     assert radius is not None
     return Samples(
-        points=_copied(samples, c.POSITION, np.float64),
-        normals=_copied(samples, c.NORMAL, np.float64),
+        points=_copied(samples, s.POSITION, np.float64),
+        normals=_copied(samples, s.NORMAL, np.float64),
         face_index=None if face is None else face[:, 0],
-        barycentric=_copied(samples, c.BARYCENTRIC, np.float64),
+        barycentric=_copied(samples, s.BARYCENTRIC, np.float64),
         radius=radius[:, 0],
         min_distance=report.min_distance,
         seed=seed,

@@ -11,9 +11,12 @@ from typing import Any, Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import _errors as e
 from . import _library as c
+from . import _structs as s
 from ._devices import forget, sampler_on
-from ._mesh import MeshLike, keys_of, mesh_of, radii_of
+from ._mesh import keys_of, mesh_of, radii_of
+from ._protocols import MeshLike
 from ._samples import Samples, samples_of
 
 _PATIENCE = 100  # Milliseconds, after which Python looks for signals.
@@ -25,7 +28,7 @@ ProgressCallback = Callable[[float, int], None]
 def _integer(value: Any, name: str, most: int) -> int:
     number = operator.index(value)
     if not 0 <= number <= most:
-        raise c.invalid(f"{name} is {number}, not from 0 to {most}")
+        raise e.invalid(f"{name} is {number}, not from 0 to {most}")
     return number
 
 
@@ -35,7 +38,7 @@ def _distance(
     """The minimum distance, or None where a count chooses it."""
     given = [x is not None for x in (min_distance, radius, count)]
     if sum(given) != 1:
-        raise c.invalid("give one of min_distance, radius and count")
+        raise e.invalid("give one of min_distance, radius and count")
     if min_distance is not None:
         distance = float(min_distance)
     elif radius is not None:
@@ -43,7 +46,7 @@ def _distance(
     else:
         return None
     if not (distance > 0 and math.isfinite(distance)):
-        raise c.invalid(f"the minimum distance is {distance}, not positive")
+        raise e.invalid(f"the minimum distance is {distance}, not positive")
     return distance
 
 
@@ -69,7 +72,7 @@ def _polled(
     sampler: ctypes.c_void_p, samples: c.Handle, tell: ProgressCallback | None
 ) -> None:
     """Goes on with a run until its samples are there. Python acts on signals in between."""
-    progress = c.Progress()
+    progress = s.Progress()
     while not samples.value:
         c.call("geodisk_poll", sampler, _PATIENCE, byref(samples.value))
         if tell and not samples.value:
@@ -84,7 +87,7 @@ def _end(sampler: ctypes.c_void_p) -> None:
     try:
         while not rest.value:
             c.call("geodisk_poll", sampler, _PATIENCE, byref(rest.value))
-    except c.Error:  # Cancelled; or it had ended.
+    except e.Error:  # Cancelled; or it had ended.
         pass
 
 
@@ -95,10 +98,10 @@ def _run(domain: c.Handle, device: str, tell: ProgressCallback | None) -> c.Hand
         c.call("geodisk_start", sampler, domain.value)
         _polled(sampler, samples, tell)
         return samples
-    except c.DeviceLost:
+    except e.DeviceLost:
         forget(device)
         raise
-    except c.Error:
+    except e.Error:
         raise
     except BaseException:  # Ctrl-C, or what a callback raises.
         _end(sampler)
@@ -217,19 +220,19 @@ def sample(
     """
     distance = _distance(min_distance, radius, count)
     seed = _integer(seed, "seed", 2**64 - 1)
-    if metric not in c.METRICS:
-        raise c.invalid(f"metric is {metric!r}, none of {', '.join(c.METRICS)}")
+    if metric not in s.METRICS:
+        raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
     mesh = mesh_of(vertices, faces, edge_lengths, weld)
     radii = None if density is None else radii_of(mesh, density)
     keys = None if face_keys is None else keys_of(mesh, face_keys)
-    params = c.SurfaceParams(
+    params = s.SurfaceParams(
         seed=seed,
         pool_ratio=float(pool_ratio),
         throws=_integer(throws, "throws", 2**32 - 1),
         stop_count=_integer(stop_count, "stop_count", 2**32 - 1),
         radii=None if radii is None else radii.value,
         face_keys=None if keys is None else keys.ctypes.data,
-        metric=c.METRICS[metric],
+        metric=s.METRICS[metric],
     )
 
     def domain_at(at: float) -> c.Handle:
@@ -286,9 +289,9 @@ def sample_box(
     distance = _distance(min_distance, radius, count)
     sides = np.ascontiguousarray(extents, dtype=np.float64)
     if sides.ndim != 1:
-        raise c.invalid("extents are one number for each dimension")
+        raise e.invalid("extents are one number for each dimension")
     seed = _integer(seed, "seed", 2**64 - 1)
-    params = c.BoxParams(
+    params = s.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),
         is_periodic=int(bool(periodic)),

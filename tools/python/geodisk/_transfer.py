@@ -9,10 +9,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _library as c
+from . import _errors as e
 from ._inputs import surface_of, write_samples, write_surface
-from ._mesh import Mesh, MeshLike, is_mesh, mesh_of
+from ._mesh import Mesh, is_mesh, mesh_of
 from ._program import folder, run
+from ._protocols import MeshLike
 from ._reading import read
 from ._samples import Samples
 
@@ -63,7 +64,7 @@ def transfer(
     """
     source = surface_of(samples, vertices, faces, edge_lengths, weld)
     if source is None:
-        raise c.invalid("samples in a box lie on no mesh")
+        raise e.invalid("samples in a box lie on no mesh")
     if is_mesh(to):
         target = mesh_of(to, None, None, False)._surface
     else:

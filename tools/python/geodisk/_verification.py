@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _library as c
+from . import _errors as e
 from ._inputs import surface_of, write_density, write_subject
-from ._mesh import MeshLike
 from ._program import folder, run
+from ._protocols import MeshLike
 from ._samples import Samples
 from ._writing import has_own_radii
 
@@ -139,13 +139,13 @@ def verify(
     if min_distance is not None:
         min_distance = float(min_distance)
         if not (min_distance > 0 and math.isfinite(min_distance)):
-            raise c.invalid(f"the minimum distance is {min_distance}, not positive")
+            raise e.invalid(f"the minimum distance is {min_distance}, not positive")
     elif (density is not None or not has_own_radii(samples)) and not samples.min_distance > 0:
-        raise c.invalid(
+        raise e.invalid(
             f"the minimum distance of these samples is {samples.min_distance}; give min_distance"
         )
     if density is not None and surface is None:
-        raise c.invalid("a density is of a mesh, and these samples are in a box")
+        raise e.invalid("a density is of a mesh, and these samples are in a box")
     with folder() as place:
         arguments = [*write_subject(place, samples, surface), "--json", "report.json"]
         if density is not None and surface is not None:

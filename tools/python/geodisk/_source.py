@@ -1,0 +1,122 @@
+"""Meshes from files and polygons, as the program reads and splits them."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _library as c
+from . import _structs as s
+from ._arrays import real
+from ._polygons import Polygons
+
+_BUILTIN = "builtin:"
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """What was read.
+
+    Attributes
+    ----------
+    vertices : ndarray of float64, shape (v, d)
+    triangles : ndarray of uint32, shape (f, 3)
+    polygons : ndarray of uint32, shape (f,), or None
+        The file's face of each triangle, where the numbers differ.
+    attributes : dict of ndarray of float64, shape (v,)
+    handle : Handle
+        Has the memory of these arrays, and warnings of the reader.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.uint32]
+    polygons: NDArray[np.uint32] | None
+    attributes: dict[str, NDArray[np.float64]]
+    handle: c.Handle
+
+
+def read_file(
+    path: str | os.PathLike[str],
+    weld: bool | float,
+    names: Sequence[str],
+    stop: ctypes.c_int32,
+) -> Source:
+    """Reads a mesh file with the readers of the program.
+
+    Raises
+    ------
+    OSError
+        For a file that is not there or may not be read.
+    MeshRejected
+        For a file that holds no mesh, or a damaged one.
+    """
+    name = os.fspath(path)
+    if not name.startswith(_BUILTIN):
+        os.stat(name)  # Raises Python's own errors.
+        if not os.access(name, os.R_OK):
+            raise PermissionError(13, "Permission denied", name)
+    encoded = (ctypes.c_char_p * len(names))(*(attribute.encode() for attribute in names))
+    params = s.SourceParams(
+        path=os.fsencode(name), attributes=encoded, attribute_count=len(names)
+    )
+    return _read(params, weld, names, stop)
+
+
+def split(
+    vertices: NDArray[Any], polygons: Polygons, weld: bool | float, stop: ctypes.c_int32
+) -> Source:
+    """Splits polygons into triangles as the readers do."""
+    positions = np.ascontiguousarray(vertices, np.float64)
+    polygons.check(len(positions))
+    params = s.SourceParams(
+        positions=positions.ctypes.data,
+        dimension=positions.shape[1],
+        vertex_count=len(positions),
+        corners=polygons.corners.ctypes.data,
+        face_ends=polygons.ends.ctypes.data,
+        face_count=len(polygons.ends),
+    )
+    return _read(params, weld, (), stop)
+
+
+def _read(
+    params: s.SourceParams, weld: bool | float, names: Sequence[str], stop: ctypes.c_int32
+) -> Source:
+    params.stop = ctypes.pointer(stop)
+    if weld is not False:
+        params.weld = 1
+        params.weld_distance = 0.0 if weld is True else float(weld)
+    handle = c.Handle("source", "geodisk_source_read", ctypes.byref(params))
+    arrays = s.SourceArrays()
+    c.call("geodisk_source_describe", handle.value, ctypes.byref(arrays))
+    attributes = {}
+    for index, name in enumerate(names):
+        values = ctypes.POINTER(ctypes.c_double)()
+        c.call("geodisk_source_attribute", handle.value, index, ctypes.byref(values))
+        attributes[name] = _view(values, (arrays.vertex_count,), handle)
+    return Source(
+        vertices=_view(arrays.positions, (arrays.vertex_count, arrays.dimension), handle),
+        triangles=_view(arrays.triangles, (arrays.triangle_count, 3), handle),
+        polygons=_view(arrays.polygons, (arrays.triangle_count,), handle)
+        if arrays.polygons
+        else None,
+        attributes=attributes,
+        handle=handle,
+    )
+
+
+def _view(pointer: Any, shape: tuple[int, ...], handle: c.Handle) -> NDArray[Any]:
+    """Returns the memory as an array that cannot be written, and keeps `handle`."""
+    count = int(np.prod(shape))
+    memory: Any = (pointer._type_ * count).from_address(
+        ctypes.addressof(pointer.contents) if pointer else 0
+    )
+    memory.handle = handle
+    array = np.frombuffer(memory, pointer._type_).reshape(shape)
+    array.flags.writeable = False
+    return array

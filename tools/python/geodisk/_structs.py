@@ -1,0 +1,221 @@
+"""The structs and numbers of geodisk/geodisk.h and of geodisk_python.h."""
+
+from __future__ import annotations
+
+from ctypes import (
+    POINTER,
+    Structure,
+    c_char,
+    c_char_p,
+    c_double,
+    c_int32,
+    c_size_t,
+    c_uint8,
+    c_uint32,
+    c_uint64,
+    c_void_p,
+    sizeof,
+)
+from typing import Any
+
+FLOAT64, FLOAT32, UINT32, UINT16 = range(4)
+FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART = range(6)
+METRICS = {"geodesic": 0, "euclidean": 1, "approximate": 2}
+NO_ELEMENT = 2**64 - 1
+
+
+class _Sized(Structure):
+    """A struct that begins with its size."""
+
+    def __init__(self, **fields: Any) -> None:
+        super().__init__(struct_size=sizeof(type(self)), **fields)
+
+
+class CError(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("status", c_int32),
+        ("vk_result", c_int32),
+        ("element", c_uint64),
+        ("message", c_char * 1024),
+    ]
+
+
+class DeviceInfo(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("is_usable", c_int32),
+        ("type", c_uint32),
+        ("vendor_id", c_uint32),
+        ("device_id", c_uint32),
+        ("api_version", c_uint32),
+        ("driver_version", c_uint32),
+        ("compute_queue_family", c_uint32),
+        ("graphics_queue_family", c_uint32),
+        ("memory_bytes", c_uint64),
+        ("uuid", c_uint8 * 16),
+        ("name", c_char * 256),
+        ("driver", c_char * 512),
+        ("reasons", c_char * 1024),
+    ]
+
+
+class DeviceOptions(_Sized):
+    _fields_ = [("struct_size", c_size_t), ("device", c_char_p), ("validation", c_int32)]
+
+
+class MeshParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("positions", c_void_p),
+        ("position_type", c_int32),
+        ("dimension", c_uint32),
+        ("vertex_count", c_size_t),
+        ("position_stride", c_size_t),
+        ("indices", c_void_p),
+        ("index_type", c_int32),
+        ("face_count", c_size_t),
+        ("index_stride", c_size_t),
+        ("edge_lengths", c_void_p),
+        ("weld", c_int32),
+        ("weld_distance", c_double),
+        ("most_threads", c_uint32),
+    ]
+
+
+class MeshInfo(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("dimension", c_uint32),
+        ("vertices", c_uint64),
+        ("faces", c_uint64),
+        ("components", c_uint64),
+        ("boundary_edges", c_uint64),
+        ("coinciding_border_edges", c_uint64),
+        ("nonmanifold_edges", c_uint64),
+        ("repeated_index_faces", c_uint64),
+        ("zero_area_faces", c_uint64),
+        ("merged_vertices", c_uint64),
+        ("area", c_double),
+        ("diagonal", c_double),
+        ("longest_edge", c_double),
+    ]
+
+
+class SurfaceParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("min_distance", c_double),
+        ("seed", c_uint64),
+        ("pool_ratio", c_double),
+        ("throws", c_uint32),
+        ("stop_count", c_uint32),
+        ("radii", c_void_p),
+        ("face_keys", c_void_p),
+        ("metric", c_int32),
+    ]
+
+
+class BoxParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("extents", POINTER(c_double)),
+        ("dimension", c_uint32),
+        ("is_periodic", c_int32),
+        ("min_distance", c_double),
+        ("seed", c_uint64),
+        ("pool_ratio", c_double),
+        ("throws", c_uint32),
+        ("stop_count", c_uint32),
+    ]
+
+
+class SamplerOptions(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("device_bytes", c_uint64),
+        ("submission_seconds", c_double),
+        ("stall_seconds", c_double),
+        ("count_calls", c_int32),
+    ]
+
+
+class Progress(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("decided", c_uint32),
+        ("candidates", c_uint32),
+        ("accepted", c_uint32),
+        ("disks", c_uint32),
+        ("windows", c_uint64),
+    ]
+
+
+class Report(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("samples", c_uint64),
+        ("candidates", c_uint32),
+        ("iterations", c_uint32),
+        ("dispatches", c_uint32),
+        ("disks", c_uint32),
+        ("windows", c_uint64),
+        ("device_bytes", c_uint64),
+        ("min_distance", c_double),
+        ("guard", c_double),
+        ("rho", c_double),
+        ("compile_seconds", c_double),
+        ("upload_seconds", c_double),
+        ("sample_seconds", c_double),
+        ("readback_seconds", c_double),
+        ("calls", c_uint64 * 10),
+    ]
+
+
+class SurfacePart(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("mesh", c_void_p),
+        ("params", POINTER(SurfaceParams)),
+        ("scale", c_double),
+    ]
+
+
+class SourceParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("path", c_char_p),
+        ("positions", c_void_p),
+        ("dimension", c_uint32),
+        ("vertex_count", c_size_t),
+        ("corners", c_void_p),
+        ("face_ends", c_void_p),
+        ("face_count", c_size_t),
+        ("weld", c_int32),
+        ("weld_distance", c_double),
+        ("attributes", POINTER(c_char_p)),
+        ("attribute_count", c_size_t),
+        ("stop", POINTER(c_int32)),
+    ]
+
+
+class SourceArrays(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("positions", POINTER(c_double)),
+        ("dimension", c_uint32),
+        ("vertex_count", c_size_t),
+        ("triangles", POINTER(c_uint32)),
+        ("triangle_count", c_size_t),
+        ("polygons", POINTER(c_uint32)),
+        ("polygon_count", c_size_t),
+    ]
+
+
+class Oddity(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kind", c_char_p),
+        ("count", c_uint64),
+        ("message", c_char_p),
+    ]

@@ -1,0 +1,87 @@
+"""The arrays of a mesh."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from ._arrays import indices, real, rows
+
+
+def vertex_number(value: Any) -> int:
+    number = operator.index(value)
+    if not 0 <= number <= 2**32 - 1:
+        raise e.invalid(f"there are {number} vertices, not from 0 to {2**32 - 1}")
+    return number
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What a mesh is made of. Arrays of the caller are kept by reference.
+
+    Attributes
+    ----------
+    vertices : array_like of float, shape (v, d), or int
+        Their number where there are lengths.
+    faces : array_like of int, shape (f, 3)
+        Triangles.
+    edge_lengths : array_like of float, shape (f, 3), optional
+    weld : bool or float
+    polygons : ndarray of uint32, shape (f,), optional
+        The caller's face of each triangle, where the numbers differ.
+    attributes : dict of ndarray of float64, shape (v,)
+        Read from a file.
+    """
+
+    vertices: Any
+    faces: Any
+    edge_lengths: Any = None
+    weld: bool | float = False
+    polygons: NDArray[np.uint32] | None = None
+    attributes: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+
+    def indices(self) -> NDArray[Any]:
+        """Returns the faces as uint32 or uint16."""
+        array = indices(self.faces, "faces", e.MeshRejected)
+        if array.ndim != 2 or array.shape[1] != 3:
+            raise e.invalid(f"faces have the shape {array.shape}, not (f, 3)")
+        return array
+
+    def coordinates(self) -> NDArray[Any]:
+        """Returns the vertices as float64 or float32."""
+        array = rows(real(self.vertices, "vertices"))
+        if array.ndim != 2 or not 2 <= array.shape[1] <= 8:
+            raise e.invalid(f"vertices have the shape {array.shape}, not (v, 2) to (v, 8)")
+        return array
+
+    def lengths(self) -> NDArray[np.float64]:
+        """Returns the lengths of the edges of each face."""
+        array = np.ascontiguousarray(real(self.edge_lengths, "edge_lengths"), np.float64)
+        shape = np.shape(self.faces)
+        if array.shape != shape:
+            raise e.invalid(f"edge_lengths have the shape {array.shape}, the faces {shape}")
+        return array
+
+    def dimension(self) -> int:
+        """Returns the number of coordinates of each vertex, 0 without any."""
+        return 0 if self.edge_lengths is not None else int(self.coordinates().shape[1])
+
+    def vertex_count(self) -> int:
+        if self.edge_lengths is not None:
+            return vertex_number(self.vertices)
+        return len(self.coordinates())
+
+    def factors(self, density: ArrayLike) -> NDArray[Any]:
+        """Returns a density as float64 or float32, one number for each vertex."""
+        array = np.ascontiguousarray(real(density, "density"))
+        if array.shape != (self.vertex_count(),):
+            raise e.invalid(
+                f"density has the shape {array.shape}, not ({self.vertex_count()},), "
+                "one for each vertex"
+            )
+        return array.astype(array.dtype.newbyteorder("="), copy=False)

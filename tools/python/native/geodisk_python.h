@@ -1,0 +1,89 @@
+/* What the Python package needs besides geodisk/geodisk.h: meshes as the program reads them, and the
+ * warnings that it prints. The conventions are those of geodisk.h.
+ *
+ * This is no public interface. The library that has it is part of the package and changes with it.
+ */
+#ifndef GEODISK_PYTHON_H
+#define GEODISK_PYTHON_H
+
+#include <geodisk/geodisk.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A mesh file, or polygons of the caller, split into triangles. */
+typedef struct geodisk_source geodisk_source;
+
+/* What to read. Give `path`, or else the arrays of polygons. */
+typedef struct geodisk_source_params {
+    size_t struct_size;
+    const char *path;          /* UTF-8, or builtin:NAME. */
+    const double *positions;   /* `dimension` coordinates for each vertex, side by side. */
+    uint32_t dimension;        /* 2 to 8. */
+    size_t vertex_count;
+    const uint32_t *corners;   /* Vertices of all faces, one face after another. */
+    const uint64_t *face_ends; /* For each face, the end of its corners. */
+    size_t face_count;
+    int32_t weld;              /* As in geodisk_mesh_params. */
+    double weld_distance;
+    /* Names of vertex attributes to read. */
+    const char *const *attributes;
+    size_t attribute_count;
+    /* Reading ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
+    const volatile int32_t *stop;
+} geodisk_source_params;
+
+/* Reads a mesh. Fails with GEODISK_MESH_REJECTED for a file that cannot be read or used. */
+GEODISK_C_API geodisk_status geodisk_source_read(const geodisk_source_params *params,
+                                                 geodisk_source **source, geodisk_error *error);
+
+/* The arrays of a source. They live as long as it does. */
+typedef struct geodisk_source_arrays {
+    size_t struct_size;
+    const double *positions;
+    uint32_t dimension;
+    size_t vertex_count;
+    const uint32_t *triangles; /* Three vertices each. */
+    size_t triangle_count;
+    const uint32_t *polygons;  /* The file's face of each triangle; NULL where the numbers agree. */
+    size_t polygon_count;      /* Faces of the file. */
+} geodisk_source_arrays;
+
+GEODISK_C_API geodisk_status geodisk_source_describe(const geodisk_source *source,
+                                                     geodisk_source_arrays *arrays,
+                                                     geodisk_error *error);
+
+/* Writes to `values` where those of an attribute are, one for each vertex. */
+GEODISK_C_API geodisk_status geodisk_source_attribute(const geodisk_source *source, size_t index,
+                                                      const double **values, geodisk_error *error);
+
+GEODISK_C_API void geodisk_source_release(geodisk_source *source);
+
+/* Everything odd about a mesh. */
+typedef struct geodisk_warnings geodisk_warnings;
+
+/* One oddity. The texts live as long as the list. */
+typedef struct geodisk_warning {
+    size_t struct_size;
+    const char *kind;    /* "duplicate_faces" and so on. */
+    uint64_t count;
+    const char *message; /* A sentence of the program. */
+} geodisk_warning;
+
+/* Lists what the program prints about `mesh`, open seams first. `source` is what it was made of, or
+ * NULL for arrays of the caller. */
+GEODISK_C_API geodisk_status geodisk_warnings_list(const geodisk_mesh *mesh,
+                                                   const geodisk_source *source,
+                                                   geodisk_warnings **warnings,
+                                                   geodisk_error *error);
+GEODISK_C_API size_t geodisk_warnings_count(const geodisk_warnings *warnings);
+GEODISK_C_API geodisk_status geodisk_warnings_get(const geodisk_warnings *warnings, size_t index,
+                                                  geodisk_warning *warning, geodisk_error *error);
+GEODISK_C_API void geodisk_warnings_release(geodisk_warnings *warnings);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

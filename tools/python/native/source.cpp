@@ -1,0 +1,136 @@
+#include "source.hpp"
+
+#include <span>
+#include <string>
+#include <utility>
+
+#include "c/call.hpp"
+#include "files/mesh_file.hpp"
+#include "files/polygon_mesh.hpp"
+#include "program/failure.hpp"
+
+using namespace geodisk;
+using namespace geodisk::c;
+using namespace geodisk::tools;
+
+namespace {
+
+/// Ends the reading of a file whose reader was asked to stop.
+struct Stopped {};
+
+Status status_of(ExitCode code) {
+    switch (code) {
+    case ExitCode::usage:
+        return Status::invalid_argument;
+    case ExitCode::out_of_memory:
+        return Status::out_of_host_memory;
+    case ExitCode::internal:
+        return Status::internal;
+    default:
+        return Status::mesh_rejected;
+    }
+}
+
+PolygonMesh polygons_of(const geodisk_source_params& params) {
+    PolygonMesh polygons;
+    polygons.dimension = params.dimension;
+    polygons.positions.assign(params.positions,
+                              params.positions + params.vertex_count * params.dimension);
+    polygons.face_ends.assign(params.face_ends, params.face_ends + params.face_count);
+    const std::size_t corners = params.face_count == 0 ? 0 : polygons.face_ends.back();
+    polygons.corners.assign(params.corners, params.corners + corners);
+    return polygons;
+}
+
+MeshFile mesh_of(const geodisk_source_params& params) {
+    MeshSources sources;
+    if (params.weld != 0) {
+        sources.weld = Length{params.weld_distance, false};
+    }
+    if (params.path == nullptr) {
+        sources.mesh = "mesh";
+        return split_into_triangles(sources, polygons_of(params));
+    }
+    sources.mesh = params.path;
+    for (const char* const name : std::span(params.attributes, params.attribute_count)) {
+        sources.attributes.emplace_back(name);
+    }
+    sources.progress = [stop = params.stop](double) {
+        if (stop != nullptr && *stop != 0) {
+            throw Stopped();
+        }
+    };
+    return read_mesh(sources);
+}
+
+Result<MeshFile> read(const geodisk_source_params& params) {
+    try {
+        return mesh_of(params);
+    } catch (const UserError& error) {
+        return Error{status_of(error.code()), error.what()};
+    } catch (const Stopped&) {
+        return Error{Status::cancelled, "reading was stopped"};
+    }
+}
+
+} // namespace
+
+extern "C" {
+
+geodisk_status geodisk_source_read(const geodisk_source_params* params, geodisk_source** source,
+                                   geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (source == nullptr) {
+            return wrong("source is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        auto mesh = read(*given);
+        if (!mesh) {
+            return mesh.error();
+        }
+        *source = new geodisk_source{std::move(*mesh)};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_source_describe(const geodisk_source* source, geodisk_source_arrays* arrays,
+                                       geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (source == nullptr) {
+            return wrong("source is NULL");
+        }
+        const MeshFile& mesh = source->mesh;
+        geodisk_source_arrays value{};
+        value.positions = mesh.positions.data();
+        value.dimension = mesh.dimension;
+        value.vertex_count = mesh.positions.size() / mesh.dimension;
+        value.triangles = mesh.triangles.data();
+        value.triangle_count = mesh.triangle_count();
+        value.polygons = mesh.polygons.empty() ? nullptr : mesh.polygons.data();
+        value.polygon_count = mesh.polygons.empty() ? mesh.triangle_count() : mesh.polygon_count;
+        return give(arrays, "arrays", value);
+    });
+}
+
+geodisk_status geodisk_source_attribute(const geodisk_source* source, size_t index,
+                                        const double** values, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (source == nullptr || values == nullptr) {
+            return wrong("source or values is NULL");
+        }
+        if (index >= source->mesh.attributes.size()) {
+            return wrong("there is no attribute " + std::to_string(index));
+        }
+        *values = source->mesh.attributes[index].data();
+        return Done{};
+    });
+}
+
+void geodisk_source_release(geodisk_source* source) {
+    delete source;
+}
+
+} // extern "C"

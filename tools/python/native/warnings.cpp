@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "c/call.hpp"
+#include "c/mesh.hpp"
+#include "geometry/surface_warnings.hpp"
+#include "source.hpp"
+
+using namespace geodisk;
+using namespace geodisk::c;
+using namespace geodisk::tools;
+
+struct geodisk_warnings {
+    std::vector<MeshWarning> list;
+};
+
+namespace {
+
+bool is_about_seams(const MeshWarning& warning) {
+    return warning.kind == "unwelded";
+}
+
+/// Warnings about arrays of the caller, of which only the prepared mesh knows.
+std::vector<MeshWarning> array_warnings(const c::Mesh& mesh) {
+    std::vector<MeshWarning> warnings;
+    warn_of_repeated_vertices(warnings, mesh.prepared.statistics().repeated_index_faces, "");
+    MeshFile file;
+    file.lengths.resize(1); // No reader has judged the areas.
+    std::ranges::move(surface_warnings(file, mesh.prepared), std::back_inserter(warnings));
+    return warnings;
+}
+
+std::vector<MeshWarning> warnings_of(const c::Mesh& mesh, const geodisk_source* source) {
+    std::vector<MeshWarning> warnings;
+    if (source == nullptr) {
+        warnings = array_warnings(mesh);
+    } else {
+        warnings = source->mesh.warnings;
+        std::ranges::move(surface_warnings(source->mesh, mesh.prepared),
+                          std::back_inserter(warnings));
+    }
+    std::ranges::stable_partition(warnings, is_about_seams);
+    return warnings;
+}
+
+} // namespace
+
+extern "C" {
+
+geodisk_status geodisk_warnings_list(const geodisk_mesh* mesh, const geodisk_source* source,
+                                     geodisk_warnings** warnings, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || warnings == nullptr) {
+            return wrong("mesh or warnings is NULL");
+        }
+        *warnings = new geodisk_warnings{warnings_of(*mesh->shared, source)};
+        return Done{};
+    });
+}
+
+size_t geodisk_warnings_count(const geodisk_warnings* warnings) {
+    return warnings == nullptr ? 0 : warnings->list.size();
+}
+
+geodisk_status geodisk_warnings_get(const geodisk_warnings* warnings, size_t index,
+                                    geodisk_warning* warning, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (warnings == nullptr || index >= warnings->list.size()) {
+            return wrong("there is no such warning");
+        }
+        const MeshWarning& found = warnings->list[index];
+        geodisk_warning value{};
+        value.kind = found.kind.c_str();
+        value.count = found.count;
+        value.message = found.message.c_str();
+        return give(warning, "warning", value);
+    });
+}
+
+void geodisk_warnings_release(geodisk_warnings* warnings) {
+    delete warnings;
+}
+
+} // extern "C"
