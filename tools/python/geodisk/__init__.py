@@ -22,9 +22,11 @@ from ._errors import (
     OutOfMemory,
 )
 from ._library import version
+from ._many import sample_many
 from ._mesh import Mesh
 from ._picture import Picture, render
 from ._reading import read
+from ._sample import Sample
 from ._samples import Samples
 from ._sampling import sample, sample_box
 from ._transfer import transfer
@@ -45,6 +47,7 @@ __all__ = [
     "NoProgram",
     "OutOfMemory",
     "Picture",
+    "Sample",
     "Samples",
     "Verification",
     "devices",
@@ -52,6 +55,7 @@ __all__ = [
     "render",
     "sample",
     "sample_box",
+    "sample_many",
     "transfer",
     "verify",
 ]

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
+import operator
 import os
 import threading
 from dataclasses import dataclass
+from typing import Iterator, Union
 
+from . import _errors as e
 from . import _library as c
 from . import _structs as s
 
 
 @dataclass(frozen=True)
 class Device:
-    """A Vulkan device of this machine.
+    """A Vulkan device of this machine, which ``device=`` of other functions takes.
 
     Attributes
     ----------
     index : int
-        What ``device=str(index)`` chooses.
+        Its place in the list.
     name, driver : str
     type : str
         ``"discrete"``, ``"integrated"``, ``"virtual"``, ``"cpu"`` or ``"other"``.
@@ -51,6 +55,8 @@ def devices() -> list[Device]:
     NoDevice
         Without loader, driver or device, with a hint what to install.
     """
+    global _uses_drivers
+    _uses_drivers = True
     count = ctypes.c_size_t()
     c.call("geodisk_list_devices", None, 0, ctypes.byref(count))
     infos = (s.DeviceInfo * count.value)()
@@ -72,38 +78,82 @@ def devices() -> list[Device]:
     ]
 
 
+#: What chooses a device: one of devices(), its index, its UUID or a part of its name.
+DeviceLike = Union[Device, int, str]
+
+
+def name_of(device: DeviceLike | None) -> str:
+    """Returns what the library chooses a device by; "" for the best one.
+
+    None is what the environment variable GEODISK_DEVICE says.
+    """
+    if device is None:
+        return os.environ.get("GEODISK_DEVICE", "")
+    if isinstance(device, Device):
+        return device.uuid if int(device.uuid, 16) != 0 else str(device.index)
+    if isinstance(device, str):
+        return device
+    return str(operator.index(device))
+
+
 _lock = threading.Lock()
-_opened: dict[str, c.Handle] = {}  # Handles of devices by name, for all threads.
-_kept = threading.local()  # Samplers by name, of this thread.
+_opened: dict[str, c.Handle] = {}  # Devices by name, for all threads.
+_idle: dict[str, list[c.Handle]] = {}  # Samplers without a run, by name.
+_uses_drivers = False
+
+
+def _open(name: str) -> c.Handle:
+    """Returns the device, opened at the first call."""
+    global _uses_drivers
+    _uses_drivers = True
+    with _lock:
+        if name not in _opened:
+            options = s.DeviceOptions(device=name.encode())
+            try:
+                _opened[name] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
+            except e.NoDevice as error:
+                if name and name == os.environ.get("GEODISK_DEVICE"):
+                    raise e.NoDevice(f"{error} (GEODISK_DEVICE is {name})", error.status) from None
+                raise
+        return _opened[name]
+
+
+@contextlib.contextmanager
+def sampler_on(name: str) -> Iterator[ctypes.c_void_p]:
+    """Lends a sampler on a device, for one run. Pipelines are compiled at the first call."""
+    device = _open(name)
+    idle = _idle.setdefault(name, [])
+    try:
+        sampler = idle.pop()
+    except IndexError:
+        sampler = c.Handle("sampler", "geodisk_sampler_create", device.value, None)
+    is_lost = False
+    try:
+        yield sampler.value
+    except e.DeviceLost:
+        is_lost = True
+        raise
+    finally:
+        if not is_lost:
+            idle.append(sampler)
+
+
+def forget(name: str) -> None:
+    """Lets the next call open the device again."""
+    with _lock:
+        _opened.pop(name, None)
+        _idle.pop(name, None)
 
 
 def _forget_in_child() -> None:
-    """Drivers do not survive fork(): a child opens its own, and leaves alone what is its parent's."""
-    global _lock, _opened, _kept
-    _library_objects_of_the_parent.append((_opened, _kept))
-    _lock, _opened, _kept = threading.Lock(), {}, threading.local()
+    """Leaves the parent's devices alone after fork(), which drivers do not survive."""
+    global _lock, _opened, _idle
+    for handle in [*_opened.values(), *(one for idle in _idle.values() for one in idle)]:
+        handle.abandon()
+    _lock, _opened, _idle = threading.Lock(), {}, {}
+    if _uses_drivers:
+        c.skip_exit_handlers()
 
 
-_library_objects_of_the_parent: list[object] = []
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget_in_child)
-
-
-def sampler_on(device: str) -> c.Handle:
-    """The sampler that this thread has on a device, opened and compiled at the first call."""
-    samplers: dict[str, c.Handle] = _kept.__dict__.setdefault("samplers", {})
-    if device not in samplers:
-        with _lock:
-            if device not in _opened:
-                options = s.DeviceOptions(device=device.encode())
-                _opened[device] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
-            opened = _opened[device]
-        samplers[device] = c.Handle("sampler", "geodisk_sampler_create", opened.value, None)
-    return samplers[device]
-
-
-def forget(device: str) -> None:
-    """Lets the next call open the device anew."""
-    with _lock:
-        _opened.pop(device, None)
-    _kept.__dict__.setdefault("samplers", {}).pop(device, None)

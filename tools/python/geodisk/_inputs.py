@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from ._mesh import mesh_of
-from ._protocols import MeshLike
+from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._surface import Surface
 from ._writing import header_of, write_ply
@@ -19,7 +19,7 @@ from ._writing import header_of, write_ply
 def surface_of(
     samples: Samples,
     vertices: ArrayLike | MeshLike | None,
-    faces: ArrayLike | None,
+    faces: Faces | None,
     edge_lengths: ArrayLike | None,
     weld: bool | float,
 ) -> Surface | None:

@@ -110,6 +110,8 @@ _library.geodisk_cancel.argtypes = [c_void_p]
 _library.geodisk_cancel.restype = None
 _library.geodisk_samples_count.argtypes = [c_void_p]
 _library.geodisk_samples_count.restype = c_size_t
+_library.geodisk_skip_exit_handlers.argtypes = []
+_library.geodisk_skip_exit_handlers.restype = None
 _library.geodisk_warnings_count.argtypes = [c_void_p]
 _library.geodisk_warnings_count.restype = c_size_t
 _library.geodisk_samples_width.argtypes = [c_void_p, c_int32]
@@ -140,6 +142,11 @@ def samples_count(samples: c_void_p) -> int:
     return int(_library.geodisk_samples_count(samples))
 
 
+def skip_exit_handlers() -> None:
+    """Lets this process end without the handlers that were registered for its end so far."""
+    _library.geodisk_skip_exit_handlers()
+
+
 def warnings_count(warnings: c_void_p) -> int:
     return int(_library.geodisk_warnings_count(warnings))
 
@@ -156,6 +163,10 @@ class Handle:
         self.value = c_void_p()
         if make is not None:
             call(make, *arguments, byref(self.value))
+
+    def abandon(self) -> None:
+        """Never releases the object."""
+        self.value = c_void_p()
 
     def __del__(self) -> None:
         value, self.value = getattr(self, "value", None), c_void_p()

@@ -17,7 +17,7 @@ from ._background import interruptible
 from ._objects import arrays_of, faces_of, is_object
 from ._oddities import oddities_of, warn
 from ._polygons import Polygons
-from ._protocols import MeshLike
+from ._protocols import Faces, MeshLike
 from ._source import Source, read_file, split
 from ._surface import Surface
 
@@ -91,7 +91,7 @@ class Mesh:
     def __init__(
         self,
         vertices: ArrayLike | MeshLike,
-        faces: ArrayLike | Sequence[Sequence[int]] | None = None,
+        faces: Faces | None = None,
         *,
         edge_lengths: ArrayLike | None = None,
         weld: bool | float = False,
@@ -224,7 +224,7 @@ def is_mesh(source: Any) -> bool:
 
 def mesh_of(
     vertices: ArrayLike | MeshLike,
-    faces: ArrayLike | Sequence[Sequence[int]] | None,
+    faces: Faces | None,
     edge_lengths: ArrayLike | None,
     weld: bool | float,
 ) -> Mesh:

@@ -40,6 +40,8 @@ def arrays_of(source: Any) -> tuple[Any, Any]:
     for has, convert in _KINDS:
         if has(source):
             return convert(source)
+    if isinstance(source, (np.ndarray, list, tuple)):
+        raise TypeError("faces are missing: vertices alone are no mesh")
     raise TypeError(f"{_WHAT_IS_TAKEN}, not {type(source).__name__}")
 
 
@@ -138,6 +140,10 @@ def _from_grid(source: Any) -> tuple[Any, Any]:
     return _from_polydata(surface)
 
 
+def _from_blocks(source: Any) -> tuple[Any, Any]:
+    return _from_grid(source.combine())
+
+
 def _from_meshio(source: Any) -> tuple[Any, Any]:
     parts = []
     for cells in source.cells:
@@ -174,4 +180,5 @@ _KINDS = (
     (_has("vertices", "cells"), _from_vedo),
     (_has("points", "faces"), _from_polydata),
     (_has("points", "extract_surface"), _from_grid),
+    (_has("n_blocks", "combine"), _from_blocks),
 )

@@ -8,10 +8,11 @@ from typing import Sequence
 from numpy.typing import ArrayLike
 
 from . import _errors as e
+from ._devices import DeviceLike, name_of
 from ._files import complete
 from ._inputs import surface_of, write_subject
 from ._program import folder, run
-from ._protocols import MeshLike
+from ._protocols import Faces, MeshLike
 from ._samples import Samples
 
 
@@ -33,7 +34,7 @@ class Picture:
         return int.from_bytes(self.png[16:20], "big"), int.from_bytes(self.png[20:24], "big")
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes it to a file, ``*.png``, which is complete or not there."""
+        """Writes it to a file, ``*.png``, whole or not at all."""
         path = os.fspath(path)
         if os.path.splitext(path)[1].lower() != ".png":
             raise e.invalid(f"{path}: pictures are saved as *.png")
@@ -50,7 +51,7 @@ class Picture:
 def render(
     samples: Samples,
     vertices: ArrayLike | MeshLike | None = None,
-    faces: ArrayLike | None = None,
+    faces: Faces | None = None,
     *,
     size: tuple[int, int] = (960, 540),
     style: str = "disks",
@@ -60,7 +61,7 @@ def render(
     cut: bool = False,
     min_distance: float | None = None,
     weld: bool | float = False,
-    device: str | int | None = None,
+    device: DeviceLike | None = None,
 ) -> Picture:
     """Draws the surface, or a box of two or three dimensions, with the disk of each sample.
 
@@ -87,7 +88,7 @@ def render(
         Of a box of three dimensions, cut away the eighth nearest to the eye.
     min_distance : float, optional
         For disks of half of it, in the unit of the vertices, instead of the samples' radii.
-    device : str or int, optional
+    device : Device, int or str, optional
         As :func:`sample` takes it.
 
     Returns
@@ -120,8 +121,8 @@ def render(
         options.append("--cut")
     if min_distance is not None:
         options += ["--min-distance", repr(float(min_distance))]
-    if device is not None:
-        options += ["--device", str(device)]
+    if name_of(device):
+        options += ["--device", name_of(device)]
     with folder() as place:
         files = write_subject(place, samples, surface)
         run(place, ["render", *files, *options, "--output", "picture.png"])

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Protocol, Union
+from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
+
+from numpy.typing import ArrayLike
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -71,6 +73,9 @@ class HasGraph(Protocol):
     @property
     def graph(self) -> Any: ...
 
+
+#: Triangles, polygons of one size, or of several.
+Faces = Union[ArrayLike, Sequence[Sequence[int]]]
 
 #: A mesh that brings its faces, or the path of one.
 MeshLike = Union[

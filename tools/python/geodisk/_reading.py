@@ -79,7 +79,7 @@ def _samples(header: Header, **arrays: Any) -> Samples:
 
 
 def _from_npz(file: BinaryIO) -> Samples:
-    names = ("points", "normals", "face_index", "barycentric", "radius")
+    names = ("points", "normals", "face_index", "barycentric", "radius", "polygon_index")
     if not zipfile.is_zipfile(file):
         raise ValueError("is no archive of numpy, or is cut off")
     file.seek(0)
@@ -88,6 +88,18 @@ def _from_npz(file: BinaryIO) -> Samples:
         header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
         arrays = {name: archive[name] for name in names if name in archive}
     return _samples(header, **arrays)
+
+
+def _whole(columns: Columns, name: str) -> NDArray[Any] | None:
+    """Returns a column of integers, which text has as floats."""
+    numbers = columns.get(name)
+    if numbers is None or numbers.dtype.kind != "f":
+        return numbers
+    with np.errstate(invalid="ignore"):
+        whole = numbers.astype(np.int64)
+    if not (whole == numbers).all():
+        raise ValueError(f"{name} has numbers that are not whole")
+    return whole
 
 
 def _of_columns(columns: Columns, header: Header) -> Samples:
@@ -100,18 +112,12 @@ def _of_columns(columns: Columns, header: Header) -> Samples:
     if points is not None and ("box" in header or "dimension" in header):
         sides = len(header["box"].split(" x ")) if "box" in header else int(header["dimension"])
         points = np.ascontiguousarray(points[:, :sides])
-    faces = columns.get("face_index")
-    if faces is not None and faces.dtype.kind == "f":
-        with np.errstate(invalid="ignore"):
-            whole = faces.astype(np.int64)
-        if not (whole == faces).all():
-            raise ValueError("face_index has numbers that are not whole")
-        faces = whole
     return _samples(
         header,
         points=points,
         normals=table("nx", "ny", "nz"),
-        face_index=faces,
+        face_index=_whole(columns, "face_index"),
+        polygon_index=_whole(columns, "polygon_index"),
         barycentric=table("bary_u", "bary_v", "bary_w"),
         radius=columns.get("radius"),
     )

@@ -2,22 +2,35 @@
 
 from __future__ import annotations
 
-import ctypes
+import copy
+import dataclasses
 import math
 import os
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any, Iterator, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
-from . import _library as c
-from . import _structs as s
 from ._arrays import indices, real
 from ._files import complete
+from ._sample import Sample
 from ._surface import Surface
-from ._writing import header_of, write_csv, write_npz, write_ply
+from ._writing import columns_of, header_of, write_csv, write_npz, write_ply
+
+if TYPE_CHECKING:
+    import pandas
+
+_COLUMNS = (
+    "points",
+    "normals",
+    "face_index",
+    "barycentric",
+    "polygon_index",
+    "radius",
+    "order",
+)
 
 
 def _table(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
@@ -41,20 +54,20 @@ class Samples:
     Attributes
     ----------
     points : ndarray of float64, shape (n, d) or None
-        Where they are; None on a mesh of lengths.
+        Coordinates; None on a mesh of edge lengths.
     normals : ndarray of float64, shape (n, 3) or None
-        Of their triangles, on meshes in three dimensions.
+        Normals of the triangles, on meshes in three dimensions.
     face_index : ndarray of uint32, shape (n,) or None
-        Their triangles, on meshes.
+        Triangles, on meshes: rows of ``Mesh.triangles``.
     barycentric : ndarray of float64, shape (n, 3) or None
-        Weights of their triangles' corners. They sum to 1.
+        Weights of the triangles' corners. They sum to 1.
     radius : ndarray of float64, shape (n,)
-        Half the minimum distance, or where radii vary, of each.
+        Half the minimum distance, or where radii vary, the radius of each.
     order : ndarray of int64, shape (n,)
-        Their places in the order of the darts.
+        Places in the order of the darts.
     min_distance : float
-        No two are closer along the surface; where radii vary, two with the largest ones. NaN where
-        that is not known.
+        Smallest distance along the surface that two may have; where radii vary, two with the
+        largest radii. NaN if unknown.
     seed : int or None
     extents : tuple of float or None
         Sides of their box.
@@ -62,6 +75,8 @@ class Samples:
         Whether its opposite sides are glued together.
     report : dict
         How the run went: candidates, disks, windows, rho, bytes and seconds.
+    polygon_index : ndarray of uint32, shape (n,) or None
+        Faces as they were given, where polygons were split into triangles.
 
     Raises
     ------
@@ -71,14 +86,21 @@ class Samples:
     Notes
     -----
     Samples of a mesh refer to its arrays, so that :func:`verify`, :func:`render` and
-    :func:`transfer` need not be given them again. Files do not have them.
+    :func:`transfer` need not be given them again. Files and pickles do not have them.
+
+    ``samples[3]`` is a :class:`Sample`, and iteration gives one after the other. Slices, masks and
+    lists of indices give Samples with all that the chosen ones have.
 
     Examples
     --------
     >>> import geodisk
     >>> corner = geodisk.Samples([[0, 0, 0]], face_index=[0], barycentric=[[1, 0, 0]])
-    >>> len(corner)
-    1
+    >>> len(corner), corner[0].face_index
+    (1, 0)
+    >>> square = geodisk.sample_box([1, 1], min_distance=0.1)
+    >>> left = square[square.points[:, 0] < 0.5]
+    >>> len(left) < len(square), len(square[:10])
+    (True, 10)
     """
 
     points: NDArray[np.float64] | None = None
@@ -92,6 +114,7 @@ class Samples:
     extents: tuple[float, ...] | None = None
     periodic: bool = False
     report: dict[str, Any] = field(default_factory=dict)
+    polygon_index: NDArray[np.uint32] | None = None
     _surface: Surface | None = None
 
     def __post_init__(self) -> None:
@@ -114,6 +137,11 @@ class Samples:
             if faces.shape != (n,):
                 raise e.invalid(f"face_index have the shape {faces.shape}, not {(n,)}")
             keep("face_index", faces)
+            if self.polygon_index is not None:
+                polygons = indices(self.polygon_index, "polygon_index")
+                if polygons.shape != (n,):
+                    raise e.invalid(f"polygon_index has the shape {polygons.shape}, not {(n,)}")
+                keep("polygon_index", polygons.astype(np.uint32, copy=False))
             keep("barycentric", _table(self.barycentric, "barycentric", (n, 3)))
         distance = float(self.min_distance)
         if distance < 0 or math.isinf(distance):
@@ -140,12 +168,87 @@ class Samples:
     def __len__(self) -> int:
         return len(self.radius)
 
+    @overload
+    def __getitem__(self, key: int | np.integer[Any]) -> Sample: ...
+    @overload
+    def __getitem__(
+        self, key: slice | NDArray[Any] | list[int] | list[bool]
+    ) -> Samples: ...
+    def __getitem__(self, key: Any) -> Sample | Samples:
+        if isinstance(key, (int, np.integer)) and not isinstance(key, bool):
+            return self._sample(range(len(self))[key])
+        if not isinstance(key, slice):
+            key = np.asarray(key)
+            if key.ndim != 1 or (key.dtype.kind not in "iub" and key.size > 0):
+                raise IndexError("samples are chosen by an index, a slice, a mask or indices")
+            key = key if key.size > 0 else key.astype(np.int64)
+        columns = {name: getattr(self, name) for name in _COLUMNS}
+        chosen = {name: None if x is None else x[key] for name, x in columns.items()}
+        return dataclasses.replace(self, **chosen)
+
+    def __iter__(self) -> Iterator[Sample]:
+        return (self._sample(i) for i in range(len(self)))
+
+    def _sample(self, i: int) -> Sample:
+        def row(array: NDArray[Any] | None) -> Any:
+            return None if array is None else array[i]
+
+        def number(array: NDArray[Any] | None) -> int | None:
+            return None if array is None else int(array[i])
+
+        return Sample(
+            point=row(self.points),
+            normal=row(self.normals),
+            face_index=number(self.face_index),
+            barycentric=row(self.barycentric),
+            polygon_index=number(self.polygon_index),
+            radius=float(self.radius[i]),
+            order=int(self.order[i]),
+        )
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_surface": None}  # Meshes are often much larger.
+
+    def __copy__(self) -> Samples:
+        return dataclasses.replace(self)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Samples:
+        own = {name: copy.deepcopy(x, memo) for name, x in self.__getstate__().items()}
+        return dataclasses.replace(self, **{**own, "_surface": self._surface})
+
     def __repr__(self) -> str:
         seed = "" if self.seed is None else f", seed {self.seed}"
         return f"<geodisk.Samples: {len(self)}, {self.min_distance:.6g} apart{seed}>"
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Returns a table of pandas with the columns that files have.
+
+        Returns
+        -------
+        pandas.DataFrame
+            x, y, z (or x0, x1 ... in more dimensions), nx, ny, nz, face_index, bary_u, bary_v,
+            bary_w, polygon_index, radius and order, as far as there are any. ``attrs`` has the
+            minimum distance, the seed and the like.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError("to_dataframe() needs pandas (pip install pandas)") from None
+        columns = {**columns_of(self, as_box=True), "radius": self.radius, "order": self.order}
+        table = pandas.DataFrame({name: column.copy() for name, column in columns.items()})
+        table.attrs.update(header_of(self))
+        return table
+
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the samples to a file, which is complete or not there.
+        """Writes the samples to a file, whole or not at all.
+
+        What is at the path is replaced once all is written. Links are followed, and the file keeps
+        its permissions. Any number of threads and processes may save to one path.
 
         Parameters
         ----------
@@ -158,7 +261,7 @@ class Samples:
         ValueError
             For another kind of file.
         OSError
-            Where it cannot be written.
+            Where it cannot be written. What was there is kept.
         """
         path = os.fspath(path)
         writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
@@ -167,40 +270,3 @@ class Samples:
             raise e.invalid(f"{path}: samples are saved as *.npz, *.csv or *.ply")
         with complete(path) as file:
             write(file, self, header_of(self))
-
-
-def _copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any] | None:
-    width = c.samples_width(samples, attribute)
-    if width == 0:
-        return None
-    count = c.samples_count(samples)
-    array = np.empty((count, width), dtype)
-    kind = s.UINT32 if dtype == np.uint32 else s.FLOAT64
-    c.call("geodisk_samples_copy", samples, attribute, kind, array.ctypes.data, 0, count)
-    return array
-
-
-def samples_of(handle: c.Handle, seed: int, **domain: Any) -> Samples:
-    """What a run gave, in a `domain`: the extents of a box, or the surface."""
-    samples = handle.value
-    report = s.Report()
-    c.call("geodisk_samples_report", samples, ctypes.byref(report))
-    told = {
-        name: getattr(report, name)
-        for name, _ in s.Report._fields_
-        if name not in ("struct_size", "calls")
-    }
-    face = _copied(samples, s.FACE, np.uint32)
-    radius = _copied(samples, s.RADIUS, np.float64)
-    assert radius is not None
-    return Samples(
-        points=_copied(samples, s.POSITION, np.float64),
-        normals=_copied(samples, s.NORMAL, np.float64),
-        face_index=None if face is None else face[:, 0],
-        barycentric=_copied(samples, s.BARYCENTRIC, np.float64),
-        radius=radius[:, 0],
-        min_distance=report.min_distance,
-        seed=seed,
-        report=told,
-        **domain,
-    )

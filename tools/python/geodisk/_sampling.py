@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-import math
-import operator
-from ctypes import byref, c_double, c_int32
-from typing import Any, Callable
+from ctypes import byref, c_double
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,136 +11,18 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._devices import forget, sampler_on
+from ._devices import DeviceLike
 from ._mesh import keys_of, mesh_of, radii_of
-from ._protocols import MeshLike
-from ._samples import Samples, samples_of
-
-_PATIENCE = 100  # Milliseconds, after which Python looks for signals.
-
-#: Called with a number from 0 to 1, how far the run is, and with how many samples there are.
-ProgressCallback = Callable[[float, int], None]
-
-
-def _integer(value: Any, name: str, most: int) -> int:
-    number = operator.index(value)
-    if not 0 <= number <= most:
-        raise e.invalid(f"{name} is {number}, not from 0 to {most}")
-    return number
-
-
-def _distance(
-    min_distance: float | None, radius: float | None, count: float | None
-) -> float | None:
-    """The minimum distance, or None where a count chooses it."""
-    given = [x is not None for x in (min_distance, radius, count)]
-    if sum(given) != 1:
-        raise e.invalid("give one of min_distance, radius and count")
-    if min_distance is not None:
-        distance = float(min_distance)
-    elif radius is not None:
-        distance = 2 * float(radius)
-    else:
-        return None
-    if not (distance > 0 and math.isfinite(distance)):
-        raise e.invalid(f"the minimum distance is {distance}, not positive")
-    return distance
-
-
-class _Bar:
-    """Progress by tqdm."""
-
-    def __init__(self) -> None:
-        try:
-            from tqdm.auto import tqdm
-        except ImportError:
-            raise ImportError("progress=True needs tqdm (pip install tqdm)") from None
-        self._bar = tqdm(total=100, unit="%", desc="geodisk", leave=False)
-
-    def __call__(self, part: float, samples: int) -> None:
-        self._bar.n = round(100 * part, 1)
-        self._bar.set_postfix(samples=samples)
-
-    def close(self) -> None:
-        self._bar.close()
-
-
-def _polled(
-    sampler: ctypes.c_void_p, samples: c.Handle, tell: ProgressCallback | None
-) -> None:
-    """Goes on with a run until its samples are there. Python acts on signals in between."""
-    progress = s.Progress()
-    while not samples.value:
-        c.call("geodisk_poll", sampler, _PATIENCE, byref(samples.value))
-        if tell and not samples.value:
-            c.call("geodisk_sampler_progress", sampler, byref(progress))
-            tell(progress.decided / max(1, progress.candidates), progress.accepted)
-
-
-def _end(sampler: ctypes.c_void_p) -> None:
-    """Stops the run in progress, if there is one."""
-    rest = c.Handle("samples")
-    c.cancel(sampler)
-    try:
-        while not rest.value:
-            c.call("geodisk_poll", sampler, _PATIENCE, byref(rest.value))
-    except e.Error:  # Cancelled; or it had ended.
-        pass
-
-
-def _run(domain: c.Handle, device: str, tell: ProgressCallback | None) -> c.Handle:
-    sampler = sampler_on(device).value
-    samples = c.Handle("samples")
-    try:
-        c.call("geodisk_start", sampler, domain.value)
-        _polled(sampler, samples, tell)
-        return samples
-    except e.DeviceLost:
-        forget(device)
-        raise
-    except e.Error:
-        raise
-    except BaseException:  # Ctrl-C, or what a callback raises.
-        _end(sampler)
-        raise
-
-
-def _sampled(
-    domain_at: Callable[[float], c.Handle],
-    first: float,
-    count: float | None,
-    device: str | int | None,
-    progress: bool | ProgressCallback,
-) -> c.Handle:
-    """Samples at the first distance, or the one that a search for the count ends with."""
-    tell = progress if callable(progress) else _Bar() if progress else None
-    device = "" if device is None else str(device)
-    try:
-        if count is None:
-            return _run(domain_at(first), device, tell)
-        search = c.Handle("count_search", "geodisk_count_search_create", float(count))
-        distance, best = c_double(first), c.Handle("samples")
-        while distance.value > 0:
-            found = _run(domain_at(distance.value), device, tell)
-            nearest = c_int32()
-            c.call(
-                "geodisk_count_search_note",
-                search.value,
-                distance.value,
-                c.samples_count(found.value),
-                byref(distance),
-                byref(nearest),
-            )
-            best = found if nearest.value else best
-        return best
-    finally:
-        if isinstance(tell, _Bar):
-            tell.close()
+from ._protocols import Faces, MeshLike
+from ._results import samples_of
+from ._running import ProgressCallback, sampled
+from ._samples import Samples
+from ._values import distance_of, integer
 
 
 def sample(
     vertices: ArrayLike | MeshLike,
-    faces: ArrayLike | None = None,
+    faces: Faces | None = None,
     *,
     min_distance: float | None = None,
     radius: float | None = None,
@@ -157,7 +36,7 @@ def sample(
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
-    device: str | int | None = None,
+    device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
     """Random points on a mesh, no two closer than a minimum distance along the surface.
@@ -165,32 +44,37 @@ def sample(
     Parameters
     ----------
     vertices : array_like of float, shape (v, d), or a mesh
-        Coordinates; or a :class:`Mesh`, a ``trimesh.Trimesh``, an Open3D mesh or a path.
-    faces : array_like of int, shape (f, 3)
+        Coordinates; or a mesh that brings its faces: a :class:`Mesh`, the path of a file, or an
+        object of another package, as :class:`Mesh` takes it.
+    faces : array_like of int, shape (f, 3) or (f, k), or sequence of sequences
+        Triangles or polygons.
     min_distance, radius, count : float
-        One of them: the least distance along the surface in the unit of the vertices, half of it,
-        or about how many samples there are to be, for which a distance is found.
+        Give one: the minimum distance along the surface in the unit of the vertices, half of it,
+        or about how many samples are wanted, for which a distance is found.
     seed : int
-        Of 64 bits. Equal seeds give equal samples, on every device.
+        A number of 64 bits. Equal seeds give equal samples, on every device.
     density : array_like of float, shape (v,), optional
         Radii that vary: at each vertex the part of the largest radius, 0.001 to 1.
     pool_ratio : float
         Candidates per expected sample, 1 to 10,000; more leave fewer gaps.
     throws : int
-        So many darts instead of candidates by `pool_ratio`.
+        Number of darts, instead of candidates by `pool_ratio`.
     stop_count : int
-        Just the first so many samples.
+        Stop after this many samples.
     face_keys : array_like of int, shape (f,), optional
-        By which candidates of each face are drawn, no two alike: the same triangle with the same
-        key has the same candidates in every mesh.
+        Keys that candidates of each triangle are drawn by, no two alike: the same triangle with the
+        same key has the same candidates in every mesh.
     metric : {"geodesic", "euclidean", "approximate"}
         The latter two are for comparison.
     edge_lengths, weld
         As :class:`Mesh` has them.
-    device : str or int, optional
-        A part of its name, its index or its UUID; the best one if not given.
+    device : Device, int or str, optional
+        One of :func:`devices`, its index, its UUID or a part of its name. Without it, the device
+        that the environment variable GEODISK_DEVICE names, or else the best one.
     progress : bool or callable
-        True for a bar by tqdm; or what is called with the part done and the samples so far.
+        True for a bar by tqdm. A function is called about ten times per second with the part that
+        is done, 0 to 1, and the number of samples so far. If it returns False, the run stops with
+        :class:`Cancelled`; if it raises anything, the run stops with that.
 
     Returns
     -------
@@ -199,13 +83,20 @@ def sample(
     Raises
     ------
     MeshRejected
-        Where the mesh cannot be sampled; ``element`` is the face or vertex.
+        For a mesh that cannot be sampled; ``element`` is the face or vertex.
     InvalidArgument, TypeError
         For values out of range, and arrays of another kind or shape.
     NoDevice, OutOfMemory, DeviceLost
         As the device fails.
+    Cancelled
+        If the progress callback returns False.
     KeyboardInterrupt
         Ctrl-C ends a run at once.
+
+    Warns
+    -----
+    MeshWarning
+        As :class:`Mesh` does.
 
     Examples
     --------
@@ -218,8 +109,9 @@ def sample(
     >>> bool(samples.face_index.max() < 4)
     True
     """
-    distance = _distance(min_distance, radius, count)
-    seed = _integer(seed, "seed", 2**64 - 1)
+    distance = distance_of(min_distance, radius, count)
+    seed = integer(seed, "seed", 2**64 - 1)
+    stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
     mesh = mesh_of(vertices, faces, edge_lengths, weld)
@@ -228,15 +120,14 @@ def sample(
     params = s.SurfaceParams(
         seed=seed,
         pool_ratio=float(pool_ratio),
-        throws=_integer(throws, "throws", 2**32 - 1),
-        stop_count=_integer(stop_count, "stop_count", 2**32 - 1),
+        throws=integer(throws, "throws", 2**32 - 1),
         radii=None if radii is None else radii.value,
         face_keys=None if keys is None else keys.ctypes.data,
         metric=s.METRICS[metric],
     )
 
-    def domain_at(at: float) -> c.Handle:
-        params.min_distance = at
+    def domain_at(at: float, stop: int) -> c.Handle:
+        params.min_distance, params.stop_count = at, stop
         return c.Handle("domain", "geodisk_domain_surface", mesh._handle.value, byref(params))
 
     if distance is None:
@@ -249,8 +140,8 @@ def sample(
             byref(found),
         )
         distance = found.value
-    made = _sampled(domain_at, distance, count, device, progress)
-    return samples_of(made, seed, _surface=mesh._surface)
+    made = sampled(domain_at, distance, count, stop_count, device, progress)
+    return samples_of(made, seed, mesh._surface)
 
 
 def sample_box(
@@ -264,7 +155,7 @@ def sample_box(
     pool_ratio: float = 20,
     throws: int = 0,
     stop_count: int = 0,
-    device: str | int | None = None,
+    device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
     """Random points in a box, no two closer than a minimum distance.
@@ -286,28 +177,28 @@ def sample_box(
     >>> samples.points.shape[1]
     3
     """
-    distance = _distance(min_distance, radius, count)
+    distance = distance_of(min_distance, radius, count)
     sides = np.ascontiguousarray(extents, dtype=np.float64)
     if sides.ndim != 1:
         raise e.invalid("extents are one number for each dimension")
-    seed = _integer(seed, "seed", 2**64 - 1)
+    seed = integer(seed, "seed", 2**64 - 1)
+    stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     params = s.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),
         is_periodic=int(bool(periodic)),
         seed=seed,
         pool_ratio=float(pool_ratio),
-        throws=_integer(throws, "throws", 2**32 - 1),
-        stop_count=_integer(stop_count, "stop_count", 2**32 - 1),
+        throws=integer(throws, "throws", 2**32 - 1),
     )
 
-    def domain_at(at: float) -> c.Handle:
-        params.min_distance = at
+    def domain_at(at: float, stop: int) -> c.Handle:
+        params.min_distance, params.stop_count = at, stop
         return c.Handle("domain", "geodisk_domain_box", byref(params))
 
     if distance is None:
         found = c_double()
         c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
         distance = found.value
-    made = _sampled(domain_at, distance, count, device, progress)
+    made = sampled(domain_at, distance, count, stop_count, device, progress)
     return samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))

@@ -13,7 +13,7 @@ from . import _errors as e
 from ._inputs import surface_of, write_samples, write_surface
 from ._mesh import Mesh, is_mesh, mesh_of
 from ._program import folder, run
-from ._protocols import MeshLike
+from ._protocols import Faces, MeshLike
 from ._reading import read
 from ._samples import Samples
 
@@ -22,7 +22,7 @@ def transfer(
     samples: Samples,
     to: ArrayLike | MeshLike,
     vertices: ArrayLike | MeshLike | None = None,
-    faces: ArrayLike | None = None,
+    faces: Faces | None = None,
     *,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,

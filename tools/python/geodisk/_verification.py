@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from ._inputs import surface_of, write_density, write_subject
 from ._program import folder, run
-from ._protocols import MeshLike
+from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._writing import has_own_radii
 
@@ -84,7 +84,7 @@ class Verification:
 def verify(
     samples: Samples,
     vertices: ArrayLike | MeshLike | None = None,
-    faces: ArrayLike | None = None,
+    faces: Faces | None = None,
     *,
     min_distance: float | None = None,
     density: ArrayLike | None = None,

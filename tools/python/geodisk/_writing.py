@@ -38,8 +38,8 @@ def has_own_radii(samples: Samples) -> bool:
     return bool(len(samples) > 0 and np.ptp(samples.radius) > 0)
 
 
-def _columns(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
-    """By name. Coordinates are x y z, and in what is `as_box` no more than there are."""
+def columns_of(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
+    """Returns columns by name. Coordinates are x y z, or with `as_box` no more than there are."""
     columns: dict[str, NDArray[Any]] = {}
     if samples.points is not None:
         dimension = samples.points.shape[1]
@@ -54,6 +54,8 @@ def _columns(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
         columns.update(zip(("bary_u", "bary_v", "bary_w"), samples.barycentric.T))
     if has_own_radii(samples):
         columns["radius"] = samples.radius
+    if samples.polygon_index is not None:
+        columns["polygon_index"] = samples.polygon_index
     return columns
 
 
@@ -64,6 +66,7 @@ def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
         "face_index": samples.face_index,
         "barycentric": samples.barycentric,
         "radius": samples.radius,
+        "polygon_index": samples.polygon_index,
         "min_distance": np.float64(samples.min_distance),
         "seed": None if samples.seed is None else np.uint64(samples.seed),
         "header": np.array(json.dumps(header)),
@@ -72,7 +75,7 @@ def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
 
 
 def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
-    columns = _columns(samples, as_box=samples.extents is not None)
+    columns = columns_of(samples, as_box=samples.extents is not None)
     lines = [f"# {key}: {value}\n" for key, value in header.items()]
     file.write(("".join(lines) + ",".join(columns) + "\n").encode())
     formats = ["%.17g" if column.dtype.kind == "f" else "%d" for column in columns.values()]
@@ -80,7 +83,7 @@ def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
 
 
 def write_ply(file: BinaryIO, samples: Samples, header: Header) -> None:
-    columns = _columns(samples, as_box=False)
+    columns = columns_of(samples, as_box=False)
     kinds = {"f": ("double", "<f8"), "u": ("uint", "<u4")}
     lines = ["ply", "format binary_little_endian 1.0"]
     lines += [f"comment {key}: {value}" for key, value in header.items()]

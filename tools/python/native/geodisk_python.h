@@ -82,6 +82,12 @@ GEODISK_C_API geodisk_status geodisk_warnings_get(const geodisk_warnings *warnin
                                                   geodisk_warning *warning, geodisk_error *error);
 GEODISK_C_API void geodisk_warnings_release(geodisk_warnings *warnings);
 
+/* For a child of fork() whose parent has used a driver: the threads of the driver are not there, and
+ * its exit handler would wait for them forever. Lets exit() end the process without the handlers that
+ * were registered before, once standard streams are flushed. Does nothing where the system has no
+ * such function. */
+GEODISK_C_API void geodisk_skip_exit_handlers(void);
+
 #ifdef __cplusplus
 }
 #endif

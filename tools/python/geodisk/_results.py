@@ -1,0 +1,109 @@
+"""Samples as the library hands them over."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _library as c
+from . import _structs as s
+from ._samples import Samples
+from ._surface import Surface
+
+
+def _copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any] | None:
+    width = c.samples_width(samples, attribute)
+    if width == 0:
+        return None
+    count = c.samples_count(samples)
+    array = np.empty((count, width), dtype)
+    kind = s.UINT32 if dtype == np.uint32 else s.FLOAT64
+    c.call("geodisk_samples_copy", samples, attribute, kind, array.ctypes.data, 0, count)
+    return array
+
+
+def polygons_of(surface: Surface | None, faces: NDArray[np.uint32]) -> NDArray[np.uint32] | None:
+    """Returns the faces, as given, of triangles; None if the numbers are the same."""
+    if surface is None or surface.polygons is None:
+        return None
+    return surface.polygons[faces]
+
+
+def samples_of(
+    handle: c.Handle, seed: int, surface: Surface | None = None, **box: Any
+) -> Samples:
+    """Returns what a run gave on a surface or in a box."""
+    report = _report_of(handle)
+    columns = _columns_of(handle)
+    columns.pop("part")
+    return _made(columns, surface, report, report["min_distance"], seed, **box)
+
+
+def samples_of_parts(
+    handle: c.Handle, parts: Sequence[tuple[int, float, Surface]]
+) -> list[Samples]:
+    """Returns what a run gave on each of several surfaces, of their seeds and minimum distances."""
+    report = _report_of(handle)
+    columns = _columns_of(handle)
+    part = columns.pop("part")
+    assert part is not None
+    by_part = np.argsort(part, kind="stable")
+    ends = np.cumsum(np.bincount(part, minlength=len(parts)))
+    result = []
+    for (seed, distance, surface), rows in zip(parts, np.split(by_part, ends[:-1])):
+        own = {name: None if x is None else x[rows] for name, x in columns.items()}
+        result.append(_made(own, surface, dict(report), distance, seed))
+    return result
+
+
+def _report_of(handle: c.Handle) -> dict[str, Any]:
+    report = s.Report()
+    c.call("geodisk_samples_report", handle.value, ctypes.byref(report))
+    return {
+        name: getattr(report, name)
+        for name, _ in s.Report._fields_
+        if name not in ("struct_size", "calls")
+    }
+
+
+def _columns_of(handle: c.Handle) -> dict[str, NDArray[Any] | None]:
+    samples = handle.value
+    face, radius, part = (
+        _copied(samples, attribute, dtype)
+        for attribute, dtype in (
+            (s.FACE, np.uint32),
+            (s.RADIUS, np.float64),
+            (s.PART, np.uint32),
+        )
+    )
+    return {
+        "points": _copied(samples, s.POSITION, np.float64),
+        "normals": _copied(samples, s.NORMAL, np.float64),
+        "face_index": None if face is None else face[:, 0],
+        "barycentric": _copied(samples, s.BARYCENTRIC, np.float64),
+        "radius": None if radius is None else radius[:, 0],
+        "part": None if part is None else part[:, 0],
+    }
+
+
+def _made(
+    columns: dict[str, Any],
+    surface: Surface | None,
+    report: dict[str, Any],
+    distance: float,
+    seed: int,
+    **box: Any,
+) -> Samples:
+    faces = columns["face_index"]
+    return Samples(
+        min_distance=distance,
+        seed=seed,
+        report=report,
+        polygon_index=None if faces is None else polygons_of(surface, faces),
+        _surface=surface,
+        **columns,
+        **box,
+    )

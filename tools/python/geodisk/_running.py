@@ -1,0 +1,144 @@
+"""Runs on a device: progress, interruption, and the search for a count."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref, c_double, c_int32
+from typing import Any, Callable
+
+import numpy as np
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._devices import DeviceLike, forget, name_of, sampler_on
+
+_PATIENCE = 100  # Milliseconds, after which Python looks for signals.
+
+#: Called about ten times per second with the part of the run that is done, 0 to 1, and the number of
+#: samples so far. Returning False stops the run, and so does raising anything.
+ProgressCallback = Callable[[float, int], object]
+
+#: Makes a domain of a minimum distance and a stop count.
+DomainMaker = Callable[[float, int], c.Handle]
+
+
+class Bar:
+    """Progress by tqdm."""
+
+    def __init__(self) -> None:
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            raise ImportError("progress=True needs tqdm (pip install tqdm)") from None
+        self._bar = tqdm(total=100, unit="%", desc="geodisk", leave=False)
+
+    def __call__(self, part: float, samples: int) -> None:
+        self._bar.n = round(100 * part, 1)
+        self._bar.set_postfix(samples=samples)
+
+    def close(self) -> None:
+        self._bar.close()
+
+
+class Runs:
+    """Runs one domain after another on a device, and reports progress. A context manager."""
+
+    def __init__(self, device: DeviceLike | None, progress: bool | ProgressCallback) -> None:
+        self._device = name_of(device)
+        self._bar = Bar() if progress is True else None
+        self._report: ProgressCallback | None = self._bar
+        if callable(progress):
+            self._report = progress
+
+    def __enter__(self) -> Runs:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+    def run(self, domain: c.Handle) -> c.Handle:
+        """Returns the samples of a domain."""
+        with sampler_on(self._device) as sampler:
+            try:
+                c.call("geodisk_start", sampler, domain.value)
+                return self._polled(sampler)
+            except e.DeviceLost:
+                forget(self._device)
+                raise
+            except BaseException:  # Ctrl-C, or what a callback raises.
+                _end(sampler)
+                raise
+
+    def _polled(self, sampler: ctypes.c_void_p) -> c.Handle:
+        """Goes on with a run until its samples are there. Python acts on signals in between."""
+        samples = c.Handle("samples")
+        progress = s.Progress()
+        while not samples.value:
+            c.call("geodisk_poll", sampler, _PATIENCE, byref(samples.value))
+            if self._report and not samples.value:
+                c.call("geodisk_sampler_progress", sampler, byref(progress))
+                part = progress.decided / max(1, progress.candidates)
+                answer = self._report(part, progress.accepted)
+                if isinstance(answer, (bool, np.bool_)) and not answer:
+                    raise e.Cancelled("the progress callback returned False", "cancelled")
+        return samples
+
+
+def _end(sampler: ctypes.c_void_p) -> None:
+    """Stops the run in progress, if there is one."""
+    rest = c.Handle("samples")
+    c.cancel(sampler)
+    try:
+        while not rest.value:
+            c.call("geodisk_poll", sampler, _PATIENCE, byref(rest.value))
+    except e.Error:  # Cancelled; or it had ended.
+        pass
+
+
+class CountSearch:
+    """Finds the distance that gives about so many samples."""
+
+    def __init__(self, count: float, first: float) -> None:
+        self._search = c.Handle("count_search", "geodisk_count_search_create", float(count))
+        self.next = first  #: The distance to try, or 0 when the search has ended.
+        self.best: Any = None  #: What was noted with the nearest count.
+        self.best_distance = first
+
+    def note(self, found: Any, count: int) -> None:
+        """Notes the samples that the distance gave."""
+        distance, nearest = c_double(), c_int32()
+        c.call(
+            "geodisk_count_search_note",
+            self._search.value,
+            self.next,
+            count,
+            byref(distance),
+            byref(nearest),
+        )
+        if nearest.value:
+            self.best, self.best_distance = found, self.next
+        self.next = distance.value
+
+
+def sampled(
+    domain_at: DomainMaker,
+    first: float,
+    count: float | None,
+    stop_count: int,
+    device: DeviceLike | None,
+    progress: bool | ProgressCallback,
+) -> c.Handle:
+    """Returns samples at the first distance, or at the one that a search for the count ends with."""
+    with Runs(device, progress) as runs:
+        if count is None:
+            return runs.run(domain_at(first, stop_count))
+        search = CountSearch(count, first)
+        while search.next > 0:
+            found = runs.run(domain_at(search.next, 0))
+            search.note(found, c.samples_count(found.value))
+        best: c.Handle = search.best
+        if 0 < stop_count < c.samples_count(best.value):
+            return runs.run(domain_at(search.best_distance, stop_count))
+        return best

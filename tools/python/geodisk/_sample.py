@@ -1,0 +1,29 @@
+"""One sample."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """One sample of :class:`Samples`, which iteration and an index give.
+
+    Attributes
+    ----------
+    point, normal, barycentric : ndarray of float64, or None
+    face_index, polygon_index : int or None
+    radius : float
+    order : int
+    """
+
+    point: NDArray[np.float64] | None
+    normal: NDArray[np.float64] | None
+    face_index: int | None
+    barycentric: NDArray[np.float64] | None
+    polygon_index: int | None
+    radius: float
+    order: int
