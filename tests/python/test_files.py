@@ -3,6 +3,7 @@
 import io
 import os
 import subprocess
+import threading
 import zipfile
 
 import numpy as np
@@ -176,6 +177,60 @@ def test_what_cannot_be_opened_or_written(tmp_path):
         file.writestr("face_index", b"text")
     with pytest.raises(geodisk.InvalidArgument, match="a.npz"):
         geodisk.read(tmp_path / "a.npz")
+
+
+def test_saving_keeps_links_and_permissions(tmp_path):
+    few, many = SETS["square"], SETS["mesh"]
+    path = tmp_path / "a.npz"
+    few.save(path)
+    assert path.stat().st_mode & 0o777 == 0o666 & ~_umask()
+    path.chmod(0o640)
+    link = tmp_path / "link.npz"
+    link.symlink_to("a.npz")
+    many.save(link)
+    assert link.is_symlink() and path.stat().st_mode & 0o777 == 0o640
+    assert equal(geodisk.read(path), many)
+    dangling = tmp_path / "dangling.npz"
+    dangling.symlink_to("new.npz")
+    few.save(dangling)
+    assert dangling.is_symlink() and equal(geodisk.read(tmp_path / "new.npz"), few)
+    os.link(path, tmp_path / "other.npz")
+    with pytest.raises(OSError, match="another name"):
+        few.save(path)
+    pipe = tmp_path / "pipe.npz"
+    os.mkfifo(pipe)
+    with pytest.raises(OSError, match="not a regular file"):
+        few.save(pipe)
+    assert equal(geodisk.read(path), many)  # It stays as it was.
+    assert not [name for name in os.listdir(tmp_path) if name.endswith(".tmp")]
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def test_threads_save_whole_files(tmp_path):
+    sets = [SETS["mesh"], SETS["square"]]
+    for name in ("a.ply", "a.npz"):
+        failed = []
+
+        def save(samples):
+            try:
+                for _ in range(10):
+                    samples.save(tmp_path / name)
+            except OSError as error:
+                failed.append(error)
+
+        threads = [threading.Thread(target=save, args=(samples,)) for samples in sets * 2]
+        for thread in threads:
+            thread.start()
+        while any(thread.is_alive() for thread in threads):
+            if (tmp_path / name).exists():
+                assert len(geodisk.read(tmp_path / name)) in map(len, sets)
+        assert not failed
+    assert sorted(os.listdir(tmp_path)) == ["a.npz", "a.ply"]
 
 
 @pytest.mark.parametrize(

@@ -214,6 +214,26 @@ def test_progress_and_interruption():
     with pytest.raises(RuntimeError, match="enough"):
         geodisk.sample(VERTICES, FACES, min_distance=0.05, progress=raises)
 
+    def cancels(part, n):
+        raise geodisk.Cancelled("enough of it")
+
+    inner = []
+
+    def samples_itself(part, n):  # Another run, while this one is in progress.
+        inner.append(len(geodisk.sample(*TETRAHEDRON, min_distance=0.5)))
+        return len(inner) < 2
+
+    for callback, text in [
+        (cancels, "enough of it"),
+        (lambda part, n: False, "returned False"),
+        (lambda part, n: np.bool_(False), "returned False"),
+        (samples_itself, "returned False"),
+    ]:
+        with pytest.raises(geodisk.Cancelled, match=text):
+            geodisk.sample(VERTICES, FACES, min_distance=0.01, progress=callback)
+        assert len(geodisk.sample(*TETRAHEDRON, min_distance=0.5)) > 10  # This thread goes on.
+    assert inner[0] == inner[1]
+
     # Ctrl-C, while the run has long to go.
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
@@ -240,10 +260,21 @@ def test_threads():
     assert ticks
 
 
-def test_devices_and_children():
+def test_devices_and_children(monkeypatch):
     found = geodisk.devices()
     assert any(device.usable for device in found)
     assert geodisk.sample(*TETRAHEDRON, min_distance=0.5, device=found[0].index)
+    usable = next(device for device in found if device.usable)
+    expected = geodisk.sample(*TETRAHEDRON, min_distance=0.5)
+    for device in (usable, usable.index, np.int64(usable.index), usable.uuid, usable.name):
+        assert same(geodisk.sample(*TETRAHEDRON, min_distance=0.5, device=device), expected)
+    monkeypatch.setenv("GEODISK_DEVICE", "nowhere")
+    with pytest.raises(geodisk.NoDevice, match="GEODISK_DEVICE is nowhere"):
+        geodisk.sample(*TETRAHEDRON, min_distance=0.5)
+    assert same(geodisk.sample(*TETRAHEDRON, min_distance=0.5, device=usable), expected)
+    monkeypatch.setenv("GEODISK_DEVICE", usable.uuid)
+    assert same(geodisk.sample(*TETRAHEDRON, min_distance=0.5), expected)
+    monkeypatch.delenv("GEODISK_DEVICE")
     # A child that was forked opens a device of its own.
     code = (
         "import os, sys, geodisk\n"
@@ -253,3 +284,34 @@ def test_devices_and_children():
         "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
     )
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs on_exit()")
+@pytest.mark.parametrize("who", ["parent", "child", "parent and child"])
+def test_children_end_as_programs_end(who):
+    code = (
+        "import os, sys, geodisk\n"
+        f"if 'parent' in {who!r}: geodisk.sample_box(min_distance=0.2)\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        f"    if 'child' in {who!r}: geodisk.sample_box(min_distance=0.2)\n"
+        "    print('from the child', end='')\n"
+        "    sys.exit(3)\n"
+        "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], timeout=60, capture_output=True)
+    assert ended.returncode == 3 and ended.stdout == b"from the child"
+
+
+@pytest.mark.parametrize("variable", ["VK_ICD_FILENAMES", "VK_DRIVER_FILES"])
+def test_driver_files_that_are_missing_are_named(variable):
+    code = (
+        "import geodisk\n"
+        "try: geodisk.devices()\n"
+        "except geodisk.NoDevice as error: print(error)\n"
+    )
+    environment = {**os.environ, variable: "/nowhere/driver.json"}
+    told = subprocess.run(
+        [sys.executable, "-c", code], env=environment, timeout=60, capture_output=True, text=True
+    ).stdout
+    assert variable in told and "/nowhere/driver.json, which does not exist" in told

@@ -99,7 +99,7 @@ def test_meshes_of_all_kinds(tmp_path):
         (Trimesh(),),
     ]:
         assert geodisk.verify(read, *mesh).smallest == expected
-    assert geodisk.verify(pickle.loads(pickle.dumps(SAMPLES))).smallest == expected
+    assert geodisk.verify(pickle.loads(pickle.dumps(SAMPLES)), VERTICES, FACES).smallest == expected
 
 
 @pytest.mark.parametrize(

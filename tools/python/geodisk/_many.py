@@ -39,6 +39,7 @@ class _Job:
         self._radii = None if density is None else radii_of(mesh, density)
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
         radii = None if self._radii is None else self._radii.value
+        self.has_radii = self._radii is not None
         self.params = s.SurfaceParams(
             seed=seed,
             pool_ratio=float(pool_ratio),
@@ -146,10 +147,11 @@ def sample_many(
 
 
 def _groups(jobs: list[_Job]) -> list[list[_Job]]:
-    """Returns jobs of meshes that have equally many coordinates together, as a run needs them."""
-    groups: dict[int, list[_Job]] = {}
+    """Returns jobs that one run can have: of as many coordinates, and all with radii or none."""
+    groups: dict[tuple[int, bool], list[_Job]] = {}
     for job in jobs:
-        groups.setdefault(job.mesh._surface.dimension(), []).append(job)
+        kind = job.mesh._surface.dimension(), job.has_radii
+        groups.setdefault(kind, []).append(job)
     return list(groups.values())
 
 

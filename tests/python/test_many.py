@@ -1,0 +1,61 @@
+"""Many meshes as one job: the samples of each by itself."""
+
+import numpy as np
+import pytest
+
+import geodisk
+from meshes import FACES, TETRAHEDRON, VERTICES, same
+from test_mesh_sources import CUBE, SIDES
+
+MESHES = [geodisk.Mesh(VERTICES, FACES), TETRAHEDRON, (CUBE, SIDES), geodisk.Mesh(VERTICES, FACES)]
+
+
+def test_each_gets_its_own_samples():
+    found = geodisk.sample_many(
+        MESHES, min_distance=[0.5, 0.3, 0.2, 0.4], seed=[1, 2, 3, 1], pool_ratio=10
+    )
+    for mesh, distance, seed, samples in zip(MESHES, [0.5, 0.3, 0.2, 0.4], [1, 2, 3, 1], found):
+        arguments = mesh if isinstance(mesh, tuple) else (mesh,)
+        alone = geodisk.sample(*arguments, min_distance=distance, seed=seed, pool_ratio=10)
+        assert same(samples, alone) and np.array_equal(samples.points, alone.points)
+        assert samples.min_distance == distance and samples.seed == seed
+        assert np.array_equal(samples.radius, alone.radius)
+    assert found[2].polygon_index is not None and found[0].polygon_index is None
+    assert geodisk.sample_many([], min_distance=1) == []
+
+
+def test_counts_densities_and_keys():
+    found = geodisk.sample_many(MESHES[:3], count=[100, 60, 80])
+    for mesh, count, samples in zip(MESHES, [100, 60, 80], found):
+        arguments = mesh if isinstance(mesh, tuple) else (mesh,)
+        alone = geodisk.sample(*arguments, count=count)
+        assert same(samples, alone) and samples.min_distance == alone.min_distance
+    density = np.linspace(0.3, 1, len(VERTICES))
+    keys = np.arange(len(FACES))[::-1]
+    a, b, flat = geodisk.sample_many(
+        [MESHES[0], MESHES[0], ([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])],
+        min_distance=[0.6, 0.6, 0.1],
+        density=[density, None, None],
+        face_keys=[None, keys, None],
+    )
+    assert same(a, geodisk.sample(MESHES[0], min_distance=0.6, density=density))
+    assert same(b, geodisk.sample(MESHES[0], min_distance=0.6, face_keys=keys))
+    assert flat.points.shape[1] == 2 and flat.normals is None  # Of another dimension.
+
+
+@pytest.mark.parametrize(
+    "meshes, arguments, kind, text",
+    [
+        ([TETRAHEDRON, (CUBE, [[0, 1, 9]])], {"min_distance": 1}, geodisk.MeshRejected, "mesh 1: "),
+        ([TETRAHEDRON, "nowhere.obj"], {"min_distance": 1}, OSError, "mesh 1: .*nowhere.obj"),
+        ([CUBE], {"min_distance": 1}, TypeError, "mesh 0: "),
+        ([TETRAHEDRON] * 2, {"min_distance": [1]}, ValueError, "1 values for 2 meshes"),
+        ([TETRAHEDRON] * 2, {"min_distance": [1, -1]}, ValueError, "mesh 1: the minimum distance"),
+        ([TETRAHEDRON], {"count": 9, "radius": 1}, ValueError, "one of"),
+        ([TETRAHEDRON], {"count": 9, "density": [[1, 1]]}, ValueError, "mesh 0: density"),
+        ([TETRAHEDRON], {"count": 9, "density": []}, ValueError, "0 arrays for 1 meshes"),
+    ],
+)
+def test_wrong_ones_are_named(meshes, arguments, kind, text):
+    with pytest.raises(kind, match=text):
+        geodisk.sample_many(meshes, **arguments)

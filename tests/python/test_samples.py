@@ -1,0 +1,109 @@
+"""Samples as a sequence, a table and a pickle."""
+
+import copy
+import multiprocessing
+import pickle
+
+import numpy as np
+import pytest
+
+import geodisk
+from meshes import FACES, VERTICES
+from test_mesh_sources import CUBE, SIDES
+
+SAMPLES = geodisk.sample(CUBE, SIDES, min_distance=0.2, seed=4)
+COLUMNS = ["points", "normals", "face_index", "barycentric", "polygon_index", "radius", "order"]
+
+
+@pytest.mark.parametrize(
+    "key",
+    [
+        slice(5, 40, 3),
+        slice(None, None, -1),
+        [4, 2, 9],
+        np.array([0, -1]),
+        SAMPLES.points[:, 0] < 0.5,
+        [],
+        slice(0, 0),
+    ],
+)
+def test_choosing(key):
+    chosen = SAMPLES[key]
+    rows = np.arange(len(SAMPLES))[key if len(np.atleast_1d(key)) else slice(0, 0)]
+    assert isinstance(chosen, geodisk.Samples) and len(chosen) == len(rows)
+    for name in COLUMNS:
+        assert np.array_equal(getattr(chosen, name), getattr(SAMPLES, name)[rows]), name
+    assert (chosen.min_distance, chosen.seed) == (0.2, 4)
+    assert chosen.order.tolist() == rows.tolist()
+
+
+def test_one_after_the_other():
+    assert len(list(SAMPLES)) == len(SAMPLES)
+    last = SAMPLES[-1]
+    assert isinstance(last, geodisk.Sample) and last.order == len(SAMPLES) - 1
+    assert last.radius == 0.1 and last.polygon_index == last.face_index // 2
+    assert np.array_equal(last.point, SAMPLES.points[-1])
+    box = next(iter(geodisk.sample_box([1, 1], min_distance=0.2)))
+    assert box.face_index is None and box.point.shape == (2,)
+    for bad in (len(SAMPLES), -len(SAMPLES) - 1, "radius", 1.5, np.zeros((2, 2), int), [0, 10**6]):
+        with pytest.raises(IndexError):
+            SAMPLES[bad]
+    with pytest.raises(IndexError):
+        SAMPLES[np.ones(3, bool)]
+
+
+def test_pickles_hold_the_samples_alone():
+    vertices = np.repeat(VERTICES, 20, axis=0)
+    large = geodisk.sample(vertices, FACES * 20, min_distance=0.5)
+    data = pickle.dumps(large)
+    assert len(data) < 200 * len(large) + 2000 < vertices.nbytes
+    again = pickle.loads(data)
+    assert np.array_equal(again.points, large.points) and again.report == large.report
+    assert again.min_distance == 0.5 and again.radius.dtype == np.float64
+    with pytest.raises(ValueError, match="do not know their mesh"):
+        geodisk.verify(again)
+    for copied in (copy.copy(large), copy.deepcopy(large)):
+        assert np.array_equal(copied.points, large.points) and copied._surface is large._surface
+    assert copy.deepcopy(large).points is not large.points
+
+
+def _shifted(samples):
+    return samples.points[:, 0] + 1
+
+
+def test_other_processes_take_samples_and_meshes():
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        (shifted,) = pool.map(_shifted, [SAMPLES[:9]])
+    assert np.array_equal(shifted, SAMPLES.points[:9, 0] + 1)
+
+
+def test_tables(monkeypatch):
+    class DataFrame(dict):
+        """As much of pandas as is used."""
+
+        def __init__(self, columns):
+            super().__init__(columns)
+            self.attrs = {}
+
+    import sys
+    import types
+
+    monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=DataFrame))
+    table = SAMPLES.to_dataframe()
+    assert list(table) == [
+        *("x", "y", "z", "nx", "ny", "nz", "face_index", "bary_u", "bary_v", "bary_w"),
+        *("polygon_index", "radius", "order"),
+    ]
+    assert np.array_equal(table["y"], SAMPLES.points[:, 1]) and table.attrs["seed"] == "4"
+    assert list(geodisk.sample_box([1], min_distance=0.1).to_dataframe()) == ["x", "radius", "order"]
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="pip install pandas"):
+        SAMPLES.to_dataframe()
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv", "ply"])
+def test_faces_as_given_are_saved(tmp_path, kind):
+    SAMPLES.save(tmp_path / f"a.{kind}")
+    again = geodisk.read(tmp_path / f"a.{kind}")
+    assert again.polygon_index.dtype == np.uint32
+    assert np.array_equal(again.polygon_index, SAMPLES.polygon_index)
