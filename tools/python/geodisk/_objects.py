@@ -41,7 +41,7 @@ def arrays_of(source: Any) -> tuple[Any, Any]:
         if has(source):
             return convert(source)
     if isinstance(source, (np.ndarray, list, tuple)):
-        raise TypeError("faces are missing: vertices alone are no mesh")
+        raise TypeError("faces are missing: a mesh is vertices and faces, or brings its faces")
     raise TypeError(f"{_WHAT_IS_TAKEN}, not {type(source).__name__}")
 
 
