@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -179,6 +180,32 @@ TEST_CASE("surfaces of four dimensions are shown in perspective, at any scale") 
 TEST_CASE("terrain stands on its x-y plane, other things on x-z") {
     CHECK(picture::likely_up(scene_of("terrain", 8)) == Up::z);
     CHECK(picture::likely_up(scene_of("cube", 1)) == Up::y);
+}
+
+TEST_CASE("what stands on a face is shown upright, however flat it is") {
+    // A pyramid on the plane of the two other axes, `height` high and as deep as `depth`.
+    const auto pyramid = [](int up, double height, double depth) {
+        const int right = up == 2 ? 0 : 2 - up, back = 3 - up - right;
+        const auto corner = [&](double x, double y, double z) {
+            std::array<double, 3> p{};
+            p[static_cast<std::size_t>(right)] = x;
+            p[static_cast<std::size_t>(back)] = y;
+            p[static_cast<std::size_t>(up)] = z;
+            return p;
+        };
+        std::vector<double> positions;
+        for (const auto& p : {corner(0, 0, 0), corner(1, 0, 0), corner(1, depth, 0),
+                              corner(0, depth, 0), corner(0.5, depth / 2, height)}) {
+            positions.insert(positions.end(), p.begin(), p.end());
+        }
+        const std::vector<std::uint32_t> triangles = {0, 2, 1, 0, 3, 2, 0, 1, 4,
+                                                      1, 2, 4, 2, 3, 4, 3, 0, 4};
+        return picture::likely_up(picture::make_scene(positions, 3, triangles));
+    };
+    CHECK(pyramid(1, 1.7, 0.3) == Up::y); // Flat along z, as a body is that stands.
+    CHECK(pyramid(2, 1.7, 0.3) == Up::z);
+    CHECK(pyramid(2, 0.2, 1) == Up::z);
+    CHECK(pyramid(1, 0.2, 1) == Up::y);
 }
 
 TEST_CASE("colours and styles are read, and others refused") {

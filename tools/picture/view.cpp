@@ -23,6 +23,14 @@ constexpr double kHalfAngle = 12;
 constexpr double kMargin = 0.03;
 /// Flatter along z than this part of the other extents, a surface is taken for terrain.
 constexpr double kFlat = 0.5;
+/// So near to an end of the surface, as a part of its extent, faces are of the end.
+constexpr double kEnd = 0.01;
+/// Faces of an end are within this cosine of its direction.
+constexpr double kLevel = 0.9;
+/// What a surface stands on is at least this part of its area, and so many times what it would
+/// stand on if another axis were up.
+constexpr double kLeastBase = 0.01;
+constexpr double kClearBase = 3;
 
 constexpr std::pair<const char*, View> kNamed[] = {{"front", {0, 0}},  {"back", {180, 0}},
                                                    {"left", {-90, 0}}, {"right", {90, 0}},
@@ -71,6 +79,29 @@ std::pair<double, double> range_of(const Scene& scene, const Of& of) {
 double extent_along(const Scene& scene, int axis) {
     const auto [low, high] = range_of(scene, [axis](glm::dvec3 p) { return p[axis]; });
     return high - low;
+}
+
+/// What the surface stands on if the axis is up: how much more of its area is level at the lower
+/// end than at the upper one, as a part of all.
+double base_along(const Scene& scene, int axis) {
+    const auto [low, high] = range_of(scene, [axis](glm::dvec3 p) { return p[axis]; });
+    const double near = kEnd * (high - low);
+    double all = 0, base = 0;
+    for (std::size_t i = 0; i + 3 <= scene.corners.size(); i += 3) {
+        const glm::dvec3 corners[] = {scene.corner(i), scene.corner(i + 1), scene.corner(i + 2)};
+        const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double area = glm::length(normal);
+        all += area;
+        if (std::abs(normal[axis]) < kLevel * area) {
+            continue;
+        }
+        const auto is_within = [&](double from, double to) {
+            return std::all_of(std::begin(corners), std::end(corners),
+                               [&](glm::dvec3 p) { return p[axis] >= from && p[axis] <= to; });
+        };
+        base += is_within(low, low + near) ? area : is_within(high - near, high) ? -area : 0;
+    }
+    return all > 0 ? base / all : 0;
 }
 
 /// Where the eye must be, along `axis`, for a half angle of tangent `t`, and how far from the
@@ -135,6 +166,14 @@ Up parse_up(const std::string& option, const std::string& text) {
 }
 
 Up likely_up(const Scene& scene) {
+    const double along_y = base_along(scene, 1);
+    const double along_z = base_along(scene, 2);
+    if (along_y > kLeastBase && along_y > kClearBase * along_z) {
+        return Up::y;
+    }
+    if (along_z > kLeastBase && along_z > kClearBase * along_y) {
+        return Up::z;
+    }
     const double flat = kFlat * std::min(extent_along(scene, 0), extent_along(scene, 1));
     return extent_along(scene, 2) < flat ? Up::z : Up::y;
 }

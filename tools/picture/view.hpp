@@ -31,7 +31,8 @@ std::optional<View> parse_view(const std::string& option, const std::string& tex
 /// "x", "y" or "z". Throws UserError(usage) naming `option`.
 Up parse_up(const std::string& option, const std::string& text);
 
-/// The axis that is up if nobody says: z for a surface flat along it, as terrain is, else y.
+/// Returns the axis that is up if nobody says: y or z, whichever a surface clearly stands on; else
+/// z for one flat along it, as terrain is, and y for all others.
 Up likely_up(const Scene& scene);
 
 /// Views to choose from: from the front and a little above, as most things are shown.

@@ -82,9 +82,7 @@ class Frames {
         submit.pCommandBuffers = &commands_[turn];
         check(vkQueueSubmit(queue_.queue, 1, &submit, fences_[turn]), "vkQueueSubmit");
     }
-    void wait() {
-        vkWaitForFences(device_, kInFlight, fences_, VK_TRUE, UINT64_MAX);
-    }
+    void wait() { vkWaitForFences(device_, kInFlight, fences_, VK_TRUE, UINT64_MAX); }
 
   private:
     VkDevice device_;
@@ -144,12 +142,11 @@ int main() {
     const std::vector<std::uint32_t> triangles = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
     const geodisk::MeshView view{positions, triangles};
     const auto mesh = take(geodisk::PreparedMesh::prepare(view));
-    const auto domain =
-        take(geodisk::Domain::surface(mesh, {.min_distance = 0.2, .seed = 7}));
+    const auto domain = take(geodisk::Domain::surface(mesh, {.min_distance = 0.2, .seed = 7}));
 
     const auto context = take(geodisk::Context::create());
-    const auto sampler = std::make_shared<const geodisk::Sampler>(
-        take(geodisk::Sampler::create(context.device())));
+    const auto sampler =
+        std::make_shared<const geodisk::Sampler>(take(geodisk::Sampler::create(context.device())));
     geodisk::FrameSamplerOptions options;
     options.frames = Frames::kInFlight;
     auto samples = take(geodisk::FrameSampler::create(sampler, domain, view, options));

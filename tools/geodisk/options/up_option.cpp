@@ -11,7 +11,7 @@ std::optional<picture::Up> UpOption::parsed() const {
 void add_up_option(Command command, UpOption& option) {
     command
         .add_option("--up", option.axis, "AXIS",
-                    "Axis that points up: x, y or z (y; z where a mesh is flat along it)")
+                    "Axis that points up: x, y or z (guessed from what the mesh\nstands on)")
         .offers({"x", "y", "z"});
 }
 
