@@ -4,12 +4,16 @@ import copy
 import os
 import pathlib
 import pickle
+import signal
 import subprocess
+import threading
+import time
 
 import numpy as np
 import pytest
 
 import geodisk
+from geodisk._background import interruptible
 from meshes import FACES, VERTICES, same
 
 CASES = pathlib.Path(__file__).parents[1] / "data" / "cases"
@@ -147,3 +151,22 @@ def test_meshes_are_pickled_and_copied():
     lengths = np.ones((4, 3))
     bare = geodisk.Mesh(4, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], edge_lengths=lengths)
     assert pickle.loads(pickle.dumps(bare)).area == bare.area
+
+
+def test_long_calls_are_interrupted():
+    ended = threading.Event()
+
+    def work(stop):
+        while stop.value == 0:
+            time.sleep(0.01)
+        ended.set()
+
+    timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        interruptible(work)
+    timer.join()
+    assert ended.is_set()
+    assert interruptible(lambda stop: 7) == 7
+    with pytest.raises(RuntimeError, match="within"):
+        interruptible(lambda stop: (_ for _ in ()).throw(RuntimeError("within")))

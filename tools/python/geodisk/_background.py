@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from ctypes import c_int32
-from typing import Any, Callable, TypeVar
+from typing import Callable, TypeVar
 
 T = TypeVar("T")
 
@@ -20,6 +20,7 @@ def interruptible(work: Callable[[c_int32], T]) -> T:
     stop = c_int32(0)
     if threading.current_thread() is not threading.main_thread():
         return work(stop)  # Only the main thread gets signals.
+    done = threading.Event()
     result: list[T] = []
     failure: list[BaseException] = []
 
@@ -28,14 +29,14 @@ def interruptible(work: Callable[[c_int32], T]) -> T:
             result.append(work(stop))
         except BaseException as error:
             failure.append(error)
+        done.set()
 
-    thread: Any = threading.Thread(target=run, daemon=True, name="geodisk")
-    thread.start()
+    threading.Thread(target=run, daemon=True, name="geodisk").start()
     try:
-        thread.join()
+        done.wait()
     except BaseException:
         stop.value = 1
-        thread.join(_TIME_TO_STOP)
+        done.wait(_TIME_TO_STOP)
         raise
     if failure:
         raise failure.pop()
