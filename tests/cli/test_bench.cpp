@@ -131,15 +131,15 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
     CHECK(bytes_of(folder / "a.ply") == bytes_of(folder / "b.ply"));
 
     std::ofstream(kept) << "{}";
-    check_fails(folder, 3, "is not as geodisk_bench --tune writes it", with_output("c.ply"),
-                sampler);
+    check_fails(folder, 3, "has no local_size; run geodisk_bench --tune again",
+                with_output("c.ply"), sampler);
     tuning["pool_block"] = 3;
     std::ofstream(kept) << tuning;
     check_fails(folder, 3, "the pool block must be", with_output("c.ply"), sampler);
     tuning["pool_block"] = 1;
     tuning["reads"] = "minds";
     std::ofstream(kept) << tuning;
-    check_fails(folder, 3, "has no reads that geodisk knows", with_output("c.ply"), sampler);
+    check_fails(folder, 3, "is not one of auto, storage and texels", with_output("c.ply"), sampler);
     std::ofstream(folder / "file") << "";
     Setting nowhere = bench();
     nowhere.environment = {{"XDG_CACHE_HOME", (folder / "file").string()},

@@ -19,5 +19,12 @@ TEST_CASE("decimals are as many as asked for") {
 TEST_CASE("in_quotes keeps a message on one short line") {
     CHECK(in_quotes("abc") == "'abc'");
     CHECK(in_quotes("a\nb\x80") == "'a?b?'");
+    CHECK(in_quotes("сетка") == "'сетка'");
     CHECK(in_quotes(std::string(100, 'x')) == "'" + std::string(40, 'x') + "...'");
+    std::string wide, cut;
+    for (int i = 0; i < 50; ++i) {
+        wide += "網";
+        cut += i < 40 ? "網" : "";
+    }
+    CHECK(in_quotes(wide) == "'" + cut + "...'");
 }

@@ -6,6 +6,7 @@
 
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
+#include "program/json_text.hpp"
 
 namespace geodisk::bench {
 namespace {
@@ -130,14 +131,13 @@ std::string json_text(const Circumstances& circumstances, const std::vector<Seri
             document["growth"].push_back(growth_json(one, growth));
         }
     }
-    // File and driver names may be anything; text that is not UTF-8 must not end the program.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return tools::json_text(document, 2) + '\n';
 }
 
 std::string csv_text(const Circumstances& circumstances, const std::vector<Series>& series) {
     std::string text;
     visit_fields(circumstances, [&](const char* name, const auto& value) {
-        text += "# " + std::string(name) + ": " + value_text(value) + '\n';
+        text += "# " + tools::csv_comment(std::string(name) + ": " + value_text(value)) + '\n';
     });
     text += "sweep";
     visit_fields(Measurement{}, [&](const char* name, const auto&) {

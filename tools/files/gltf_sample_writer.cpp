@@ -9,6 +9,7 @@
 #include "files/ply_file.hpp"
 #include "files/sample_writers.hpp"
 #include "program/failure.hpp"
+#include "program/safe_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -142,11 +143,11 @@ tinygltf::Value extras_of(const SampleHeader& header) {
         if (value.is_array()) {
             tinygltf::Value::Array all;
             for (const nlohmann::json& one : value) {
-                all.emplace_back(one.get<std::string>());
+                all.emplace_back(one_line(one.get<std::string>()));
             }
             extras.emplace(key, tinygltf::Value(std::move(all)));
         } else {
-            extras.emplace(key, tinygltf::Value(value.get<std::string>()));
+            extras.emplace(key, tinygltf::Value(one_line(value.get<std::string>())));
         }
     }
     return tinygltf::Value(std::move(extras));

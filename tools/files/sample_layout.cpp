@@ -7,18 +7,9 @@
 
 #include "files/ply_file.hpp"
 #include "program/exact_text.hpp"
+#include "program/safe_text.hpp"
 
 namespace geodisk::tools {
-namespace {
-
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
-}
-
-} // namespace
-
 bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
     double largest = 0;
     double extent = 0;
@@ -39,7 +30,8 @@ bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
 
 void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix) {
     for (const auto& [key, value] : header.entries) {
-        file.write(prefix + one_line(key) + ": " + one_line(value) + "\n");
+        // Some of these formats end in spreadsheets.
+        file.write(prefix + csv_comment(key + ": " + value) + "\n");
     }
 }
 

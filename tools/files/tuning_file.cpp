@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -10,8 +11,10 @@
 
 #include "files/output_file.hpp"
 #include "files/text_file.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/json_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -33,6 +36,46 @@ std::filesystem::path cache_folder() {
     const auto home = variable("HOME");
     return home.is_absolute() ? home / ".cache" : std::filesystem::path();
 #endif
+}
+
+constexpr const char* kRemedy = "; run geodisk_bench --tune again, or remove the file";
+
+/// The value of `key` in the file `path`. Throws UserError(bad_input).
+const Json& value_of(const Path& path, const Json& document, const char* key) {
+    if (!document.is_object()) {
+        fail_input(path, std::string("is not as geodisk_bench --tune writes it") + kRemedy);
+    }
+    if (!document.contains(key)) {
+        fail_input(path, std::string("has no ") + key + kRemedy);
+    }
+    return document[key];
+}
+
+[[noreturn]] void fail_value(const Path& path, const char* key, const Json& value,
+                             const std::string& wanted) {
+    fail_input(path, std::string(key) + ": " + in_quotes(json_text(value, -1)) + " is not " +
+                         wanted + kRemedy);
+}
+
+/// Takes no number that a conversion would change, nor anything else.
+std::uint32_t number_of(const Path& path, const Json& document, const char* key) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    const Json& value = value_of(path, document, key);
+    const auto* const number = value.get_ptr<const Json::number_unsigned_t*>();
+    if (number == nullptr || *number > kMost) {
+        fail_value(path, key, value, "a whole number of 0 to " + exact_text(kMost));
+    }
+    return static_cast<std::uint32_t>(*number);
+}
+
+Reads reads_of(const Path& path, const Json& document) {
+    const Json& value = value_of(path, document, "reads");
+    const auto* const name = value.get_ptr<const Json::string_t*>();
+    const std::optional<Reads> reads = name != nullptr ? reads_named(*name) : std::nullopt;
+    if (!reads) {
+        fail_value(path, "reads", value, "one of auto, storage and texels");
+    }
+    return *reads;
 }
 
 } // namespace
@@ -62,20 +105,14 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
     if (path.empty() || !std::filesystem::exists(path, ignored)) {
         return std::nullopt;
     }
-    constexpr const char* kRemedy = "; run geodisk_bench --tune again, or remove the file";
+    // Without exceptions: a document that is none holds no key.
+    const Json document = Json::parse(read_text(path), nullptr, false);
     Tuning tuning;
-    try {
-        const Json document = Json::parse(read_text(path));
-        tuning.local_size = document.at("local_size").get<std::uint32_t>();
-        tuning.slot_local_size = document.at("slot_local_size").get<std::uint32_t>();
-        tuning.pool_block = document.at("pool_block").get<std::uint32_t>();
-        tuning.batches = document.at("batches").get<std::uint32_t>();
-        tuning.reads = reads_named(document.at("reads").get<std::string>()).value();
-    } catch (const Json::exception&) {
-        fail_input(path, std::string("is not as geodisk_bench --tune writes it") + kRemedy);
-    } catch (const std::bad_optional_access&) {
-        fail_input(path, std::string("has no reads that geodisk knows") + kRemedy);
-    }
+    tuning.local_size = number_of(path, document, "local_size");
+    tuning.slot_local_size = number_of(path, document, "slot_local_size");
+    tuning.pool_block = number_of(path, document, "pool_block");
+    tuning.batches = number_of(path, document, "batches");
+    tuning.reads = reads_of(path, document);
     if (const auto checked = chosen_tuning(tuning, device); !checked) {
         fail_input(path, checked.error().message + kRemedy);
     }
@@ -106,8 +143,7 @@ void store_tuning(const Path& path, const DeviceReport& device, const Tuning& tu
                         {"batches", tuning.batches},
                         {"reads", to_string(tuning.reads)}};
     AtomicFile file(path);
-    // Drivers name themselves as they like; text that is not UTF-8 must not end the program.
-    file.write(document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+    file.write(json_text(document, 2) + '\n');
     file.commit();
 }
 

@@ -101,8 +101,9 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
         }
         check_run(error, options_.device_bytes != 0);
     }
-    log_.tell_run(result->report);
-    return take(std::move(result));
+    SampleSet set = take(std::move(result)); // Throws for an error; only a set has a report.
+    log_.tell_run(set.report);
+    return set;
 }
 
 DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double wanted,

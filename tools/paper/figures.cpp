@@ -5,6 +5,7 @@
 
 #include "paper/commands.hpp"
 #include "paper/options.hpp"
+#include "program/command_text.hpp"
 #include "program/program.hpp"
 
 namespace geodisk::paper {
@@ -60,7 +61,7 @@ void run(const Options& options) {
                                            std::to_string(options.common.seed)});
         std::cout << "geodisk_paper";
         for (const std::string& argument : arguments) {
-            std::cout << ' ' << argument;
+            std::cout << ' ' << tools::shell_word(argument);
         }
         std::cout << "\n\n";
         tools::run_arguments(add_commands, std::move(arguments));

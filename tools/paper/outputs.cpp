@@ -35,7 +35,7 @@ void Outputs::add_table(const Table& table, const std::vector<std::string>& circ
     circumstances_ += kCommit;
     circumstances_ += kCommitIsDirty ? " with changes\n" : "\n";
     for (const std::string& line : circumstances) {
-        circumstances_ += "# " + tools::one_line(line) + '\n';
+        circumstances_ += "# " + tools::csv_comment(line) + '\n';
     }
     std::istringstream caption(heading + ".\n" + remarks);
     for (std::string line; std::getline(caption, line);) {

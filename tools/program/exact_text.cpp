@@ -81,16 +81,4 @@ std::optional<double> parse_real(std::string_view text) {
     return error == std::errc::result_out_of_range ? out_of_range_value(text) : value;
 }
 
-std::string csv_cell(std::string_view text) {
-    if (text.find_first_of(",\"#\n") == std::string_view::npos) {
-        return std::string(text);
-    }
-    std::string cell = "\"";
-    for (const char character : text) {
-        cell += character;
-        cell += character == '"' ? "\"" : "";
-    }
-    return cell + '"';
-}
-
 } // namespace geodisk::tools

@@ -1,4 +1,4 @@
-// Text for programs: numbers in full and back, tokens, cells. The same in every locale.
+// Text for programs: numbers in full and back, tokens. The same in every locale.
 #pragma once
 
 #include <charconv>
@@ -48,8 +48,5 @@ std::optional<Integer> parse_integer(std::string_view text) {
     }
     return value;
 }
-
-/// `text` as a cell of a CSV line, quoted where a reader would misunderstand it (RFC 4180).
-std::string csv_cell(std::string_view text);
 
 } // namespace geodisk::tools

@@ -100,25 +100,18 @@ std::string padded(std::string text, std::size_t width) {
 }
 
 std::string in_quotes(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
-    std::string result = "'";
-    for (const char character : text.substr(0, kLongest)) {
-        const bool printable = character >= ' ' && character <= '~';
-        result += printable ? character : '?';
+    constexpr std::size_t kLongest = 40; // Characters; a stray byte is one.
+    std::size_t end = 0;
+    for (std::size_t count = 0; count < kLongest && end < text.size(); ++count) {
+        end += std::max<std::size_t>(1, character_size(text.substr(end)));
     }
-    result += text.size() > kLongest ? "...'" : "'";
-    return result;
-}
-
-std::string one_line(std::string text) {
-    for (char& character : text) {
-        if (character == '\n' || character == '\r' || character == '\t') {
-            character = ' ';
-        } else if (static_cast<unsigned char>(character) < 0x20 || character == 0x7f) {
-            character = '?';
-        }
-    }
-    return text;
+    std::string shown(text.substr(0, end));
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; },
+        '?');
+    std::string result(1, '\'');
+    result += plain_lines(shown);
+    return result + (end < text.size() ? "...'" : "'");
 }
 
 } // namespace geodisk::tools

@@ -8,6 +8,8 @@
 
 #include <geodisk/device.hpp>
 
+#include "program/safe_text.hpp"
+
 namespace geodisk::tools {
 
 /// Rounded to `digits` significant digits, without trailing zeros.
@@ -39,10 +41,8 @@ std::string driver_text(const DeviceReport& report);
 /// `text` and blanks, together at least `width` wide.
 std::string padded(std::string text, std::size_t width);
 
-/// `text` in quotes for a one-line message: long text is cut, unprintable bytes become '?'.
+/// Returns `text` in quotes for a one-line message: long text is cut, and '?' stands for line
+/// breaks and what else one_line() keeps away.
 std::string in_quotes(std::string_view text);
-
-/// `text` with blanks for line breaks and '?' for other control characters, for one-line messages.
-std::string one_line(std::string text);
 
 } // namespace geodisk::tools

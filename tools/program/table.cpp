@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "program/exact_text.hpp"
 #include "program/human_text.hpp"
+#include "program/safe_text.hpp"
 
 namespace geodisk::tools {
 namespace {

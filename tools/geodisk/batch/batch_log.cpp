@@ -82,7 +82,7 @@ void append_entry(LineLog& log, const BatchEntry& entry) {
         json["device"] = entry.device;
     }
     json["command"] = entry.command;
-    log.append(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    log.append(json_text(json, -1));
 }
 
 } // namespace geodisk::tools

@@ -16,10 +16,10 @@ namespace {
 /// Prints the summary for people where no data goes.
 void print_text(const std::string& text, bool is_output_taken, const char* what) {
     if (is_output_taken) {
-        std::cerr << text << std::flush;
+        std::cerr << plain_lines(text) << std::flush;
         return;
     }
-    std::cout << text;
+    std::cout << plain_lines(text);
     flush_or_fail(what);
 }
 

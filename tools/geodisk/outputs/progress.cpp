@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "program/safe_text.hpp"
 #include "program/terminal.hpp"
 
 namespace geodisk::tools {
@@ -55,7 +56,7 @@ void ProgressLine::clear() {
 
 void ProgressLine::draw(std::string_view text) {
     std::string line(1, '\r');
-    line += text.substr(0, kColumns);
+    line += one_line(text.substr(0, kColumns));
     const std::size_t columns = line.size() - 1;
     if (columns < drawn_) {
         line.append(drawn_ - columns, ' ');

@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh_warning.hpp"
+#include "program/json_text.hpp"
 
 namespace geodisk::tools {
 
 using Json = nlohmann::ordered_json;
 
-/// Indented, with a line break at the end. Paths and driver names may be anything; text that is not
-/// UTF-8 is replaced rather than ending the program.
+/// Indented, with a line break at the end.
 inline std::string text_of(const Json& document) {
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return json_text(document, 2) + '\n';
 }
 
 /// Null without a value.
