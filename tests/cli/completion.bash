@@ -50,6 +50,9 @@ expect 'geodisk sample builtin:tor' torus-knot
 expect 'geodisk verify bunny.obj ' FILES
 expect 'geodisk batch scans -o ' FOLDERS
 expect 'geodisk render --style v' voronoi
+expect 'geodisk bunny.obj --cou' --count --count-calls
+expect 'geodisk bunny.obj --format ' ply csv xyz obj pcd npz gltf glb
+expect 'geodisk sample -n 9 -- --co' FILES
 
 if ! command -v zsh > /dev/null; then
     echo "completion: zsh is not installed, so its script is not tried"

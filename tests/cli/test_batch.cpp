@@ -292,6 +292,23 @@ TEST_CASE("a batch goes on from any folder, and takes no mesh for another of its
     CHECK(run(folder, {"verify", "b/m/x.ply", "out/x.ply"}).status == 0);
 }
 
+TEST_CASE("a batch takes meshes, folders and manifests together") {
+    const TemporaryFolder folder;
+    write_shape(folder, "cube", "in/a.ply");
+    write_shape(folder, "cube", "sub/b.ply");
+    folder.write("list.txt", "builtin:cube -o line\n");
+    const Outcome outcome =
+        run(folder, {"batch", "sub/b.ply", "builtin:cube", "in", "list.txt", "absent.obj", "-o",
+                     "out", "-n", "9", "--json", "report.json"});
+    CHECK(outcome.status == 1);
+    CHECK(contains(outcome.err, "absent.obj: "));
+    CHECK(contains(outcome.out, "5 of sub/b.ply and 4 more: 4 ok, 1 failed"));
+    CHECK(files_below(folder, "out") == std::vector<std::string>{"out/a.ply", "out/batch.jsonl",
+                                                                 "out/cube.ply", "out/line.ply",
+                                                                 "out/sub/b.ply"});
+    CHECK(Json::parse(bytes_of(folder / "report.json"))["input"].size() == 5);
+}
+
 TEST_CASE("samples whose names differ by case alone are told where they would be one file") {
     const TemporaryFolder folder;
     folder.write("list.txt", "builtin:cube -o a\nbuiltin:icosphere:2 -o A\n");

@@ -1,6 +1,9 @@
 // Help, version, and every way to ask for something impossible.
 #include <doctest/doctest.h>
 
+#include <set>
+#include <sstream>
+
 #include "cli/command.hpp"
 #include "files/sample_file.hpp"
 
@@ -135,24 +138,229 @@ TEST_CASE("shapes lists names that sample and verify take") {
 
 TEST_CASE("wrong usage is explained") {
     const TemporaryFolder folder;
-    check_fails(folder, 2, "'smaple': no such command or mesh file (see geodisk --help)",
+    check_fails(folder, 2,
+                "'smaple': no such command or mesh file; did you mean sample? (see geodisk --help)",
                 {"smaple", "builtin:cube", "-n", "9"});
     check_fails(folder, 2, "'missing.obj': no such command or mesh file", {"missing.obj"});
     check_fails(folder, 2, "unknown built-in shape 'kube'", {"builtin:kube"});
-    check_fails(folder, 2, "--count", {"builtin:cube", "--count", "9"});
+    check_fails(folder, 2, "--count: 'many' is not", {"builtin:cube", "--count", "many"});
     check_fails(folder, 2, "MESH is required (see geodisk sample --help)", {"sample"});
     check_fails(folder, 2, "--output is required", {"sample", "builtin:cube", "-n", "9"});
     check_fails(folder, 2, "SAMPLES is required", {"verify", "builtin:cube"});
     check_fails(folder, 2, "--speed", sample({"-n", "9", "--speed", "3"}));
-    check_fails(folder, 2, "surplus", sample({"surplus", "-n", "9"}));
+    check_fails(folder, 2, "one argument too many: 'surplus'", sample({"surplus", "-n", "9"}));
     check_fails(folder, 2, "--count needs a value", sample({"-n"}));
     check_fails(folder, 2, "--count is given more than once", sample({"-n", "9", "-n", "8"}));
-    check_fails(folder, 2, "--json needs a value", sample({"-n", "9", "--json=", "--seed=3"}));
+    check_fails(folder, 2, "--json: needs a value", sample({"-n", "9", "--json=", "--seed=3"}));
     check_fails(folder, 2, "--json: needs a value before --seed=3",
                 sample({"-n", "9", "--json", "--seed=3"}));
     check_fails(folder, 2, "--json: needs a value before -q", sample({"-n", "9", "--json", "-q"}));
     check_fails(folder, 2, "--json: needs a value", sample({"-n", "9", "--json", ""}));
     check_fails(folder, 2, "--seed: needs a value", sample({"-n", "9", "--seed", ""}));
+}
+
+TEST_CASE("a mistyped word is answered by the one it is close to") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "meshes");
+    check_fails(folder, 2, "'--cuont': no such option; did you mean --count? (see geodisk sample",
+                sample({"--cuont", "9"}));
+    check_fails(folder, 2, "'--min': no such option; did you mean --min-distance?",
+                sample({"--min", "9"}));
+    check_fails(folder, 2, "'--min_distance=1': no such option; did you mean --min-distance?",
+                sample({"--min_distance=1"}));
+    check_fails(folder, 2, "'--outptu': no such option; did you mean --output?",
+                {"batch", "meshes", "--outptu", "out"});
+    check_fails(folder, 2, "'--verison': no such option; did you mean --version?", {"--verison"});
+    check_fails(folder, 2, "'--xyzzy': no such option; a file of this name goes behind --",
+                {"--xyzzy"});
+    check_fails(folder, 2, "'-z': no such option", sample({"-z"}));
+    check_fails(folder, 2, "'-qz': no such option", sample({"-qz"}));
+    check_fails(folder, 2, "; did you mean icosphere?", {"builtin:icosfere"});
+    check_fails(folder, 2, "; did you mean torus-knot?", {"shapes", "torusknot", "-o", "a.ply"});
+    check_fails(folder, 2,
+                "is none of geodesic, euclidean and approximate; did you mean euclidean?",
+                sample({"-n", "9", "--metric", "euclidian"}));
+    check_fails(folder, 2, "; did you mean glb?", sample({"-n", "9", "--format", "gbl"}));
+    check_fails(folder, 2, "'psd' is neither psdp nor pdts; did you mean psdp?",
+                sample({"-n", "9", "--method", "psd"}));
+    check_fails(folder, 2, "; did you mean voronoi?",
+                {"render", "builtin:cube", "a.ply", "-o", "a.png", "--style", "vornoi"});
+    check_fails(folder, 2, "meshes is a folder; sample all meshes in it by geodisk batch meshes -o",
+                {"meshes", "--count", "9"});
+    check_fails(folder, 2, "options go behind the command: geodisk sample", {"-q", "sample"});
+    const Outcome far = run(folder, {"quux"});
+    CHECK_FALSE(contains(far.err, "did you mean"));
+}
+
+TEST_CASE("-- ends the options, and values that look like options go behind =") {
+    const TemporaryFolder folder;
+    const std::string plate = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (const char* const name : {"--count.obj", "-q.obj", "-", "--"}) {
+        folder.write(name, plate);
+    }
+    const Outcome double_dash =
+        run(folder, {"sample", "-n", "20", "-o", "a.csv", "-q", "--", "--count.obj"});
+    INFO(double_dash.err);
+    CHECK(double_dash.status == 0);
+    CHECK(run(folder, {"verify", "-q", "--", "--count.obj", "a.csv"}).status == 0);
+    CHECK(run(folder, {"-n20", "--output=-b.csv", "-q", "--", "-q.obj"}).status == 0);
+    CHECK(run(folder, {"verify", "-q", "--", "-q.obj", "-b.csv"}).status == 0);
+    CHECK(run(folder, {"sample", "-n=20", "-o=c.csv", "-q", "./--"}).status == 0);
+    CHECK(bytes_of(folder / "a.csv").size() > 100);
+    CHECK(files_in(folder) ==
+          std::vector<std::string>{"-", "--", "--count.obj", "-b.csv", "-q.obj", "a.csv", "c.csv"});
+    check_fails(folder, 2,
+                "--output: needs a value before -b.csv; if that is the value, give "
+                "--output=-b.csv",
+                {"sample", "-n", "20", "-o", "-b.csv", "--", "-q.obj"});
+    check_fails(folder, 2, "--count: '-5' is not a whole number", sample({"--count=-5"}));
+    check_fails(folder, 2, "--output: needs a value", {"sample", "x.obj", "-o", "--"});
+    check_fails(folder, 2, "'-x.obj': no such option; a file of this name goes behind --",
+                {"-x.obj"});
+}
+
+TEST_CASE("options of sample follow a mesh alone, and go before it") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    std::filesystem::create_directory(folder / "sub");
+    folder.write("sub/a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    const auto rows = [&](const char* name) {
+        return tools::read_samples(folder / name).rows.size();
+    };
+    REQUIRE(run(folder, {"a.obj", "--count", "50", "--seed", "7", "-q"}).status == 0);
+    CHECK(rows("a-samples.ply") < 60);
+    REQUIRE(run(folder, {"--count", "50", "-d", "0.5", "--method", "pdts", "--throws", "9", "a.obj",
+                         "--format", "csv", "-q"})
+                .status == 0);
+    CHECK(rows("a-samples-2.csv") < 10);
+    CHECK(run(folder, {"a.obj", "-n", "9", "-o", "b.csv", "--json", "-"}).status == 0);
+    CHECK(rows("b.csv") > 5);
+    CHECK(files_in(folder) == std::vector<std::string>{"a-samples-2.csv", "a-samples-2.png",
+                                                       "a-samples.ply", "a-samples.png", "a.obj",
+                                                       "b.csv", "sub"});
+    CHECK(run(folder, {"a.obj", "--dry-run"}).status == 0);
+    check_fails(folder, 2, "contradict", {"a.obj", "-d", "1", "-n", "5"});
+
+    const Outcome list = run(folder, {"a.obj", "none.obj", "sub/a.off", "-n", "9"});
+    CHECK(list.status == 1);
+    CHECK(contains(list.err, "none.obj: "));
+    CHECK(contains(list.err, "1 mesh of 3 failed"));
+    CHECK(contains(list.out, "a-samples-3.ply"));
+    CHECK(contains(list.out, "a-samples-4.ply"));
+    CHECK(lines_of(list.err).size() == 2);
+    for (const char* const option : {"--output", "--picture", "--json"}) {
+        check_fails(folder, 2, " names one file, but 2 meshes are given",
+                    {"a.obj", "sub/a.off", option, "x.ply"});
+    }
+    check_fails(folder, 2, "--seed: 'x' is not", {"a.obj", "sub/a.off", "--seed", "x"});
+}
+
+TEST_CASE("help shows the examples of its command alone, and they are commands") {
+    const TemporaryFolder folder;
+    std::set<std::string> seen;
+    for (const char* const command :
+         {"", "sample", "batch", "verify", "analyze", "spectrum", "render", "report", "transfer",
+          "box", "shapes", "info", "quick"}) {
+        CAPTURE(command);
+        const bool is_main = std::string(command).empty();
+        const Outcome help =
+            run(folder, is_main ? Arguments{"--help"} : Arguments{command, "--help"});
+        std::size_t count = 0;
+        for (const std::string& line : lines_of(help.out)) {
+            if (!line.starts_with("  geodisk ")) {
+                continue;
+            }
+            ++count;
+            CAPTURE(line);
+            const bool is_own = line.starts_with(std::string("  geodisk ") + command + ' ') ||
+                                line == std::string("  geodisk ") + command;
+            CHECK((is_main || is_own || std::string(command) == "quick"));
+            CHECK((is_main || seen.insert(line).second));
+            const TemporaryFolder empty;
+            std::istringstream words(line);
+            Arguments arguments;
+            for (std::string word; words >> word;) {
+                arguments.push_back(word);
+                // Without content they are all read, and refused, before any work.
+                const bool is_file = word.find('.') != std::string::npos;
+                if (is_file && word.find('%') == std::string::npos) {
+                    empty.write(word, "");
+                }
+            }
+            std::filesystem::create_directory(empty / "meshes");
+            empty.write("list.txt", "");
+            arguments.erase(arguments.begin());
+            const bool works = std::string(command) == "shapes" || std::string(command) == "info";
+            Setting none;
+            none.environment = {{"VK_DRIVER_FILES", "/nowhere.json"}};
+            const int status = run(empty, arguments, works ? Setting{} : none).status;
+            CHECK((works ? status == 0 : status == 1 || status == 3 || status == 5));
+        }
+        CHECK(count >= (std::string(command) == "transfer" ? 1 : 2));
+        CHECK(count <= 4);
+    }
+}
+
+TEST_CASE("the environment chooses a device, and is named where it is wrong") {
+    const TemporaryFolder folder;
+    const auto with = [](const char* name, const std::string& value) {
+        Setting setting;
+        setting.environment = {{name, value}};
+        return setting;
+    };
+    const Arguments quick = sample({"-n", "9", "-q"});
+    check_fails(folder, 5, "GEODISK_DEVICE: no Vulkan device matches \"abacus\"; there is 0", quick,
+                with("GEODISK_DEVICE", "abacus"));
+    check_fails(folder, 5, "GEODISK_DEVICE: no Vulkan device matches",
+                {"batch", "builtin:cube", "-o", "out", "-n", "9"},
+                with("GEODISK_DEVICE", "abacus"));
+    CHECK(contains(run(folder, {"info"}, with("GEODISK_DEVICE", "abacus")).err,
+                   "GEODISK_DEVICE: no Vulkan device matches"));
+    CHECK(run(folder, joined(quick, {"--device", "0"}), with("GEODISK_DEVICE", "abacus")).status ==
+          0);
+    CHECK(run(folder, quick, with("GEODISK_DEVICE", "0")).status == 0);
+    CHECK(run(folder, quick, with("GEODISK_DEVICE", "")).status == 0);
+}
+
+TEST_CASE("a driver that variables name, and that is not there, is named") {
+    const TemporaryFolder folder;
+    folder.write("text.json", "no driver");
+    folder.write("lost.json", R"({"ICD":{"library_path":"./lost.so","api_version":"1.3.0"}})");
+    folder.write("name.json", R"({"ICD":{"library_path":"liblost-driver.so.9"}})");
+    std::filesystem::create_directory(folder / "drivers");
+    const auto told = [&](const char* variable, const std::string& value) {
+        Setting setting;
+        setting.environment = {{"VK_DRIVER_FILES", ""}, {"VK_ICD_FILENAMES", ""}};
+        setting.environment.emplace_back(variable, value);
+        const Outcome outcome = run(folder, {"info"}, setting);
+        CHECK(outcome.status == 5);
+        CHECK(outcome.err.find("install") == std::string::npos);
+        return outcome.err;
+    };
+    const auto path = [&](const char* name) { return (folder / name).string(); };
+    for (const char* const variable : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) {
+        const std::string names = std::string(variable) + " names ";
+        CHECK(contains(told(variable, "/nope.json"), "no Vulkan driver was found; " + names +
+                                                         "/nope.json, which does not exist; "
+                                                         "correct or unset it"));
+        CHECK(contains(told(variable, path("lost.json") + ":/nope.json"),
+                       names + path("lost.json") + ", whose library "));
+        CHECK(contains(told(variable, path("name.json")), "liblost-driver.so.9 does not load"));
+        CHECK(contains(told(variable, path("text.json")), ", which is no driver file"));
+        CHECK(contains(told(variable, path("drivers")), ", a folder without driver files"));
+    }
+    for (const char* const variable : {"VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"}) {
+        const bool selects = std::string(variable).ends_with("SELECT");
+        const std::string value = selects ? "*abacus*" : "*";
+        Setting setting;
+        setting.environment = {
+            {"VK_DRIVER_FILES", ""}, {"VK_ICD_FILENAMES", ""}, {variable, value}};
+        const Outcome outcome = run(folder, {"info"}, setting);
+        if (outcome.status == 5) { // Loaders before 1.3.234 do not know them.
+            CHECK(
+                contains(outcome.err, std::string(variable) + " is '" + value + "', which leaves"));
+        }
+    }
 }
 
 TEST_CASE("the distance must be given once and make sense") {

@@ -18,6 +18,7 @@
 #include "bench/table.hpp"
 #include "bench/tune.hpp"
 #include "files/tuning_file.hpp"
+#include "files/vulkan_environment.hpp"
 #include "program/failure.hpp"
 #include "program/program.hpp"
 
@@ -83,7 +84,7 @@ void run(const bench::Options& options) {
     bench::check_outputs(options);
     const std::vector<bench::NamedMesh> meshes = bench::read_meshes(options.meshes);
     const Context context =
-        tools::take(Context::create({options.device, /* validation */ false, {}}));
+        tools::take_device(Context::create({options.device, /* validation */ false, {}}));
     if (options.tune) {
         tune(context, options, meshes);
     } else {

@@ -7,6 +7,7 @@
 #include "files/input_file.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -37,7 +38,7 @@ SampleFormat format_of(const Path& path, std::string_view name) {
             return *format;
         }
         fail_usage("--format: " + in_quotes(name) + " is no sample format; known are " +
-                   all_names(""));
+                   all_names("") + did_you_mean(name, sample_formats()));
     }
     const std::string extension = lower_extension(path);
     if (const auto format = find_format(extension.empty() ? "" : extension.substr(1))) {

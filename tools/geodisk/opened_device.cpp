@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "files/vulkan_environment.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -10,12 +11,20 @@ namespace geodisk::tools {
 Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& progress) {
     progress.begin_stage("opening the device");
     ContextOptions wanted;
-    wanted.device = options.device;
+    wanted.device = chosen_device(options.device);
     wanted.validation = options.validate;
     wanted.graphics = graphics;
-    Context context = take(Context::create(wanted));
+    Context context = take_device(Context::create(wanted));
     check_interrupted();
     return context;
+}
+
+std::string chosen_device(const std::string& given) {
+    std::string device = given.empty() ? device_of_environment() : given;
+    if (given.empty() && !device.empty()) {
+        take(select_device(take_device(list_devices()), device), kDeviceVariable);
+    }
+    return device;
 }
 
 void check_validation(const Context& context) {

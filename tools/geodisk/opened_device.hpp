@@ -1,6 +1,8 @@
 // The device of a command.
 #pragma once
 
+#include <string>
+
 #include <geodisk/context.hpp>
 
 #include "geodisk/options/run_options.hpp"
@@ -11,6 +13,10 @@ namespace geodisk::tools {
 /// As --device and --validate ask; with a queue that draws as well, where `graphics` is set. Throws
 /// UserError.
 Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& progress);
+
+/// Returns the device that --device, `given`, or else GEODISK_DEVICE chooses; "" where neither
+/// does. Throws UserError naming the variable for what matches no device that works.
+std::string chosen_device(const std::string& given);
 
 /// Throws UserError(internal) if the validation layer had something to say.
 void check_validation(const Context& context);

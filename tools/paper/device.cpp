@@ -6,6 +6,7 @@
 
 #include "bench/statistics.hpp"
 #include "files/tuning_file.hpp"
+#include "files/vulkan_environment.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -15,7 +16,7 @@ Context open_context(const std::string& name, bool graphics) {
     ContextOptions options;
     options.device = name;
     options.graphics = graphics;
-    return tools::take(Context::create(options));
+    return tools::take_device(Context::create(options));
 }
 
 RunnerOptions kept_options(const Context& context) {

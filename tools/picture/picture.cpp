@@ -10,6 +10,7 @@
 
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools::picture {
 namespace {
@@ -227,8 +228,11 @@ Style parse_style(const std::string& option, const std::string& text) {
             return style;
         }
     }
-    fail_usage(option + " takes disks, points, voronoi, distance or density, not " +
-               in_quotes(text));
+    std::vector<std::string> known;
+    for (const auto& [name, style] : kNames) {
+        known.emplace_back(name);
+    }
+    fail_choice(option, text, known);
 }
 
 double reach_of(Style style) {

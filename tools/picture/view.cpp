@@ -13,6 +13,7 @@
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools::picture {
 namespace {
@@ -149,7 +150,7 @@ std::optional<View> parse_view(const std::string& option, const std::string& tex
     fail_usage(option +
                " takes auto, front, back, left, right, top, bottom or "
                "AZIMUTH,ELEVATION in degrees, such as 30,20; not " +
-               in_quotes(text));
+               in_quotes(text) + did_you_mean(text, named_views()));
 }
 
 Up parse_up(const std::string& option, const std::string& text) {

@@ -1,6 +1,7 @@
 #include "program/command.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,20 +10,8 @@
 namespace geodisk::tools {
 namespace {
 
-/// What is wrong with what was given as the value of an option, or "": nothing, or another option,
-/// which CLI11 would take for it.
-std::string fault_of_value(const std::string& given) {
-    if (given.empty()) {
-        return "needs a value";
-    }
-    const bool is_option = given.size() > 1 && given[0] == '-' &&
-                           (given[1] == '-' || (given[1] >= 'a' && given[1] <= 'z') ||
-                            (given[1] >= 'A' && given[1] <= 'Z'));
-    return is_option ? "needs a value before " + given : "";
-}
-
 CLI::Option* described(CLI::Option* option, const std::string& type, const std::string& group) {
-    return option->type_name(type)->group(group)->check(fault_of_value, "", "");
+    return option->type_name(type)->group(group);
 }
 
 OptionFacts facts_of(const CLI::Option& option, const Offers& offers) {
@@ -141,9 +130,20 @@ Command Command::add_hidden_command(const std::string& name, const std::string& 
     return {*app_->add_subcommand(name, text)->group(""), *offers_};
 }
 
-bool Command::has_command(const std::string& name) const {
+std::optional<Command> Command::find_command(const std::string& name) const {
     const auto has_name = [&name](CLI::App* one) { return one->check_name(name); };
-    return !app_->get_subcommands(std::function<bool(CLI::App*)>(has_name)).empty();
+    const auto found = app_->get_subcommands(std::function<bool(CLI::App*)>(has_name));
+    return found.empty() ? std::nullopt : std::optional(Command(*found.front(), *offers_));
+}
+
+std::vector<std::string> Command::command_names() const {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app_->get_subcommands(std::function<bool(CLI::App*)>())) {
+        if (!command->get_group().empty()) {
+            names.push_back(command->get_name());
+        }
+    }
+    return names;
 }
 
 void Command::needs_command() const {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -90,7 +91,10 @@ class Command {
     Command add_command(const std::string& name, const std::string& text) const;
     /// The same, of no interest to most: help, manuals and completion do not tell of it.
     Command add_hidden_command(const std::string& name, const std::string& text) const;
-    bool has_command(const std::string& name) const;
+    /// Nothing if there is no such command.
+    std::optional<Command> find_command(const std::string& name) const;
+    /// Those that help tells of.
+    std::vector<std::string> command_names() const;
     /// One of its subcommands must be given.
     void needs_command() const;
 

@@ -36,14 +36,16 @@ bool is_file(const OptionFacts& option) {
 // How bash_completion() begins; `option` is the one whose value `word` is, or "".
 constexpr const char* kBashStart =
     R"(    # By the line, as the words that bash makes of it end at ":" and "=" too.
-    local line=${COMP_LINE:0:COMP_POINT} word='' option='' options='' offered='' kind=''
+    local line=${COMP_LINE:0:COMP_POINT} word='' option='' options='' offered='' kind='' ended=''
     local -a words
     read -ra words <<< "$line"
     if [[ $line != *[[:blank:]] ]]; then
         word=${words[-1]}
         unset 'words[-1]'
     fi
-    if [[ $word == --*=* ]]; then
+    if [[ " ${words[*]:1} " == *' -- '* ]]; then
+        ended=yes
+    elif [[ $word == --*=* ]]; then
         option=${word%%=*}
         word=${word#*=}
     elif ((${#words[@]} > 2)); then
@@ -67,7 +69,7 @@ constexpr const char* kBashEnd = R"(    COMPREPLY=()
 }
 )";
 
-std::string bash_case(const CommandFacts& command) {
+std::string bash_case(const CommandFacts& command, const std::string& pattern) {
     Words names, files, folders, others, arguments;
     std::string cases;
     const auto add_case = [&cases](const Words& options, const std::string& does) {
@@ -94,7 +96,7 @@ std::string bash_case(const CommandFacts& command) {
     // Those of two meshes are the same.
     std::sort(arguments.begin(), arguments.end());
     arguments.erase(std::unique(arguments.begin(), arguments.end()), arguments.end());
-    return "        " + command.name + ")\n            options='" + joined(names, " ") +
+    return "        " + pattern + ")\n            options='" + joined(names, " ") +
            "'\n            case $option in\n" + cases + "                *) kind=files offered='" +
            joined(arguments, " ") + "' ;;\n            esac\n            ;;\n";
 }
@@ -171,7 +173,7 @@ std::string zsh_arguments(const CommandFacts& command, const std::string& indent
 
 } // namespace
 
-std::string bash_completion(const CommandFacts& program) {
+std::string bash_completion(const CommandFacts& program, const std::string& usual) {
     std::string script = "# Completion for bash.\n_" + program.name + "() {\n" + kBashStart;
     script += "    case ${words[1]-} in\n        '')\n            kind=command offered='" +
               joined(names_of(program.commands), " ") + "'\n            options='";
@@ -181,16 +183,19 @@ std::string bash_completion(const CommandFacts& program) {
     }
     script += joined(names, " ") + "'\n            ;;\n";
     for (const CommandFacts& command : program.commands) {
-        script += bash_case(command);
+        script += bash_case(command, command.name);
+    }
+    for (const CommandFacts& command : program.commands) {
+        script += command.name == usual ? bash_case(command, "*") : "";
     }
     script += "    esac\n"
-              "    if [[ $word == -* ]]; then\n"
+              "    if [[ $word == -* && -z $ended ]]; then\n"
               "        kind=words offered=$options\n"
               "    fi\n";
     return script + kBashEnd + "complete -F _" + program.name + ' ' + program.name + '\n';
 }
 
-std::string zsh_completion(const CommandFacts& program) {
+std::string zsh_completion(const CommandFacts& program, const std::string& usual) {
     const std::string& name = program.name;
     std::string script = "#compdef " + name + "\n_" + name + "() {\n";
     script += "    local curcontext=$curcontext state line\n    _arguments -C" +
@@ -205,6 +210,11 @@ std::string zsh_completion(const CommandFacts& program) {
     for (const CommandFacts& command : program.commands) {
         script += "                " + command.name + ") _arguments -s" +
                   zsh_arguments(command, std::string(20, ' ')) + " ;;\n";
+    }
+    for (const CommandFacts& command : program.commands) {
+        script += command.name == usual ? "                *) _arguments -s" +
+                                              zsh_arguments(command, std::string(20, ' ')) + " ;;\n"
+                                        : "";
     }
     script += "            esac\n            ;;\n    esac\n}\n";
     // zsh calls a file of its fpath once as the function, which defined itself by that.

@@ -8,9 +8,9 @@
 namespace geodisk::tools {
 
 /// For bash, with or without the package bash-completion.
-std::string bash_completion(const CommandFacts& program);
+std::string bash_completion(const CommandFacts& program, const std::string& usual);
 
 /// For zsh, as a file `_NAME` in a folder of its `fpath`, or by `source`.
-std::string zsh_completion(const CommandFacts& program);
+std::string zsh_completion(const CommandFacts& program, const std::string& usual);
 
 } // namespace geodisk::tools

@@ -10,12 +10,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include "program/command_line.hpp"
 #include "program/command_text.hpp"
 #include "program/crash.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/standard_streams.hpp"
+#include "program/suggestion.hpp"
 #include "program/terminal.hpp"
 #include "program/utf8_arguments.hpp"
 
@@ -37,10 +39,8 @@ int fail(const char* program, ExitCode code, const std::string& message) {
 }
 
 /// Where the user finds the right usage.
-std::string hint(const CLI::App& app) {
-    const auto chosen = app.get_subcommands();
-    return " (see " + app.get_name() + " " +
-           (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help)";
+std::string hint(const std::string& program, const std::string& command) {
+    return " (see " + program + ' ' + (command.empty() ? "" : command + ' ') + "--help)";
 }
 
 /// CLI11 counts values; people want to know what they did.
@@ -56,38 +56,59 @@ std::string usage_message(const CLI::ParseError& error) {
     return message;
 }
 
-/// CLI11 would give "--name=" the argument behind it.
-void check_values(const std::vector<std::string>& arguments) {
-    for (const std::string& argument : arguments) {
-        if (argument == "--") {
-            return;
-        }
-        if (argument.starts_with("--") && argument.ends_with('=')) {
-            fail_usage(argument.substr(0, argument.size() - 1) + " needs a value");
-        }
+/// The command that `arguments` begin with, or "". Throws UserError(usage) where there must be one
+/// and it is another word.
+std::string chosen_command(Command program, const std::vector<std::string>& arguments) {
+    if (arguments.empty() || arguments.front().starts_with('-')) {
+        return "";
     }
+    const std::string& first = arguments.front();
+    if (program.find_command(first)) {
+        return first;
+    }
+    if (const std::vector<std::string> names = program.command_names(); !names.empty()) {
+        fail_usage(in_quotes(first) + ": no such command" + did_you_mean(first, names));
+    }
+    return "";
+}
+
+/// `arguments` as CLI11 takes them: backwards, with nothing left to guess.
+std::vector<std::string> understood(Command program, const std::string& command,
+                                    std::vector<std::string> arguments) {
+    std::vector<std::string> words;
+    if (!command.empty()) {
+        words.push_back(command);
+        arguments.erase(arguments.begin());
+    }
+    const Command chosen = command.empty() ? program : *program.find_command(command);
+    const std::vector<std::string> rest = asks_for_help(arguments)
+                                              ? std::vector<std::string>{"--help"}
+                                              : words_of(sorted_words(chosen.facts(), arguments));
+    words.insert(words.end(), rest.begin(), rest.end());
+    std::reverse(words.begin(), words.end());
+    return words;
 }
 
 int parse(CLI::App& app, Command program, int argc, char** argv, Rewrite rewrite) {
     const char* const name = app.get_name().c_str();
+    std::string command;
     try {
         std::vector<std::string> arguments = utf8_arguments(argc, argv);
         noted_command = command_text(name, arguments);
         if (rewrite != nullptr) {
             rewrite(program, arguments);
         }
-        check_values(arguments);
-        std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
-        app.parse(arguments);
+        command = chosen_command(program, arguments);
+        app.parse(understood(program, command, std::move(arguments)));
     } catch (const CLI::CallForHelp&) {
         std::cout << app.help(); // Of the subcommand if one is chosen.
     } catch (const CLI::CallForVersion& version) {
         std::cout << version.what() << '\n';
     } catch (const CLI::ParseError& error) {
-        return fail(name, ExitCode::usage, usage_message(error) + hint(app));
+        return fail(name, ExitCode::usage, usage_message(error) + hint(name, command));
     } catch (const UserError& error) {
         const bool is_usage = error.code() == ExitCode::usage;
-        return fail(name, error.code(), error.what() + (is_usage ? hint(app) : ""));
+        return fail(name, error.code(), error.what() + (is_usage ? hint(name, command) : ""));
     }
     if (!std::cout.flush()) {
         return fail(name, ExitCode::bad_output, "standard output cannot be written");
@@ -120,11 +141,11 @@ void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::
     CLI::App app;
     app.set_help_flag();
     Offers offers;
-    set_up(Command(app, offers));
-    check_values(arguments);
-    std::reverse(arguments.begin(), arguments.end()); // As CLI11 takes them.
+    const Command program(app, offers);
+    set_up(program);
+    const std::string command = chosen_command(program, arguments);
     try {
-        app.parse(std::move(arguments));
+        app.parse(understood(program, command, std::move(arguments)));
     } catch (const CLI::ParseError& error) {
         fail_usage(usage_message(error));
     }

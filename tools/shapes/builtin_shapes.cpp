@@ -4,6 +4,7 @@
 
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 #include "shapes/shape_makers.hpp"
 
 namespace geodisk::tools {
@@ -40,18 +41,23 @@ constexpr BuiltinShape kShapes[] = {
 };
 
 [[noreturn]] void fail_unknown(std::string_view name) {
-    std::string known;
-    for (const BuiltinShape& shape : kShapes) {
-        known += known.empty() ? "" : ", ";
-        known += shape.name;
-    }
-    fail_usage("unknown built-in shape " + in_quotes(name) + "; known are " + known);
+    const std::vector<std::string> known = builtin_names("");
+    fail_usage("unknown built-in shape " + in_quotes(name) + "; known are " + listed(known) +
+               did_you_mean(name, known));
 }
 
 } // namespace
 
 std::span<const BuiltinShape> builtin_shapes() {
     return kShapes;
+}
+
+std::vector<std::string> builtin_names(const std::string& prefix) {
+    std::vector<std::string> names;
+    for (const BuiltinShape& shape : kShapes) {
+        names.push_back(prefix + std::string(shape.name));
+    }
+    return names;
 }
 
 MeshFile make_builtin(std::string_view name, std::optional<int> resolution) {

@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "geometry/mesh.hpp"
 
@@ -20,6 +22,9 @@ struct BuiltinShape {
 
 /// All shapes, in the order to list them.
 std::span<const BuiltinShape> builtin_shapes();
+
+/// Their names, each behind `prefix`.
+std::vector<std::string> builtin_names(const std::string& prefix);
 
 /// Generates shape `name`. Every vertex is used, no triangle is degenerate, and neighbours agree in
 /// orientation (but across a seam of those that are one-sided). Throws UserError(usage) for an

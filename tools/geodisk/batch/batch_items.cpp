@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -91,36 +92,63 @@ BatchItem make_item(SampleOptions options, const BatchOptions& batch,
     return {parse_job(options), sample_command(from_anywhere(options)), std::move(place), {}};
 }
 
-std::vector<BatchItem> items_in_folder(const BatchOptions& batch) {
+/// The mesh with the options of all; its samples are named by `given`.
+BatchItem item_of_mesh(const BatchOptions& batch, const std::string& mesh,
+                       const std::string& given) {
+    SampleOptions options = batch.sample;
+    options.mesh.mesh = mesh;
+    return make_item(std::move(options), batch, name_of(given, batch), mesh);
+}
+
+std::vector<BatchItem> items_in_folder(const BatchOptions& batch, const Path& folder) {
     std::vector<BatchItem> items;
-    for (const std::filesystem::path& file : mesh_files_in(batch.input, batch.folder)) {
-        SampleOptions options = batch.sample;
-        options.mesh.mesh = (Path(batch.input) / file).string();
-        items.push_back(
-            make_item(options, batch, name_of(file.string(), batch), options.mesh.mesh));
+    for (const std::filesystem::path& file : mesh_files_in(folder, batch.folder)) {
+        items.push_back(item_of_mesh(batch, (folder / file).string(), file.string()));
+    }
+    if (items.empty()) {
+        fail_input(folder, "holds no mesh (*.gltf, *.glb, *.obj, *.off, *.ply or *.stl)");
     }
     return items;
 }
 
 BatchItem item_of_line(const std::vector<std::string>& words, const BatchOptions& batch,
-                       const std::string& place) {
-    LineOptions line = parse_line(batch.sample, words, Path(batch.input).parent_path());
+                       const Path& manifest, const std::string& place) {
+    LineOptions line = parse_line(batch.sample, words, manifest.parent_path());
     const std::filesystem::path name =
         line.name.empty() ? name_of(line.mesh, batch) : given_name(line.name, batch.format);
     return make_item(std::move(line.sample), batch, name, place);
 }
 
-std::vector<BatchItem> items_in_manifest(const BatchOptions& batch) {
+std::vector<BatchItem> items_in_manifest(const BatchOptions& batch, const Path& manifest) {
     std::vector<BatchItem> items;
-    for (const ManifestLine& line : read_manifest(batch.input)) {
-        const std::string place = line_text(batch.input, line.number);
+    for (const ManifestLine& line : read_manifest(manifest)) {
+        const std::string place = line_text(manifest, line.number);
         try {
-            items.push_back(item_of_line(line.words, batch, place));
+            items.push_back(item_of_line(line.words, batch, manifest, place));
         } catch (const UserError& error) {
             throw UserError(error.code(), place + ": " + error.what());
         }
     }
+    if (items.empty()) {
+        fail_input(manifest, "names no mesh");
+    }
     return items;
+}
+
+bool is_folder(const std::string& input) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(Path(input), ignored);
+}
+
+bool is_mesh(const std::string& input) {
+    return is_builtin(input) || (!is_folder(input) && is_mesh_file(Path(input)));
+}
+
+std::vector<BatchItem> items_of(const BatchOptions& batch, const std::string& input) {
+    if (is_mesh(input)) {
+        return {item_of_mesh(batch, input, input)};
+    }
+    return is_folder(input) ? items_in_folder(batch, input) : items_in_manifest(batch, input);
 }
 
 /// Marks items that would write the same file: none of them has a better right to it.
@@ -140,15 +168,11 @@ void find_clashes(std::vector<BatchItem>& items) {
 } // namespace
 
 std::vector<BatchItem> batch_items(const BatchOptions& options) {
-    sample_target(options.input, options.format); // Fails for what is no format.
-    std::error_code ignored;
-    const bool is_folder = std::filesystem::is_directory(Path(options.input), ignored);
-    std::vector<BatchItem> items =
-        is_folder ? items_in_folder(options) : items_in_manifest(options);
-    if (items.empty()) {
-        fail_input(options.input,
-                   is_folder ? "holds no mesh (*.gltf, *.glb, *.obj, *.off, *.ply or *.stl)"
-                             : "names no mesh");
+    sample_target(options.inputs.front(), options.format); // Fails for what is no format.
+    std::vector<BatchItem> items;
+    for (const std::string& input : options.inputs) {
+        std::vector<BatchItem> more = items_of(options, input);
+        std::ranges::move(more, std::back_inserter(items));
     }
     find_clashes(items);
     return items;
@@ -157,9 +181,10 @@ std::vector<BatchItem> batch_items(const BatchOptions& options) {
 void check_batch_files(const BatchOptions& options, const std::vector<BatchItem>& items,
                        const std::string& log, const std::set<std::string>& done) {
     FilesInUse files;
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(Path(options.input), ignored)) {
-        files.add_read({"the manifest", options.input});
+    for (const std::string& input : options.inputs) {
+        if (!is_folder(input) && !is_mesh(input)) {
+            files.add_read({"the manifest", input});
+        }
     }
     for (const BatchItem& item : items) {
         for (const NamedFile& file : files_read(item.job)) {

@@ -16,7 +16,7 @@ struct BatchItem {
     std::string fault;   ///< Error of an item whose output is also that of another, or "".
 };
 
-/// All meshes of the folder or manifest, of whatever shard. Throws UserError: `usage` for options
+/// All meshes that the inputs name, of whatever shard. Throws UserError: `usage` for options
 /// and lines of a manifest that will not do; `bad_input` for an input that cannot be read or names
 /// no mesh.
 std::vector<BatchItem> batch_items(const BatchOptions& options);

@@ -5,6 +5,8 @@
 
 #include <geodisk/context.hpp>
 
+#include "files/vulkan_environment.hpp"
+#include "geodisk/opened_device.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -22,8 +24,12 @@ std::vector<std::size_t> usable(std::span<const DeviceReport> reports, bool with
 
 } // namespace
 
-std::vector<std::string> chosen_devices(const std::vector<std::string>& given) {
-    const std::vector<DeviceReport> reports = take(list_devices());
+std::vector<std::string> chosen_devices(const std::vector<std::string>& options) {
+    std::vector<std::string> given = options;
+    if (const std::string device = device_of_environment(); given.empty() && !device.empty()) {
+        given.push_back(device == "all" ? device : chosen_device(""));
+    }
+    const std::vector<DeviceReport> reports = take_device(list_devices());
     const bool all = std::ranges::find(given, "all") != given.end();
     std::vector<std::size_t> chosen;
     if (all || given.empty()) {

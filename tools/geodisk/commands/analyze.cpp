@@ -11,6 +11,7 @@
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -22,6 +23,11 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk analyze bunny.obj points.csv",
+    "geodisk analyze bunny.obj first.csv second.csv --json analysis.json",
+};
 
 using analysis::Evenness;
 
@@ -142,6 +148,7 @@ void add_analyze_command(Command app) {
     add_mesh_options(command, options->mesh);
     add_json_option(command, options->out);
     add_quiet_option(command, options->out, "No progress and no result");
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { run_analyze(*options); });
 }
 

@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kFooter = R"(Examples:
   geodisk batch meshes -o samples --count 10000
-  geodisk batch list.txt -o samples --min-distance 1% --format csv
+  geodisk batch bunny.obj teapot.ply -o samples --min-distance 1% --format csv
   geodisk batch list.txt -o samples --count 10000 --shard 3/16
   geodisk batch list.txt -o samples --count 10000 --resume
 

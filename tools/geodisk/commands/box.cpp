@@ -10,6 +10,7 @@
 #include <geodisk/domain.hpp>
 
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/dry_run.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -22,6 +23,12 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk box -o points.csv --dim 2 --count 1000 --periodic",
+    "geodisk box -o points.npz --extents 2,1,1 --min-distance 0.1",
+    "geodisk box -o points.csv --dim 4 --count 1e4 --periodic",
+};
 
 /// As given on the command line.
 struct BoxOptions {
@@ -169,6 +176,7 @@ void add_box_command(Command app) {
     add_run_options(command, options->run);
     add_output_options(command, options->out);
     add_verbose_option(command, options->run.device);
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { run_box(*options); });
 }
 

@@ -1,13 +1,14 @@
 #include "program/completion.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/outputs/outputs.hpp"
-#include "program/failure.hpp"
-#include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 
@@ -17,11 +18,12 @@ void add_completion_command(Command app) {
     const auto shell = std::make_shared<std::string>();
     command.add_option("SHELL", *shell, "", "bash or zsh").required();
     command.calls([app, shell] {
-        if (*shell != "bash" && *shell != "zsh") {
-            fail_usage("SHELL: " + in_quotes(*shell) + " is neither bash nor zsh");
+        const std::vector<std::string> shells{"bash", "zsh"};
+        if (std::ranges::find(shells, *shell) == shells.end()) {
+            fail_choice("SHELL", *shell, shells);
         }
-        std::cout << (*shell == "bash" ? bash_completion(app.facts())
-                                       : zsh_completion(app.facts()));
+        std::cout << (*shell == "bash" ? bash_completion(app.facts(), "quick")
+                                       : zsh_completion(app.facts(), "quick"));
         flush_or_fail("the script");
     });
 }

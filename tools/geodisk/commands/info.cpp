@@ -12,7 +12,9 @@
 #include <geodisk/context.hpp>
 #include <geodisk/version.hpp>
 
+#include "files/vulkan_environment.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/reports/json.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
@@ -20,6 +22,11 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk info",
+    "geodisk info --json",
+};
 
 struct InfoOptions {
     bool as_json = false;
@@ -43,10 +50,10 @@ std::string timestamp_text(const DeviceReport& report) {
 void print_device(std::ostream& out, std::size_t index, const DeviceReport& report,
                   bool is_default) {
     const DeviceLimits& limits = report.limits;
-    out << index << "  " << report.name << (is_default ? "  [default]\n" : "\n")
+    out << index << "  " << one_line(report.name) << (is_default ? "  [default]\n" : "\n")
         << "   type             " << type_name(report.type) << '\n'
         << "   Vulkan           " << version_text(report.api_version) << '\n'
-        << "   driver           " << driver_text(report) << '\n'
+        << "   driver           " << one_line(driver_text(report)) << '\n'
         << "   UUID             " << uuid_text(report.uuid) << '\n'
         << "   memory           " << size_text(report.largest_device_local_heap)
         << " in the largest device-local heap\n"
@@ -61,7 +68,7 @@ void print_device(std::ostream& out, std::size_t index, const DeviceReport& repo
         << (report.rounds_natively ? "exact as on the host" : "within the bounds of Vulkan") << '\n'
         << "   runs geodisk     " << (report.usable() ? "yes" : "no:") << '\n';
     for (const std::string& reason : report.reasons_against) {
-        out << "                    " << reason << '\n';
+        out << "                    " << one_line(reason) << '\n';
     }
 }
 
@@ -130,9 +137,9 @@ void print_json(std::ostream& out, const std::vector<DeviceReport>& reports,
 void run_info(bool as_json) {
     const Result<std::vector<DeviceReport>> listed = list_devices();
     const std::vector<DeviceReport> reports = listed ? *listed : std::vector<DeviceReport>{};
-    std::optional<std::size_t> best;
-    if (const Result<std::size_t> chosen = select_device(reports, ""))
-        best = *chosen;
+    const std::string device = listed ? device_of_environment() : "";
+    const Result<std::size_t> chosen = select_device(reports, device);
+    const std::optional<std::size_t> best = chosen ? std::optional(*chosen) : std::nullopt;
 
     if (as_json)
         print_json(std::cout, reports, best);
@@ -141,10 +148,16 @@ void run_info(bool as_json) {
     std::cout.flush();
     if (!std::cout)
         fail_output("the list of devices cannot be written");
-    if (!listed)
-        throw UserError(exit_code_of(listed.error().status), listed.error().message);
-    if (!best)
+    if (!listed) {
+        const Error& error = listed.error();
+        throw UserError(exit_code_of(error.status), with_driver_fault(error.message));
+    }
+    if (!chosen && !device.empty()) {
+        take(Result<std::size_t>(chosen), kDeviceVariable);
+    }
+    if (!chosen) {
         throw UserError(ExitCode::no_device, "none of the Vulkan devices listed can run geodisk");
+    }
 }
 
 } // namespace
@@ -173,6 +186,7 @@ void add_info_command(Command app) {
         .add_flag("--count-calls", options->of_kernels.count_calls,
                   "Kernels as for sample --count-calls", "Development")
         .needs(kernels);
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { // Owns them, as the options refer to them.
         if (options->kernels)
             print_kernels(options->of_kernels, options->as_json);

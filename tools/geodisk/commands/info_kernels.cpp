@@ -8,10 +8,13 @@
 #include <geodisk/version.hpp>
 
 #include "files/tuning_file.hpp"
+#include "files/vulkan_environment.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/opened_device.hpp"
 #include "geodisk/reports/kernel_report.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -21,7 +24,7 @@ Reads parsed_reads(const std::string& name) {
         return Reads::automatic;
     const std::optional<Reads> reads = reads_named(name);
     if (!reads)
-        fail_usage("--reads: " + in_quotes(name) + " is none of auto, storage and texels");
+        fail_choice("--reads", name, std::vector<std::string>{"auto", "storage", "texels"});
     return *reads;
 }
 
@@ -32,9 +35,9 @@ void print_kernels(const KernelsOptions& options, bool as_json) {
     sampler_options.tuning.reads = parsed_reads(options.reads);
     sampler_options.count_calls = options.count_calls;
     ContextOptions context_options;
-    context_options.device = options.device;
+    context_options.device = chosen_device(options.device);
     context_options.pipeline_statistics = true;
-    const Context context = take(Context::create(context_options));
+    const Context context = take_device(Context::create(context_options));
     const DeviceReport& report = context.report();
     const Tuning kept = load_tuning(report).value_or(Tuning{}); // As `sample` uses it.
     sampler_options.tuning = overridden(kept, sampler_options.tuning);
@@ -47,10 +50,10 @@ void print_kernels(const KernelsOptions& options, bool as_json) {
                                   {"reads", to_string(sampler.tuning().reads)},
                                   {"kernels", kernels_json(reports)}});
     } else {
-        std::cout << "device  " << report.name << '\n'
-                  << "driver  " << driver_text(report) << '\n'
+        std::cout << "device  " << one_line(report.name) << '\n'
+                  << "driver  " << one_line(driver_text(report)) << '\n'
                   << "reads   " << to_string(sampler.tuning().reads) << "\n\n"
-                  << kernels_text(reports);
+                  << plain_lines(kernels_text(reports));
     }
     std::cout.flush();
     if (!std::cout)

@@ -2,18 +2,32 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "files/mesh_file.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "program/command.hpp"
+#include "program/command_line.hpp"
+#include "program/command_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
+#include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk bunny.obj",
+    "geodisk bunny.obj --count 500 --seed 7",
+    "geodisk bunny.obj teapot.ply --min-distance 2% --format csv",
+};
 
 bool exists(const Path& path) {
     std::error_code error;
@@ -23,7 +37,9 @@ bool exists(const Path& path) {
 /// "bunny-samples" of "meshes/bunny.obj".
 std::string base_name(const std::string& mesh) {
     std::string name = mesh;
-    if (is_builtin(mesh)) {
+    if (mesh == "-") {
+        name = "stdin";
+    } else if (is_builtin(mesh)) {
         name.erase(0, mesh.find(':') + 1);
         std::replace(name.begin(), name.end(), ':', '-');
     } else {
@@ -33,64 +49,189 @@ std::string base_name(const std::string& mesh) {
     return name + "-samples";
 }
 
-/// The name for a try, from 1, without extension.
-std::string numbered(const std::string& base, int number) {
-    return number == 1 ? base : base + '-' + std::to_string(number);
-}
-
-/// The first number from `number` on whose names no file has yet.
-int free_number(const std::string& base, int number) {
-    while (exists(numbered(base, number) + ".ply") || exists(numbered(base, number) + ".png")) {
-        ++number;
+/// Names, by the mesh, of the files that the user does not name.
+class FreeNames {
+  public:
+    /// `endings` of the samples and, where there is one to name, of the picture.
+    FreeNames(std::string base, std::vector<std::string> endings)
+        : base_(std::move(base)), endings_(std::move(endings)) {
+        find_number();
     }
-    return number;
-}
 
-/// Returns false if another program was faster, and then takes no name.
-bool claim_names(const std::vector<AtomicFile*>& files, const std::string& name) {
-    const char* const extensions[] = {".ply", ".png"};
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        if (!files[i]->claim(name + extensions[i])) {
-            std::ranges::for_each(files, &AtomicFile::release);
-            return false;
+    std::string name(std::size_t file) const {
+        return (number_ == 1 ? base_ : base_ + '-' + std::to_string(number_)) + endings_[file];
+    }
+
+    /// Gives the files names that nothing else has by then.
+    void claim(const std::vector<AtomicFile*>& files) {
+        while (!try_to_claim(files)) { // Another program was faster.
+            ++number_;
+            find_number();
         }
     }
-    return true;
-}
 
-void name_outputs(const std::string& base, const std::vector<AtomicFile*>& files,
-                  std::string& output, std::string& picture) {
-    int number = free_number(base, 1);
-    while (!claim_names(files, numbered(base, number))) {
-        number = free_number(base, number + 1);
+  private:
+    /// The first number from number_ on whose names no file has yet.
+    void find_number() {
+        const auto is_taken = [this](std::size_t file) { return exists(name(file)); };
+        while (is_taken(0) || (endings_.size() > 1 && is_taken(1))) {
+            ++number_;
+        }
     }
-    output = numbered(base, number) + ".ply";
-    picture = picture.empty() ? "" : numbered(base, number) + ".png";
-}
 
-/// A device that cannot draw may still sample.
-void sample_and_draw(SampleOptions options) {
-    const std::string base = base_name(options.mesh.mesh);
-    const auto name = [&base](const auto& files, std::string& output, std::string& picture) {
-        name_outputs(base, files, output, picture);
+    bool try_to_claim(const std::vector<AtomicFile*>& files) const {
+        for (std::size_t i = 0; i < std::min(files.size(), endings_.size()); ++i) {
+            if (!files[i]->claim(name(i))) {
+                std::ranges::for_each(files, &AtomicFile::release);
+                return false;
+            }
+        }
+        return true;
+    }
+
+    std::string base_;
+    std::vector<std::string> endings_;
+    int number_ = 1;
+};
+
+/// Samples into files named by the mesh, and draws a picture unless the user names one.
+void sample_to_free_names(SampleOptions options) {
+    const bool is_visible = options.mesh.edge_lengths.empty() || !options.mesh.coordinates.empty();
+    const bool names_picture = options.picture.empty() && is_visible;
+    std::vector<std::string> endings{'.' +
+                                     (options.out.format.empty() ? "ply" : options.out.format)};
+    if (names_picture) {
+        endings.emplace_back(".png");
+    }
+    FreeNames names(base_name(options.mesh.mesh), endings);
+    options.out.output = names.name(0);
+    if (names_picture) {
+        options.picture = names.name(1);
+    }
+    const auto name = [&](const std::vector<AtomicFile*>& files, std::string& output,
+                          std::string& picture) {
+        names.claim(files);
+        output = names.name(0);
+        picture = names_picture && !picture.empty() ? names.name(1) : picture;
     };
-    const std::string first = numbered(base, free_number(base, 1));
-    options.out.output = first + ".ply";
-    options.picture = first + ".png";
     try {
         sample_to_files(options, name);
         return;
     } catch (const UserError& error) {
-        if (error.code() != ExitCode::no_device) {
+        if (error.code() != ExitCode::no_device || !names_picture) {
             throw;
         }
-        options.picture.clear();
     }
+    options.picture.clear(); // A device that cannot draw may still sample.
     sample_to_files(options, name);
     if (options.out.has_summary()) {
         std::cout << "picture       none, the device cannot draw\n";
         flush_or_fail("the summary");
     }
+}
+
+void sample_one(const SampleOptions& options) {
+    if (options.out.output.empty() && !options.out.is_dry_run) {
+        sample_to_free_names(options);
+    } else {
+        sample_to_files(options);
+    }
+}
+
+struct QuickOptions {
+    SampleOptions sample;
+    std::vector<std::string> meshes;
+};
+
+/// Throws UserError(usage) where one file would have to hold what comes of several meshes.
+void check_no_outputs(const QuickOptions& options) {
+    for (const auto& [name, path] : {std::pair{"--output", &options.sample.out.output},
+                                     {"--picture", &options.sample.picture},
+                                     {"--json", &options.sample.out.json}}) {
+        if (!path->empty()) {
+            fail_usage(std::string(name) + " names one file, but " +
+                       grouped(options.meshes.size()) +
+                       " meshes are given; leave it out, or use geodisk batch");
+        }
+    }
+}
+
+/// Whether nothing can go on after it.
+bool ends_all(const UserError& error) {
+    return error.code() == ExitCode::no_device || static_cast<int>(error.code()) > 128;
+}
+
+/// Goes on behind meshes that fail.
+void sample_each(const QuickOptions& options) {
+    check_no_outputs(options);
+    SampleOptions one = options.sample;
+    one.mesh.mesh = options.meshes.front();
+    parse_job(one); // Options that will not do for any mesh are told once.
+    std::size_t failed = 0;
+    for (const std::string& mesh : options.meshes) {
+        one.mesh.mesh = mesh;
+        try {
+            sample_one(one);
+        } catch (const UserError& error) {
+            if (ends_all(error)) {
+                throw;
+            }
+            print_failure(mesh, error.what());
+            ++failed;
+        }
+    }
+    if (failed > 0) {
+        throw UserError(ExitCode::some_failed, counted(failed, "mesh", "meshes") + " of " +
+                                                   grouped(options.meshes.size()) + " failed");
+    }
+}
+
+void run_quick(QuickOptions options) {
+    SampleOptions& sample = options.sample;
+    if (sample.min_distance.empty() && sample.radius.empty() && sample.count.empty()) {
+        sample.count = "10000";
+    }
+    if (options.meshes.size() > 1) {
+        sample_each(options);
+    } else {
+        sample.mesh.mesh = options.meshes.front();
+        sample_one(sample);
+    }
+}
+
+bool is_folder(const Path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored);
+}
+
+/// Throws UserError(usage) for a word that is no mesh, with what it may stand for.
+void check_mesh(Command app, const std::string& word) {
+    if (is_builtin(word) || word == "-") {
+        return;
+    }
+    if (is_folder(word)) {
+        fail_usage(one_line(word) + " is a folder; sample all meshes in it by geodisk batch " +
+                   shell_word(word) + " -o OUT --count N");
+    }
+    if (exists(word)) {
+        return;
+    }
+    if (app.find_command(word)) {
+        fail_usage("options go behind the command: geodisk " + word + " ...");
+    }
+    std::vector<std::string> known = app.command_names();
+    for (std::string& shape : builtin_names("builtin:")) {
+        known.push_back(std::move(shape));
+    }
+    fail_usage(in_quotes(word) + ": no such command or mesh file" + did_you_mean(word, known));
+}
+
+/// What may stand where a mesh alone is sampled: options of `quick` and of the program.
+CommandFacts quick_facts(Command app) {
+    CommandFacts facts = app.find_command("quick")->facts();
+    const CommandFacts program = app.facts();
+    facts.options.insert(facts.options.end(), program.options.begin(), program.options.end());
+    return facts;
 }
 
 } // namespace
@@ -99,13 +240,11 @@ void add_quick_command(Command app) {
     const Command command = app.add_command(
         "quick", "What geodisk MESH does: about 10,000 samples into NAME-samples.ply\n"
                  "and a picture beside it, replacing nothing");
-    const auto options = std::make_shared<SampleOptions>();
-    options->count = "10000";
-    add_mesh_argument(command, options->mesh, "Mesh to sample");
-    add_device_options(command, options->run.device);
-    add_quiet_option(command, options->out);
-    add_verbose_option(command, options->run.device);
-    command.calls([options] { sample_and_draw(*options); });
+    const auto options = std::make_shared<QuickOptions>();
+    add_mesh_arguments(command, options->meshes, "Meshes to sample");
+    add_sample_options(command, options->sample);
+    command.has_footer(help_footer(kExamples));
+    command.calls([options] { run_quick(*options); });
 }
 
 void choose_command(Command app, std::vector<std::string>& arguments) {
@@ -114,11 +253,14 @@ void choose_command(Command app, std::vector<std::string>& arguments) {
         return;
     }
     const std::string& first = arguments.front();
-    if (first.starts_with('-') || app.has_command(first)) {
+    if (first == "--help" || first == "-h" || first == "--version" || app.find_command(first)) {
         return;
     }
-    if (!is_builtin(first) && !exists(first)) {
-        fail_usage(in_quotes(first) + ": no such command or mesh file");
+    if (!asks_for_help(arguments)) {
+        const CommandLine line = sorted_words(quick_facts(app), arguments);
+        if (!line.arguments.empty()) {
+            check_mesh(app, line.arguments.front());
+        }
     }
     arguments.insert(arguments.begin(), "quick");
 }

@@ -6,6 +6,7 @@
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/render_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -16,6 +17,12 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk render bunny.obj points.ply -o picture.png",
+    "geodisk render bunny.obj points.ply -o cells.png --style voronoi --view front --view back",
+    "geodisk render box.csv -o box.png",
+};
 
 void render_samples(const RenderOptions& options) {
     const picture::PictureParams params = parse_picture(options);
@@ -52,6 +59,7 @@ void add_render_command(Command app) {
         app.add_command("render", "Draw samples and their geodesic disks as a picture");
     const auto options = std::make_shared<RenderOptions>();
     add_render_options(command, *options);
+    command.has_footer(help_footer(kExamples));
     command.calls([options] {
         if (options->samples.empty()) {
             render_box(*options);

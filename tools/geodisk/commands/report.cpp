@@ -6,6 +6,7 @@
 #include "files/input_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/report_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -23,6 +24,11 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk report bunny.obj -o bunny.html --count 1000",
+    "geodisk report bunny.obj -o bunny.html --min-distance 2% --view front",
+};
 
 void check_page_path(const Path& path) {
     const std::string extension = lower_extension(path);
@@ -90,6 +96,7 @@ void add_report_command(Command app) {
         "report", "Sample a mesh and write a page that shows and measures the samples");
     const auto options = std::make_shared<ReportOptions>();
     add_report_options(command, *options);
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { run_report(*options); });
 }
 

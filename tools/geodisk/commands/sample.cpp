@@ -3,6 +3,7 @@
 
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/opened_device.hpp"
 #include "geodisk/options/sample_options.hpp"
@@ -16,6 +17,13 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk sample bunny.obj -o points.ply --count 10000",
+    "geodisk sample bunny.obj -o points.csv --min-distance 1% --seed 7",
+    "geodisk sample bunny.obj -o points.ply --min-distance 1% --method pdts --count 500",
+    "geodisk sample builtin:showpiece -o points.ply --count 10000 --picture points.png",
+};
 
 /// On the device that they were made on.
 void draw_samples(const MeshInput& mesh, SampleResult& result, RunDevice& device,
@@ -78,7 +86,9 @@ void add_sample_command(Command app) {
     const Command command =
         app.add_command("sample", "Put samples on a mesh and write them to a file");
     const auto options = std::make_shared<SampleOptions>();
+    add_mesh_argument(command, options->mesh, "Mesh to sample");
     add_sample_options(command, *options);
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { sample_to_files(*options); });
 }
 

@@ -6,6 +6,7 @@
 
 #include "files/mesh_file.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -13,6 +14,11 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk shapes",
+    "geodisk shapes torus-knot:64 -o knot.ply",
+};
 
 struct ShapesOptions {
     std::string shape, output;
@@ -68,6 +74,7 @@ void add_shapes_command(Command app) {
     const auto options = std::make_shared<ShapesOptions>();
     command.add_option("SHAPE", options->shape, "", "Surface to write: NAME or NAME:RESOLUTION");
     command.add_option("-o,--output", options->output, "OUT", "File to write: *.ply");
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { run_shapes(*options); });
 }
 

@@ -14,6 +14,7 @@
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/spectrum_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -26,6 +27,11 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk spectrum bunny.obj points.csv --harmonics 200 -o spectrum.csv",
+    "geodisk spectrum box.csv -o spectrum.png",
+};
 
 using analysis::PlacedSamples;
 using analysis::SurfaceSpectrum;
@@ -153,6 +159,7 @@ void add_spectrum_command(Command app) {
     const auto options = std::make_shared<SpectrumOptions>();
     const auto files = std::make_shared<std::vector<std::string>>();
     add_spectrum_options(command, *options, *files);
+    command.has_footer(help_footer(kExamples));
     command.calls([options, files] {
         if (are_box_samples(files->front())) {
             options->samples = *files;

@@ -13,6 +13,7 @@
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -27,6 +28,10 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv",
+};
 
 struct TransferOptions {
     std::string samples;
@@ -161,6 +166,7 @@ void add_transfer_command(Command app) {
     add_weld_option(command, options->from, "-a");
     add_weld_option(command, options->to, "-b");
     add_output_options(command, options->out);
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { run_transfer(*options); });
 }
 

@@ -16,6 +16,7 @@
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -29,6 +30,12 @@
 
 namespace geodisk::tools {
 namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk verify bunny.obj points.csv",
+    "geodisk verify bunny.obj points.csv --min-distance 0.01",
+    "geodisk verify box.csv",
+};
 
 constexpr std::size_t kNamedStrays = 10;
 
@@ -246,6 +253,7 @@ void add_verify_command(Command app) {
     add_density_options(command, options->density);
     add_json_option(command, options->out);
     add_quiet_option(command, options->out, "No progress and no result but the exit status");
+    command.has_footer(help_footer(kExamples));
     command.calls([options] { run_verify(*options); });
 }
 

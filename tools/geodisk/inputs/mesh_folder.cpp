@@ -12,16 +12,16 @@
 namespace geodisk::tools {
 namespace {
 
-bool is_mesh_file(const std::filesystem::path& path) {
-    constexpr std::string_view kExtensions[] = {".gltf", ".glb", ".obj", ".off", ".ply", ".stl"};
-    return std::ranges::find(kExtensions, lower_extension(path)) != std::ranges::end(kExtensions);
-}
-
 bool is_hidden(const std::filesystem::path& path) {
     return path.filename().string().starts_with('.');
 }
 
 } // namespace
+
+bool is_mesh_file(const std::filesystem::path& path) {
+    constexpr std::string_view kExtensions[] = {".gltf", ".glb", ".obj", ".off", ".ply", ".stl"};
+    return std::ranges::find(kExtensions, lower_extension(path)) != std::ranges::end(kExtensions);
+}
 
 std::vector<std::filesystem::path> mesh_files_in(const Path& folder, const Path& without) {
     std::vector<std::filesystem::path> files;

@@ -10,6 +10,7 @@
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/program.hpp"
+#include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -75,9 +76,10 @@ Shard BatchOptions::parsed_shard() const {
 
 void add_batch_options(Command command, BatchOptions& options) {
     command
-        .add_option("INPUT", options.input, "",
-                    "Folder of meshes, with those in it; or manifest, a text\n"
-                    "file with a mesh on each line, and options for it")
+        .add_option("INPUT", options.inputs, "",
+                    "Folders of meshes, with those in it; meshes; and manifests,\n"
+                    "text files with a mesh on each line, and options for it")
+        .offers(builtin_names("builtin:"))
         .required();
     command
         .add_option("-o,--output", options.folder, "DIR",
@@ -109,8 +111,8 @@ void add_batch_options(Command command, BatchOptions& options) {
     command
         .add_option("--device", options.devices, "NAME|INDEX",
                     "Device by name, index or UUID (geodisk info), or all; may\n"
-                    "be given several times. Without it, all GPUs, or the best\n"
-                    "device where there are none",
+                    "be given several times. Without it, that of GEODISK_DEVICE;\n"
+                    "without both, all GPUs, or else the best device",
                     group)
         .takes_one_value();
     add_subject_options(command, options.sample);

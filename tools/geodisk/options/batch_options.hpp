@@ -23,7 +23,7 @@ struct Shard {
 
 /// As given on the command line.
 struct BatchOptions {
-    std::string input; ///< A folder or a manifest.
+    std::vector<std::string> inputs; ///< Folders, meshes and manifests.
     std::string folder;
     std::string format = "ply";
     SampleOptions sample; ///< For all meshes; of its outputs, all but the samples.

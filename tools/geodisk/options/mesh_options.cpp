@@ -11,6 +11,8 @@ namespace {
 
 constexpr const char* kSurfaceGroup = "Surface";
 
+constexpr const char* kMeshFormats = ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME";
+
 /// What a flag without a value gets, and the name for it.
 constexpr const char* kBareFlag = "true";
 constexpr const char* kExact = "exact";
@@ -63,14 +65,15 @@ HeaderEntries MeshOptions::additions() const {
 
 void add_mesh_argument(Command command, MeshOptions& options, const std::string& summary,
                        const std::string& name) {
-    std::vector<std::string> shapes;
-    for (const BuiltinShape& shape : builtin_shapes()) {
-        shapes.push_back("builtin:" + std::string(shape.name));
-    }
-    command
-        .add_option(name, options.mesh, "",
-                    summary + ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME")
-        .offers(std::move(shapes))
+    command.add_option(name, options.mesh, "", summary + kMeshFormats)
+        .offers(builtin_names("builtin:"))
+        .required();
+}
+
+void add_mesh_arguments(Command command, std::vector<std::string>& meshes,
+                        const std::string& summary) {
+    command.add_option("MESH", meshes, "", summary + kMeshFormats)
+        .offers(builtin_names("builtin:"))
         .required();
 }
 

@@ -33,6 +33,10 @@ struct MeshOptions {
 void add_mesh_argument(Command command, MeshOptions& options, const std::string& summary,
                        const std::string& name = "MESH");
 
+/// Adds the argument MESH, one or several.
+void add_mesh_arguments(Command command, std::vector<std::string>& meshes,
+                        const std::string& summary);
+
 /// Adds the files beside the mesh `mesh_name`; `suffix` ends the options' names.
 void add_sidecar_options(Command command, MeshOptions& options, const std::string& mesh_name,
                          const std::string& suffix = "");

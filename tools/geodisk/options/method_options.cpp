@@ -8,6 +8,7 @@
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -19,7 +20,7 @@ constexpr const char* kMethodGroup = "Method";
 
 void check_method(const MethodOptions& options) {
     if (options.method != "psdp" && options.method != "pdts") {
-        fail_usage("--method: " + in_quotes(options.method) + " is neither psdp nor pdts");
+        fail_choice("--method", options.method, std::vector<std::string>{"psdp", "pdts"});
     }
     if (options.throws_darts() && !options.pool_ratio.empty()) {
         fail_usage("--pool-ratio is for --method psdp; with pdts, --throws "
@@ -39,15 +40,6 @@ std::uint32_t parse_candidates(const std::string& option, const std::string& tex
                    grouped(kMostCandidates) + " that are possible");
     }
     return static_cast<std::uint32_t>(value);
-}
-
-/// "--a, --b and --c".
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-    }
-    return text;
 }
 
 } // namespace

@@ -79,7 +79,8 @@ void add_verbose_option(Command command, DeviceOptions& options) {
 
 void add_device_options(Command command, DeviceOptions& options) {
     command.add_option("--device", options.device, "NAME|INDEX",
-                       "Device by name, index or UUID (geodisk info)");
+                       "Device by name, index or UUID (geodisk info); without it,\n"
+                       "that of GEODISK_DEVICE, or the best");
     add_validate_option(command, options);
 }
 

@@ -1,21 +1,26 @@
 #include "geodisk/options/sample_options.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "files/part_columns.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
-#include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
 
+const std::vector<std::string>& metrics() {
+    static const std::vector<std::string> all{"geodesic", "euclidean", "approximate"};
+    return all;
+}
+
 /// Straight lines need the space that lengths and lifts do without.
 void check_metric(const SampleOptions& options) {
-    if (options.metric != "geodesic" && options.metric != "euclidean" &&
-        options.metric != "approximate") {
-        fail_usage("--metric: " + in_quotes(options.metric) +
-                   " is none of geodesic, euclidean and approximate");
+    if (std::ranges::find(metrics(), options.metric) == metrics().end()) {
+        fail_choice("--metric", options.metric, metrics());
     }
     if (options.metric != "geodesic" && options.density.is_given()) {
         fail_usage("--metric " + options.metric +
@@ -74,7 +79,6 @@ SampleJob parse_job(const SampleOptions& options) {
 }
 
 void add_sample_options(Command command, SampleOptions& options) {
-    add_mesh_argument(command, options.mesh, "Mesh to sample");
     add_output_or_dry_run(command, options.out, kSampleFiles);
     add_job_options(command, options);
     command.add_option("--picture", options.picture, "FILE",
@@ -106,7 +110,7 @@ void add_subject_options(Command command, SampleOptions& options) {
                     "geodesic: exact, along the surface. For comparison alone,\n"
                     "euclidean: straight through space; approximate: a closed\n"
                     "form by normals (Bowers et al. 2010)")
-        .offers({"geodesic", "euclidean", "approximate"})
+        .offers(metrics())
         .shows_default();
     add_method_options(command, options.method, "the surface");
     add_seed_option(command, options.run);

@@ -27,7 +27,7 @@ struct SampleOptions {
     std::string picture;
 };
 
-/// Adds all options of the command; `options` must outlive the parsing.
+/// Adds all options of the command but the mesh; `options` must outlive the parsing.
 void add_sample_options(Command command, SampleOptions& options);
 
 /// Adds those that say what is sampled besides the mesh file, and so hold all that the samples

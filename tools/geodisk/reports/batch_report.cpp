@@ -30,13 +30,20 @@ std::string devices_text(const std::vector<std::string>& devices) {
     return text;
 }
 
+/// "meshes", or "a.obj and 2 more".
+std::string inputs_text(const std::vector<std::string>& inputs) {
+    return inputs.front() +
+           (inputs.size() > 1 ? " and " + grouped(inputs.size() - 1) + " more" : "");
+}
+
 } // namespace
 
 std::string batch_json(const BatchOptions& options, const BatchResult& result) {
     const BatchTotals& totals = result.totals;
     const Shard shard = options.parsed_shard();
     return text_of({{"version", GEODISK_VERSION_STRING},
-                    {"input", options.input},
+                    {"input", options.inputs.size() == 1 ? Json(options.inputs.front())
+                                                         : Json(options.inputs)},
                     {"output", options.folder},
                     {"log", result.log},
                     {"shard", {{"index", shard.index}, {"count", shard.count}}},
@@ -55,7 +62,8 @@ std::string batch_json(const BatchOptions& options, const BatchResult& result) {
 std::string batch_summary(const BatchOptions& options, const BatchResult& result) {
     const BatchTotals& totals = result.totals;
     std::ostringstream out;
-    out << "meshes        " << grouped(result.meshes) << " of " << one_line(options.input);
+    out << "meshes        " << grouped(result.meshes) << " of "
+        << one_line(inputs_text(options.inputs));
     if (!options.shard.empty()) {
         out << ", shard " << options.shard;
     }

@@ -1,0 +1,39 @@
+// What the environment says of Vulkan devices and drivers. The library itself never reads it.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <geodisk/status.hpp>
+
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+/// The variable that chooses a device where no option does.
+inline constexpr const char* kDeviceVariable = "GEODISK_DEVICE";
+
+/// Returns its value, or "".
+std::string device_of_environment();
+
+/// Returns what is wrong with the drivers that variables of the Vulkan loader name
+/// (VK_DRIVER_FILES, VK_ICD_FILENAMES, VK_ADD_DRIVER_FILES, VK_LOADER_DRIVERS_SELECT and _DISABLE),
+/// and what to do; "" where nothing is. Only of use where no driver was found.
+std::string driver_fault();
+
+/// Returns `message`, of an error `no_device`, with driver_fault() in place of the advice to
+/// install a driver.
+std::string with_driver_fault(const std::string& message);
+
+/// The same as take(), for calls that look for devices.
+template <class T>
+T take_device(Result<T>&& result, const std::string& prefix = {}) {
+    if (!result && result.error().status == Status::no_device) {
+        Error error = result.error();
+        error.message = with_driver_fault(error.message);
+        return take(Result<T>(std::move(error)), prefix);
+    }
+    return take(std::move(result), prefix);
+}
+
+} // namespace geodisk::tools

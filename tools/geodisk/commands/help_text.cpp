@@ -1,0 +1,31 @@
+#include "geodisk/commands/help_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr const char* kExitStatus = R"(
+Exit status:
+  0    success
+  1    verify found samples too close, off the mesh or of another radius; meshes of a list failed
+  2    wrong usage: an unknown option, no or several distances, a value out of range
+  3    an input file is missing, unreadable or malformed
+  4    an output cannot be written
+  5    no Vulkan device that can run geodisk
+  6    the work does not fit into the memory of the host or the device
+  7    the device was lost, or an error or crash inside geodisk or the driver
+  130  interrupted (SIGINT)
+  143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
+Whenever the status is 2 or more, no output file is written or replaced, except for the meshes of
+a list or batch that are done.)";
+
+} // namespace
+
+std::string help_footer(std::span<const char* const> examples) {
+    std::string text = "Examples:\n";
+    for (const char* const example : examples) {
+        text += std::string("  ") + example + '\n';
+    }
+    return text + kExitStatus;
+}
+
+} // namespace geodisk::tools

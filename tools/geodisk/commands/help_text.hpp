@@ -1,0 +1,12 @@
+// What the help of commands ends with.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace geodisk::tools {
+
+/// Returns the examples of one command, each a line that works, and the exit statuses of all.
+std::string help_footer(std::span<const char* const> examples);
+
+} // namespace geodisk::tools
