@@ -134,6 +134,19 @@ def test_options():
     assert plane.points.shape[1] == 2 and plane.normals is None
 
 
+def test_a_count_with_a_stop_is_searched_for_without_it():
+    all_samples = geodisk.sample(VERTICES, FACES, count=200, seed=3)
+    first = geodisk.sample(VERTICES, FACES, count=200, stop_count=20, seed=3)
+    assert first.min_distance == all_samples.min_distance
+    assert np.array_equal(first.face_index, all_samples.face_index[:20])
+    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 1000000 samples found room"):
+        geodisk.sample(VERTICES, FACES, min_distance=0.5, stop_count=10**6)
+    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 999 samples found room"):
+        geodisk.sample_box([1, 1], min_distance=0.2, stop_count=999)
+    with pytest.raises(ValueError, match="throws"):
+        geodisk.sample(VERTICES, FACES, count=200, throws=100)
+
+
 def test_boxes():
     samples = geodisk.sample_box([1, 2], min_distance=0.1, periodic=True)
     assert samples.points.shape[1] == 2 and samples.face_index is None

@@ -136,9 +136,7 @@ def sampled(
             return runs.run(domain_at(first, stop_count))
         search = CountSearch(count, first)
         while search.next > 0:
-            found = runs.run(domain_at(search.next, 0))
+            found = runs.run(domain_at(search.next, 0))  # All, or it would miss the count.
             search.note(found, c.samples_count(found.value))
         best: c.Handle = search.best
-        if 0 < stop_count < c.samples_count(best.value):
-            return runs.run(domain_at(search.best_distance, stop_count))
-        return best
+        return runs.run(domain_at(search.best_distance, stop_count)) if stop_count else best

@@ -13,6 +13,7 @@ from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
 from ._mesh import keys_of, mesh_of, radii_of
+from ._oddities import warn
 from ._protocols import Faces, MeshLike
 from ._results import samples_of
 from ._running import ProgressCallback, sampled
@@ -60,7 +61,7 @@ def sample(
     throws : int
         Number of darts, instead of candidates by `pool_ratio`.
     stop_count : int
-        Stop after this many samples.
+        Stop after this many samples. A warning tells if fewer fit.
     face_keys : array_like of int, shape (f,), optional
         Keys that candidates of each triangle are drawn by, no two alike: the same triangle with the
         same key has the same candidates in every mesh.
@@ -97,6 +98,8 @@ def sample(
     -----
     MeshWarning
         As :class:`Mesh` does.
+    GeodiskWarning
+        For fewer samples than `stop_count`.
 
     Examples
     --------
@@ -109,7 +112,8 @@ def sample(
     >>> bool(samples.face_index.max() < 4)
     True
     """
-    distance = distance_of(min_distance, radius, count)
+    throws = integer(throws, "throws", 2**32 - 1)
+    distance = distance_of(min_distance, radius, count, throws)
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     if metric not in s.METRICS:
@@ -120,7 +124,7 @@ def sample(
     params = s.SurfaceParams(
         seed=seed,
         pool_ratio=float(pool_ratio),
-        throws=integer(throws, "throws", 2**32 - 1),
+        throws=throws,
         radii=None if radii is None else radii.value,
         face_keys=None if keys is None else keys.ctypes.data,
         metric=s.METRICS[metric],
@@ -141,7 +145,7 @@ def sample(
         )
         distance = found.value
     made = sampled(domain_at, distance, count, stop_count, device, progress)
-    return samples_of(made, seed, mesh._surface)
+    return _told(samples_of(made, seed, mesh._surface), stop_count)
 
 
 def sample_box(
@@ -177,7 +181,8 @@ def sample_box(
     >>> samples.points.shape[1]
     3
     """
-    distance = distance_of(min_distance, radius, count)
+    throws = integer(throws, "throws", 2**32 - 1)
+    distance = distance_of(min_distance, radius, count, throws)
     sides = np.ascontiguousarray(extents, dtype=np.float64)
     if sides.ndim != 1:
         raise e.invalid("extents are one number for each dimension")
@@ -189,7 +194,7 @@ def sample_box(
         is_periodic=int(bool(periodic)),
         seed=seed,
         pool_ratio=float(pool_ratio),
-        throws=integer(throws, "throws", 2**32 - 1),
+        throws=throws,
     )
 
     def domain_at(at: float, stop: int) -> c.Handle:
@@ -201,4 +206,19 @@ def sample_box(
         c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
         distance = found.value
     made = sampled(domain_at, distance, count, stop_count, device, progress)
-    return samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))
+    samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))
+    return _told(samples, stop_count)
+
+
+def _told(samples: Samples, stop_count: int) -> Samples:
+    """Returns the samples, and warns if they are fewer than `stop_count`."""
+    if len(samples) < stop_count:
+        warn(
+            [
+                e.GeodiskWarning(
+                    f"only {len(samples)} of {stop_count} samples found room before the darts ran "
+                    "out; lower stop_count or the distance, or raise throws"
+                )
+            ]
+        )
+    return samples

@@ -10,6 +10,7 @@ from . import _errors as e
 
 
 def integer(value: Any, name: str, most: int) -> int:
+    """Returns a whole number from 0 to `most`."""
     number = operator.index(value)
     if not 0 <= number <= most:
         raise e.invalid(f"{name} is {number}, not from 0 to {most}")
@@ -17,14 +18,16 @@ def integer(value: Any, name: str, most: int) -> int:
 
 
 def distance_of(
-    mindistance_of: float | None, radius: float | None, count: float | None
+    min_distance: float | None, radius: float | None, count: float | None, throws: int = 0
 ) -> float | None:
-    """The minimum distance, or None where a count chooses it."""
-    given = [x is not None for x in (mindistance_of, radius, count)]
+    """Returns the minimum distance, or None where a count chooses it."""
+    if count is not None and 0 < throws < count:
+        raise e.invalid(f"{throws} throws cannot give {count} samples; raise throws")
+    given = [x is not None for x in (min_distance, radius, count)]
     if sum(given) != 1:
-        raise e.invalid("give one of mindistance_of, radius and count")
-    if mindistance_of is not None:
-        distance = float(mindistance_of)
+        raise e.invalid("give one of min_distance, radius and count")
+    if min_distance is not None:
+        distance = float(min_distance)
     elif radius is not None:
         distance = 2 * float(radius)
     else:
