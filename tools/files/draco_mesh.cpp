@@ -1,7 +1,6 @@
 #include "files/draco_mesh.hpp"
 
 #include <array>
-#include <exception>
 #include <utility>
 
 #include <draco/compression/decode.h>
@@ -17,7 +16,9 @@ DracoMesh failed(std::string why) {
     return result;
 }
 
-DracoMesh decode(std::string_view bytes, const std::vector<std::uint32_t>& ids) {
+} // namespace
+
+DracoMesh draco_decoded(std::string_view bytes, const std::vector<std::uint32_t>& ids) {
     draco::DecoderBuffer buffer;
     buffer.Init(bytes.data(), bytes.size());
     draco::Decoder decoder;
@@ -61,16 +62,6 @@ DracoMesh decode(std::string_view bytes, const std::vector<std::uint32_t>& ids) 
         result.attributes.push_back(std::move(values));
     }
     return result;
-}
-
-} // namespace
-
-DracoMesh draco_decoded(std::string_view bytes, const std::vector<std::uint32_t>& ids) {
-    try {
-        return decode(bytes, ids);
-    } catch (const std::exception&) { // Damaged data may promise more than memory holds.
-        return failed("its data cannot be decoded");
-    }
 }
 
 } // namespace geodisk::tools

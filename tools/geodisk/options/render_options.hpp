@@ -18,7 +18,7 @@ struct RenderOptions {
     std::string samples;
     OutputOptions out;
     DeviceOptions device;
-    std::string size = "1920x1080", style = "auto", background = "white";
+    std::string size = "1920x1080", style = "disks", background = "white";
     UpOption up;
     DistanceOptions distance;
     std::vector<std::string> views;

@@ -10,6 +10,7 @@ import threading
 from dataclasses import dataclass
 from typing import Iterator, Union
 
+from . import _cpu
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
@@ -57,12 +58,7 @@ def devices() -> list[Device]:
     """
     global _uses_drivers
     _uses_drivers = True
-    count = ctypes.c_size_t()
-    c.call("geodisk_list_devices", None, 0, ctypes.byref(count))
-    infos = (s.DeviceInfo * count.value)()
-    if count.value:
-        infos[0].struct_size = ctypes.sizeof(s.DeviceInfo)
-        c.call("geodisk_list_devices", infos, count.value, ctypes.byref(count))
+    _cpu.provide()
     return [
         Device(
             index=i,
@@ -74,7 +70,7 @@ def devices() -> list[Device]:
             memory=info.memory_bytes,
             uuid=bytes(info.uuid).hex(),
         )
-        for i, info in enumerate(infos)
+        for i, info in enumerate(c.list_devices())
     ]
 
 
@@ -108,6 +104,7 @@ def _open(name: str) -> c.Handle:
     _uses_drivers = True
     with _lock:
         if name not in _opened:
+            _cpu.provide()
             options = s.DeviceOptions(device=name.encode())
             try:
                 _opened[name] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ctypes
 import os
-import pathlib
 import sys
-from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p, sizeof
 from typing import Any
 
+from . import _place
 from ._errors import BY_STATUS, Error
 from ._structs import (
     NO_ELEMENT,
@@ -84,7 +84,7 @@ def _load() -> ctypes.CDLL:
     """Loads the library that lies beside this module, or that GEODISK_LIBRARY names."""
     name = _NAMES.get(sys.platform, "libgeodisk_python.so")
     named = os.environ.get("GEODISK_LIBRARY")
-    path = named or str(pathlib.Path(__file__).parent / name)
+    path = named or _place.find(name) or name
     try:
         library = ctypes.CDLL(path)
     except OSError as error:
@@ -172,3 +172,14 @@ class Handle:
         value, self.value = getattr(self, "value", None), c_void_p()
         if value:
             self._release(value)
+
+
+def list_devices() -> list[DeviceInfo]:
+    """All Vulkan devices, usable or not; raises NoDevice without loader, driver or device."""
+    count = c_size_t()
+    call("geodisk_list_devices", None, 0, byref(count))
+    infos = (DeviceInfo * count.value)()
+    if count.value:
+        infos[0].struct_size = sizeof(DeviceInfo)
+        call("geodisk_list_devices", infos, count.value, byref(count))
+    return list(infos)

@@ -14,6 +14,7 @@ import sysconfig
 import tempfile
 from typing import Iterator, Sequence
 
+from . import _cpu, _place
 from . import _errors as e
 from . import _library as c
 
@@ -37,6 +38,11 @@ _FAILURES: dict[int, tuple[type[e.Error], str]] = {
 }
 
 
+def bundled() -> str | None:
+    """Path of the program that was installed with this package."""
+    return _place.find(f"bin/{_NAME}")
+
+
 def _find() -> str:
     named = os.environ.get("GEODISK_COMMAND")
     if named:
@@ -44,8 +50,11 @@ def _find() -> str:
         if path is None:
             raise e.NoProgram(f"GEODISK_COMMAND is {named}, which is no program", "no_program")
         return os.path.abspath(path)
-    folders = [os.path.join(os.path.dirname(__file__), "bin"), sysconfig.get_path("scripts")]
-    path = shutil.which(_NAME, path=os.pathsep.join(folders)) or shutil.which(_NAME)
+    path = (
+        bundled()
+        or shutil.which(_NAME, path=sysconfig.get_path("scripts"))
+        or shutil.which(_NAME)
+    )
     if path is None:
         raise e.NoProgram(f"there is no program {_NAME}: {_HOW_TO_GET_IT}", "no_program")
     return os.path.abspath(path)
@@ -86,6 +95,7 @@ def run(folder: pathlib.Path, arguments: Sequence[str], accepted: Sequence[int] 
         ended = subprocess.run(
             [program, *arguments, "--quiet"],
             cwd=folder,
+            env=_cpu.environment(),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
