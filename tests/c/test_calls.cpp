@@ -77,6 +77,7 @@ TEST_CASE("wrong arguments are told of") {
         p.weld = 1;
         p.weld_distance = -1;
     });
+    mesh_fails("contradict", [](auto& p) { p.weld = p.keep_seams = 1; });
     mesh_fails("weld needs", [](auto& p) {
         static const double kLengths[36] = {};
         p.edge_lengths = kLengths;

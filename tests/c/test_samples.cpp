@@ -287,13 +287,24 @@ TEST_CASE("meshes of lengths, welded and saved ones") {
         }
     }
     params = params_of(soup);
-    params.weld = 1;
-    const auto welded = owned<geodisk_mesh>(create);
-    CHECK(set_of(welded.get()) == set_of(plain.get()));
-    auto info = sized<geodisk_mesh_info>();
-    REQUIRE(geodisk_mesh_describe(welded.get(), &info, nullptr) == GEODISK_OK);
-    CHECK(info.merged_vertices == 36 - 8);
-    CHECK(info.boundary_edges == 0);
+    for (const std::int32_t weld : {0, 1}) { // Along seams, or by place.
+        params.weld = weld;
+        const auto joined = owned<geodisk_mesh>(create);
+        CHECK(set_of(joined.get()) == set_of(plain.get()));
+        auto info = sized<geodisk_mesh_info>();
+        REQUIRE(geodisk_mesh_describe(joined.get(), &info, nullptr) == GEODISK_OK);
+        CHECK(info.merged_vertices == 36 - 8);
+        CHECK(info.joined_edges == (weld != 0 ? 0 : 36));
+        CHECK(info.boundary_edges == 0);
+    }
+    params.weld = 0;
+    params.keep_seams = 1;
+    auto apart = sized<geodisk_mesh_info>();
+    REQUIRE(geodisk_mesh_describe(owned<geodisk_mesh>(create).get(), &apart, nullptr) ==
+            GEODISK_OK);
+    CHECK(apart.joined_edges == 0);
+    CHECK(apart.coinciding_border_edges == 36);
+    CHECK(apart.components == 12);
 
     std::size_t size = 0;
     REQUIRE(geodisk_mesh_save(plain.get(), nullptr, 0, &size, nullptr) == GEODISK_OK);

@@ -112,11 +112,11 @@ TEST_CASE("the report tells of seams whose vertices are doubled") {
     const TemporaryFolder folder;
     folder.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\n"
                                "f 1 2 3\nf 4 5 6\n");
-    const Outcome outcome =
-        run(folder, {"sample", "square.obj", "-o", "a.ply", "-n", "50", "--json", "a.json"});
+    const Outcome outcome = run(folder, {"sample", "square.obj", "-o", "a.ply", "-n", "50",
+                                         "--json", "a.json", "--keep-seams"});
     REQUIRE(outcome.status == 0);
-    CHECK(contains(outcome.out, "6 boundary edges, 2 of them in one place with others,"));
-    CHECK(contains(outcome.err, "square.obj: 2 border edges lie on others"));
+    CHECK(contains(outcome.out, "6 boundary edges, 2 of them on others,"));
+    CHECK(contains(outcome.err, "square.obj: 2 edges coincide but are not connected"));
     const Json report = Json::parse(bytes_of(folder / "a.json"));
     CHECK(report["mesh"]["boundary_edges"] == 6);
     CHECK(report["mesh"]["coinciding_border_edges"] == 2);
@@ -126,6 +126,14 @@ TEST_CASE("the report tells of seams whose vertices are doubled") {
     CHECK(report["warnings"][1]["count"] == 2);
     CHECK(report["warnings"][1]["first"].is_null());
     CHECK(report["warnings"][1]["file"] == "square.obj");
+    CHECK(report["mesh"]["keep_seams"] == "yes");
+    CHECK(report["mesh"]["joined_edges"] == 0);
+
+    const Outcome closed =
+        run(folder, {"sample", "square.obj", "-o", "b.ply", "-n", "50", "--json", "b.json"});
+    CHECK(closed.err.empty());
+    CHECK(contains(closed.out, "1 component, 4 boundary edges, 2 edges joined along seams, area"));
+    CHECK(Json::parse(bytes_of(folder / "b.json"))["mesh"]["joined_edges"] == 2);
 
     folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 3 3 1\nf 1 2 3\n");
     for (const Arguments& command : {Arguments{"sample", "odd.obj", "-o", "b.ply", "-n", "9"},

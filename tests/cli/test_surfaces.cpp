@@ -85,7 +85,7 @@ TEST_CASE("welding joins faces along open seams, and verify wants the same") {
     CHECK(
         contains(run(folder, {"verify", "mesh.obj", "a.ply"}).err, "made with --weld=0.1%, which"));
     CHECK(contains(run(folder, {"verify", "mesh.obj", "b.ply", "--weld=0.1%"}).err,
-                   "made with no --lift and no --weld, which"));
+                   "made with no --lift, --weld and --keep-seams, which"));
     const Outcome moved = run(folder, {"transfer", "a.ply", "mesh.obj", "mesh.obj", "-o", "c.ply",
                                        "--weld-a=0.1%", "--weld-b=0.1%", "--json", "c.json"});
     CHECK(moved.status == 0);
@@ -96,6 +96,92 @@ TEST_CASE("welding joins faces along open seams, and verify wants the same") {
               .status == 0);
     check_fails(folder, 2, "--weld: 'x' is not a length",
                 {"sample", "mesh.obj", "-o", "d.ply", "-n", "9", "--weld=x"});
+}
+
+TEST_CASE("seams of coinciding borders are joined, and verify wants the same") {
+    const TemporaryFolder folder;
+    // A box whose faces have vertices of their own, as where its normals are flat.
+    const char* const kFaces[] = {"000 010 110 100", "001 101 111 011", "000 100 101 001",
+                                  "010 011 111 110", "000 001 011 010", "100 110 111 101"};
+    std::string vertices, faces;
+    int count = 0;
+    for (const std::string face : kFaces) {
+        faces += "f";
+        for (std::size_t k = 0; k < face.size(); k += 4) {
+            vertices += std::string("v ") + face[k] + ' ' + face[k + 1] + ' ' + face[k + 2] + '\n';
+            faces += ' ' + std::to_string(++count);
+        }
+        faces += '\n';
+    }
+    folder.write("box.obj", vertices + faces);
+    const Outcome made = run(folder, {"sample", "box.obj", "-o", "a.ply", "-d", "0.1"});
+    CHECK(made.status == 0);
+    CHECK(made.err.empty());
+    CHECK(contains(made.out, "1 component, 24 edges joined along seams, area 6"));
+    REQUIRE(run(folder, {"sample", "box.obj", "-o", "b.ply", "-d", "0.1", "--keep-seams"}).status ==
+            0);
+    const auto names_of_surface = [&](const char* samples) {
+        const tools::SampleHeader header = tools::read_samples(folder / samples).header;
+        return header.find("keep_seams") != nullptr;
+    };
+    CHECK_FALSE(names_of_surface("a.ply"));
+    CHECK(names_of_surface("b.ply"));
+
+    CHECK(run(folder, {"verify", "box.obj", "a.ply", "--weld"}).status == 0);
+    const Outcome other = run(folder, {"verify", "box.obj", "b.ply"});
+    CHECK(other.status == 1);
+    CHECK(contains(other.err, "made with --keep-seams, which is not what is looked at"));
+    const Outcome same = run(folder, {"verify", "box.obj", "b.ply", "--keep-seams"});
+    CHECK(same.status == 0);
+    CHECK(contains(same.out, "keep_seams yes\n"));
+    CHECK(contains(same.err, "box.obj: 24 edges coincide but are not connected"));
+    CHECK(contains(run(folder, {"verify", "box.obj", "a.ply", "--keep-seams"}).err,
+                   "made with no --lift, --weld and --keep-seams, which"));
+    CHECK(run(folder, {"transfer", "b.ply", "box.obj", "box.obj", "-o", "c.ply", "--keep-seams-a",
+                       "--keep-seams-b"})
+              .status == 0);
+    check_fails(folder, 2, "--weld and --keep-seams contradict",
+                {"sample", "box.obj", "-o", "d.ply", "-d", "0.1", "--keep-seams", "--weld"});
+}
+
+TEST_CASE("samples go over between poses whose seams are open in one of them") {
+    const TemporaryFolder folder;
+    const std::string faces = "f 1 2 3\nf 4 5 6\n";
+    folder.write("closed.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\n" + faces);
+    folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nv 1 1 1\nv 0 1 1\n" + faces);
+    REQUIRE(run(folder, {"sample", "closed.obj", "-o", "a.ply", "-n", "50"}).status == 0);
+    CHECK(run(folder, {"transfer", "a.ply", "closed.obj", "open.obj", "-o", "b.ply"}).status == 0);
+}
+
+TEST_CASE("what differs on both sides of a seam counts as its mean") {
+    const TemporaryFolder folder;
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\n"
+                             "property float y\nproperty float z\nproperty float quality\n"
+                             "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string faces = "3 0 1 2\n3 3 4 5\n";
+    folder.write("seam.ply",
+                 head + "0 0 0 1\n1 0 0 0\n1 1 0 0\n0 0 0 0\n1 1 0 3\n0 1 0 0\n" + faces);
+    folder.write("mean.ply", head +
+                                 "0 0 0 0.5\n1 0 0 0\n1 1 0 1.5\n0 0 0 0.5\n1 1 0 1.5\n"
+                                 "0 1 0 0\n" +
+                                 faces);
+    const auto set_of = [&](const std::string& mesh) {
+        REQUIRE(run(folder,
+                    {"sample", mesh, "--lift", "attribute:quality:1", "-n", "50", "-o", "a.xyz"})
+                    .status == 0);
+        return bytes_of(folder / "a.xyz");
+    };
+    CHECK(set_of("seam.ply") == set_of("mean.ply"));
+    // Also of factors in a file.
+    folder.write("seam.txt", "1\n1\n0.5\n0.6\n1\n1\n");
+    folder.write("mean.txt", "0.8\n1\n0.75\n0.8\n0.75\n1\n");
+    const auto dense = [&](const std::string& values) {
+        REQUIRE(run(folder,
+                    {"sample", "seam.ply", "--density-file", values, "-d", "0.1", "-o", "b.xyz"})
+                    .status == 0);
+        return bytes_of(folder / "b.xyz");
+    };
+    CHECK(dense("seam.txt") == dense("mean.txt"));
 }
 
 TEST_CASE("an STL file is a closed surface, by its places alone") {
@@ -114,6 +200,8 @@ TEST_CASE("an STL file is a closed surface, by its places alone") {
     CHECK(samples.header.find("weld") == nullptr); // As it is always done.
     const Outcome made =
         run(folder, {"sample", "mesh.stl", "-o", "b.ply", "-n", "99", "--weld=0.001"});
+    check_fails(folder, 2, "--keep-seams needs numbers of vertices",
+                {"sample", "mesh.stl", "-o", "c.ply", "-n", "99", "--keep-seams"});
     CHECK(made.err.empty());
     CHECK(contains(made.out, "4 triangles, 1 component, 8 vertices joined to others, area"));
 }

@@ -167,6 +167,7 @@ class Program {
         params.index_stride = bytes_.below(4) == 0 ? bytes_.below(5) : 0;
         params.weld = bytes_.below(4) == 0 ? 1 : 0;
         params.weld_distance = bytes_.number();
+        params.keep_seams = bytes_.below(4) == 0 ? 1 : 0;
         params.most_threads %= 4;
         if (bytes_.below(2) == 0) { // Not quite the cube.
             positions[bytes_.below(positions.size())] = bytes_.number();

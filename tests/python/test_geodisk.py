@@ -130,6 +130,12 @@ def test_options():
     assert bare.points is None and bare.normals is None and len(bare) > 100
     soup = VERTICES[FACES].reshape(-1, 3), np.arange(3 * len(FACES)).reshape(-1, 3)
     assert same(geodisk.sample(*soup, min_distance=0.4, weld=True), every)
+    assert same(geodisk.sample(*soup, min_distance=0.4), every)
+    assert geodisk.Mesh(*soup).info["joined_edges"] == 3 * len(FACES)
+    kept = geodisk.Mesh(*soup, keep_seams=True)
+    assert kept.info["joined_edges"] == 0 and kept.info["components"] == len(FACES)
+    with pytest.raises(geodisk.InvalidArgument, match="contradict"):
+        geodisk.Mesh(*soup, keep_seams=True, weld=True)
     plane = geodisk.sample([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], min_distance=0.1)
     assert plane.points.shape[1] == 2 and plane.normals is None
 

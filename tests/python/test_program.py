@@ -111,6 +111,8 @@ def test_meshes_of_all_kinds(tmp_path):
         {"vertices": len(VERTICES), "faces": FACES, "edge_lengths": LENGTHS, "radius": 0.2},
         {"vertices": SOUP[0], "faces": SOUP[1], "weld": True, "min_distance": 0.5},
         {"vertices": SOUP[0], "faces": SOUP[1], "weld": 1e-9, "min_distance": 0.5},
+        {"vertices": SOUP[0], "faces": SOUP[1], "min_distance": 0.5},
+        {"vertices": SOUP[0], "faces": SOUP[1], "keep_seams": True, "min_distance": 0.5},
         {"vertices": VERTICES + 1e6, "faces": FACES, "min_distance": 0.5},
         {
             "vertices": VERTICES,

@@ -1,10 +1,18 @@
 // Meshes read with vertices that lie in one place joined.
 #include "files/mesh_file.hpp"
+#include "geometry/surface_warnings.hpp"
+#include "geometry/weld_mesh.hpp"
+#include "program/arguments.hpp"
+#include "program/failure.hpp"
+#include "shapes/builtin_shapes.hpp"
 
 #include "mesh_facts.hpp"
 #include "test_files.hpp"
 
+#include <optional>
 #include <string>
+
+#include <geodisk/weld.hpp>
 
 using namespace geodisk::tools;
 
@@ -77,4 +85,72 @@ TEST_CASE("what cannot be welded is refused") {
     sources.edge_lengths = "b.txt";
     sources.weld = Length{};
     check_fails(ExitCode::usage, "--weld and --edge-lengths", [&] { read_mesh(sources); });
+}
+
+TEST_CASE("seams are joined by default, and corners of the file are kept") {
+    const TemporaryFolder folder;
+    MeshSources sources;
+    sources.mesh = folder
+                       .write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 -0\nv 1 1 0\nv 0 1 0\n"
+                                       "f 1 2 3\nf 4 5 6\n")
+                       .string();
+    const MeshFile mesh = read_mesh(sources);
+    CHECK(mesh.triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 5});
+    CHECK(mesh.corners_in_file() == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5});
+    REQUIRE(mesh.weld);
+    CHECK(mesh.weld->joined_edges == 2);
+    CHECK(mesh.weld->merged_vertices == 2);
+    CHECK(mesh.warnings.empty());
+    CHECK(values_of_joined(mesh, {1, 2, 3, 2, 5, 6}) == std::vector<double>{1.5, 2, 4, 1.5, 4, 6});
+    sources.keep_seams = true;
+    const MeshFile kept = read_mesh(sources);
+    CHECK(kept.triangles == kept.corners_in_file());
+    CHECK_FALSE(kept.weld);
+    CHECK(values_of_joined(kept, {1, 2}) == std::vector<double>{1, 2});
+}
+
+TEST_CASE("no built-in shape has seams") {
+    for (const BuiltinShape& shape : builtin_shapes()) {
+        CAPTURE(shape.name);
+        const MeshFile mesh = make_builtin(shape.name, std::nullopt);
+        CHECK(take(geodisk::join_seams({mesh.positions, mesh.triangles, mesh.dimension}))
+                  .joined_edges == 0);
+    }
+}
+
+TEST_CASE("near misses name the distance that joins them") {
+    struct Case {
+        const char* vertex; // What should be 1 1 0.
+        const char* told;   // "" for nothing.
+    };
+    const std::string rest = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\n";
+    const Case cases[] = {
+        {"1 1 1e-7", "--weld=1e-6 joins them"},       {"1.00000017 1 0", "up to 1.7e-07 apart"},
+        {"1.00000017 1 0", "--weld=1e-6 joins them"}, {"1 1 1e-5", "--weld=1e-4 joins them"},
+        {"1 1 1e-16", "--weld=1e-12 joins them"},     {"1 1 0.001", ""}};
+    for (const Case& near : cases) {
+        CAPTURE(near.vertex);
+        const TemporaryFolder folder;
+        MeshSources sources;
+        sources.mesh =
+            folder.write("a.obj", rest + "v " + near.vertex + "\nf 1 2 3\nf 5 6 4\n").string();
+        const auto told = [&] {
+            const MeshFile mesh = read_mesh(sources);
+            std::string text;
+            for (const MeshWarning& warning : surface_warnings(
+                     mesh,
+                     take(geodisk::PreparedMesh::prepare({mesh.positions, mesh.triangles, 3})))) {
+                text += warning.kind == "near_seams" ? warning.message : "";
+            }
+            return text;
+        };
+        const std::string text = told();
+        CHECK(contains(text, near.told));
+        CHECK(text.empty() == std::string(near.told).empty());
+        if (const std::size_t at = text.find("--weld="); at != std::string::npos) {
+            sources.weld = parse_length("--weld", text.substr(at + 7, text.find(' ', at) - at - 7));
+            CHECK(told().empty());
+            CHECK(read_mesh(sources).triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3});
+        }
+    }
 }

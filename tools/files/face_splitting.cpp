@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/polygon_triangulation.hpp"
+#include "geometry/shape_warnings.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -20,6 +21,10 @@ void take_distinct(std::span<const std::uint32_t> face, std::vector<std::uint32_
         corners.pop_back();
     }
 }
+
+/// Part of its size by which a polygon may differ from a plane. More is another surface along the
+/// other diagonal.
+constexpr double kBent = 0.1;
 
 bool are_triangles(const PolygonMesh& polygons) {
     for (std::size_t face = 0; face < polygons.face_ends.size(); ++face) {
@@ -66,6 +71,12 @@ SplitCounts split_faces(PolygonMesh& polygons, MeshFile& mesh) {
         const std::size_t begin = mesh.triangle_count();
         const std::size_t end = begin + face.size() - 2;
         take_distinct(face, corners);
+        if (corners.size() > 3) {
+            ++counts.polygons;
+            if (unevenness(polygons.positions, polygons.dimension, corners) > kBent) {
+                counts.bent_faces.add(f);
+            }
+        }
         triangulate_polygon(polygons.positions, corners, mesh.triangles, polygons.dimension);
         mesh.triangles.resize(3 * end, face[0]);
         mesh.polygons.resize(end, f);

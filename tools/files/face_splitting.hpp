@@ -10,8 +10,10 @@
 namespace geodisk::tools {
 
 struct SplitCounts {
-    Found small_faces;     ///< Of fewer than 3 corners, which make no triangle.
-    Found repeating_faces; ///< That lost some of their triangles as they repeat a vertex.
+    Found small_faces;          ///< Of fewer than 3 corners, which make no triangle.
+    Found bent_faces;           ///< Of more than 3 corners that are far from flat.
+    std::uint64_t polygons = 0; ///< Faces of more than 3 corners.
+    Found repeating_faces;      ///< That lost some of their triangles as they repeat a vertex.
 };
 
 /// How many triangles all faces make.

@@ -12,6 +12,7 @@
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sidecar_files.hpp"
+#include "geometry/shape_warnings.hpp"
 #include "geometry/weld_mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -168,7 +169,7 @@ void check_size(const Path& path, const PolygonMesh& polygons) {
 }
 
 void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
-    const auto [small, repeating] = split_faces(polygons, mesh);
+    const auto [small, bent, polygon_count, repeating] = split_faces(polygons, mesh);
     const auto place = [&](const Found& found) {
         return found.count == 0 ? "" : polygons.names.of_face(found.first);
     };
@@ -176,6 +177,13 @@ void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
                 "face with fewer than 3 corners makes no triangle",
                 "faces with fewer than 3 corners make no triangle");
     warn_of_repeated_vertices(mesh.warnings, repeating.count, place(repeating));
+    constexpr std::uint64_t kOneIn = 10; // A few are in many models, as at their poles.
+    if (bent.count * kOneIn >= polygon_count) {
+        add_warning(mesh.warnings, "bent_polygons", bent.count, place(bent),
+                    "polygon is not flat: its surface depends on how it is split into triangles",
+                    "polygons are not flat: their surface depends on how they are split into "
+                    "triangles");
+    }
 }
 
 void take_parts(PolygonMesh& polygons, MeshFile& mesh) {
@@ -281,6 +289,8 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     mesh.names = std::move(polygons.names);
     if (sources.weld) {
         weld_mesh(sources.mesh, mesh, *sources.weld);
+    } else if (!has_lengths && !sources.keep_seams) {
+        join_mesh_seams(sources.mesh, mesh);
     }
     drop_copied_triangles(mesh);
     if (has_lengths) {
@@ -288,6 +298,8 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
         take_lengths(lengths, mesh);
     } else {
         check_areas(path, mesh);
+        warn_of_slivers(mesh);
+        warn_of_far_origin(mesh);
     }
     return mesh;
 }
@@ -323,6 +335,9 @@ void check_no_uvs(const MeshSources& sources) {
 MeshSources joined(MeshSources sources) {
     if (!sources.edge_lengths.empty()) {
         fail_usage("--edge-lengths needs numbers of vertices, which " + sources.mesh + " has not");
+    }
+    if (sources.keep_seams) {
+        fail_usage("--keep-seams needs numbers of vertices, which " + sources.mesh + " has not");
     }
     sources.weld = sources.weld.value_or(Length{});
     return sources;

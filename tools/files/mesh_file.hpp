@@ -25,6 +25,9 @@ struct MeshSources {
     std::optional<Length> weld = std::nullopt;
     bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
     ReadingProgress progress = {}; ///< Of the mesh file, but for glTF.
+    /// Leave border edges apart that lie exactly on others. They are joined otherwise, unless
+    /// `weld` or `edge_lengths` is given.
+    bool keep_seams = false;
 };
 
 /// Reads a mesh.

@@ -8,6 +8,7 @@
 #include "files/sidecar_files.hpp"
 #include "geometry/angles.hpp"
 #include "geometry/vec.hpp"
+#include "geometry/weld_mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -145,9 +146,11 @@ LiftedPositions lifted_positions(const std::string& path, const MeshFile& mesh,
     }
     std::size_t attribute = 0;
     for (const Lift& lift : lifts) {
-        parts.push_back(lift.attribute.empty()
-                            ? normal_columns(path, mesh, lift.weight)
-                            : attribute_columns(path, mesh, lift, mesh.attributes[attribute++]));
+        parts.push_back(
+            lift.attribute.empty()
+                ? normal_columns(path, mesh, lift.weight)
+                : attribute_columns(path, mesh, lift,
+                                    values_of_joined(mesh, mesh.attributes[attribute++])));
     }
     const std::size_t vertices = mesh.positions.size() / mesh.dimension;
     result.positions.reserve(vertices * result.dimension);

@@ -30,10 +30,11 @@ struct LiftedPositions {
 
 /// The positions of `mesh`, read with lift_attributes(), with those of each lift appended.
 ///
-/// The normal of a vertex is the mean of its faces' normals, weighted by their angles at it. Throws
-/// UserError(usage) when the sum is more than 8 dimensions, or normals are asked of a mesh that is
-/// not in space; UserError(bad_input) with `path` and the vertex, counted from 0, where a used
-/// vertex has no normal or no finite attribute.
+/// Vertices that are joined have the mean of their attributes. The normal of a vertex is the mean
+/// of its faces' normals, weighted by their angles at it. Throws UserError(usage) when the sum is
+/// more than 8 dimensions, or normals are asked of a mesh that is not in space;
+/// UserError(bad_input) with `path` and the vertex, counted from 0, where a used vertex has no
+/// normal or no finite attribute.
 LiftedPositions lifted_positions(const std::string& path, const MeshFile& mesh,
                                  std::span<const Lift> lifts);
 

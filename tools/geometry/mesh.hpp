@@ -33,6 +33,7 @@ struct MeshPart {
 struct WeldCounts {
     std::uint64_t merged_vertices = 0;  ///< That became another one.
     std::uint64_t degenerate_faces = 0; ///< Triangles that take no part since.
+    std::uint64_t joined_edges = 0;     ///< Border edges joined to others along seams.
 };
 
 /// A mesh as read: `positions` holds `dimension` coordinates per vertex, `triangles` three vertex
@@ -60,10 +61,18 @@ struct MeshFile {
     /// several at a vertex on a seam.
     std::vector<VertexUv> uvs;
     std::optional<WeldCounts> weld; ///< Where vertices were joined.
+    /// Lowest vertex that each one is joined with. Empty where none are.
+    std::vector<std::uint32_t> joined;
+    /// Corners of triangles as the file has them, where vertices are joined. Else empty.
+    std::vector<std::uint32_t> file_triangles;
     ElementNames names;
     std::vector<MeshWarning> warnings; ///< What was dropped or ignored.
 
     std::size_t triangle_count() const { return triangles.size() / 3; }
+    /// Vertices of all corners, before any were joined.
+    const std::vector<std::uint32_t>& corners_in_file() const {
+        return file_triangles.empty() ? triangles : file_triangles;
+    }
     /// Its face, in the words of the file.
     std::string name_of_triangle(std::size_t triangle) const {
         return names.of_face(polygons.empty() ? triangle : polygons[triangle]);

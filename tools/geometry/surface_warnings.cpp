@@ -5,7 +5,12 @@
 #include <numeric>
 #include <span>
 
+#include <geodisk/weld.hpp>
+
 #include "constants.h"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -80,7 +85,40 @@ Found find_bow_ties(const PreparedMesh& mesh) {
     return found;
 }
 
+/// The number as --weld takes it, 1e-6 rather than 1e-06.
+std::string weld_text(double epsilon) {
+    std::string text = exact_text(epsilon);
+    for (const std::string zero : {"e-0", "e+0"}) {
+        if (const std::size_t at = text.find(zero); at != std::string::npos) {
+            text.erase(at + 2, 1);
+        }
+    }
+    return text;
+}
+
 } // namespace
+
+void warn_of_near_seams(const MeshView& view, const MeshStatistics& statistics,
+                        std::vector<MeshWarning>& warnings) {
+    if (statistics.boundary_edges <= statistics.coinciding_border_edges) {
+        return;
+    }
+    const NearSeams seams = take(find_near_seams(view));
+    if (seams.edges == 0) {
+        return;
+    }
+    const std::string effect =
+        ", up to " + rounded(seams.gap, 2) +
+        " apart: spacing is not kept across them. --weld=" + weld_text(seams.epsilon) +
+        " joins them" +
+        (seams.degenerate_faces > 0
+             ? " and drops " + counted(seams.degenerate_faces, "triangle", "triangles") +
+                   " as narrow as that"
+             : "");
+    add_warning(warnings, "near_seams", seams.edges, "",
+                "edge nearly coincides with another one but is not connected" + effect,
+                "edges nearly coincide but are not connected" + effect);
+}
 
 std::vector<MeshWarning> surface_warnings(const MeshFile& file, const PreparedMesh& mesh,
                                           bool has_normals) {
@@ -115,9 +153,15 @@ std::vector<MeshWarning> surface_warnings(const MeshFile& file, const PreparedMe
         add_warning(warnings, "components", statistics.components, "", "",
                     "components: no path leads from one to another");
     }
-    add_warning(warnings, "unwelded", statistics.coinciding_border_edges, "",
-                "border edge lies on another one and does not join it; --weld joins them",
-                "border edges lie on others and do not join them; --weld joins them");
+    add_warning(
+        warnings, "unwelded", statistics.coinciding_border_edges, "",
+        "edge coincides with another one but is not connected: spacing is not kept across it. "
+        "Leave out --keep-seams to join them",
+        "edges coincide but are not connected: spacing is not kept across them. "
+        "Leave out --keep-seams to join them");
+    if (file.lengths.empty()) {
+        warn_of_near_seams({file.positions, file.triangles, file.dimension}, statistics, warnings);
+    }
     return warnings;
 }
 

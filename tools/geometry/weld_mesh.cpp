@@ -26,19 +26,43 @@ double diagonal_of(const MeshFile& mesh) {
     return diagonal;
 }
 
+/// Makes `mesh` the welded one.
+void take_welded(WeldedMesh welded, MeshFile& mesh) {
+    if (welded.merged_vertices == 0) {
+        return;
+    }
+    mesh.file_triangles = std::exchange(mesh.triangles, std::move(welded.triangles));
+    mesh.joined = std::move(welded.vertices);
+    for (VertexUv& uv : mesh.uvs) {
+        uv.vertex = mesh.joined[uv.vertex];
+    }
+    std::sort(mesh.uvs.begin(), mesh.uvs.end());
+    mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
+}
+
 } // namespace
 
 void weld_mesh(const std::string& path, MeshFile& mesh, const Length& distance) {
     const double epsilon =
         distance.is_percent ? distance.in_mesh_units(diagonal_of(mesh)) : distance.value;
     WeldedMesh welded = take(weld({mesh.positions, mesh.triangles, mesh.dimension}, epsilon), path);
-    mesh.triangles = std::move(welded.triangles);
-    mesh.weld = {welded.merged_vertices, welded.degenerate_faces};
-    for (VertexUv& uv : mesh.uvs) {
-        uv.vertex = welded.vertices[uv.vertex];
+    mesh.weld = {welded.merged_vertices, welded.degenerate_faces, 0};
+    take_welded(std::move(welded), mesh);
+}
+
+void join_mesh_seams(const std::string& path, MeshFile& mesh) {
+    WeldedMesh welded = take(join_seams({mesh.positions, mesh.triangles, mesh.dimension}), path);
+    if (welded.joined_edges > 0) {
+        mesh.weld = {welded.merged_vertices, welded.degenerate_faces, welded.joined_edges};
+        add_warning(mesh.warnings, "zero_area_faces", welded.degenerate_faces, "",
+                    "triangle without area dropped: its sides are joined",
+                    "triangles without area dropped: their sides are joined");
+        take_welded(std::move(welded), mesh);
     }
-    std::sort(mesh.uvs.begin(), mesh.uvs.end());
-    mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
+}
+
+std::vector<double> values_of_joined(const MeshFile& mesh, const std::vector<double>& values) {
+    return mesh.joined.empty() ? values : take(means_of_joined(mesh.joined, values));
 }
 
 } // namespace geodisk::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geometry/mesh.hpp"
 #include "program/arguments.hpp"
@@ -13,5 +14,12 @@ namespace geodisk::tools {
 /// belongs to them keep their numbers. `path` is for messages; throws UserError where
 /// geodisk::weld() fails.
 void weld_mesh(const std::string& path, MeshFile& mesh, const Length& distance);
+
+/// Joins border edges that lie exactly on others, see geodisk::join_seams(). All else as
+/// weld_mesh().
+void join_mesh_seams(const std::string& path, MeshFile& mesh);
+
+/// Returns `values`, one per vertex of the file, with the mean for those that are joined.
+std::vector<double> values_of_joined(const MeshFile& mesh, const std::vector<double>& values);
 
 } // namespace geodisk::tools

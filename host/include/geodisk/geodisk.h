@@ -230,6 +230,9 @@ typedef struct geodisk_mesh_params {
     int32_t weld;
     double weld_distance;
     uint32_t most_threads;      /* To prepare with; 0 for 16. */
+    /* 0: border edges that lie exactly on other border edges are joined to them, as along seams of
+     * texture coordinates. Not 0: only faces that share vertices are connected. */
+    int32_t keep_seams;
 } geodisk_mesh_params;
 
 /* Takes what is needed of the mesh; the caller's memory is free afterwards. */
@@ -252,14 +255,15 @@ typedef struct geodisk_mesh_info {
     uint64_t faces;
     uint64_t components;
     uint64_t boundary_edges;
-    uint64_t coinciding_border_edges; /* Open seams of doubled vertices, which weld closes. */
+    uint64_t coinciding_border_edges; /* Open seams, which keep_seams leaves open. */
     uint64_t nonmanifold_edges;
     uint64_t repeated_index_faces;    /* They take no part. */
     uint64_t zero_area_faces;         /* They hold no sample. */
-    uint64_t merged_vertices;         /* By weld. */
+    uint64_t merged_vertices;         /* Vertices joined to others, by weld or along seams. */
     double area;
     double diagonal;                  /* Of the bounding box. */
     double longest_edge;
+    uint64_t joined_edges;            /* Border edges joined to others along seams. */
 } geodisk_mesh_info;
 
 /* What became known of a mesh as it was prepared. */
@@ -272,7 +276,8 @@ GEODISK_C_API void geodisk_mesh_release(geodisk_mesh *mesh);
  * of min_distance; linear in each face. Two samples are as far apart as both radii together. */
 typedef struct geodisk_radii geodisk_radii;
 
-/* `factors`: one for each vertex of the mesh, of GEODISK_FLOAT64 or GEODISK_FLOAT32. */
+/* `factors`: one for each vertex of the mesh, of GEODISK_FLOAT64 or GEODISK_FLOAT32. Where vertices
+ * are joined, the mean of theirs counts; of a mesh from geodisk_mesh_load, that of the lowest. */
 GEODISK_C_API geodisk_status geodisk_radii_create(const geodisk_mesh *mesh, const void *factors,
                                                   geodisk_type type, size_t count,
                                                   geodisk_radii **radii, geodisk_error *error);

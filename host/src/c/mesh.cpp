@@ -83,6 +83,9 @@ Result<Mesh> make_by_lengths(const geodisk_mesh_params& params, const IndexView&
 
 Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexView& indices,
                                const ThreadOptions& threads) {
+    if (params.weld != 0 && params.keep_seams != 0) {
+        return wrong("params->weld and params->keep_seams contradict each other");
+    }
     const std::uint32_t dimension = params.dimension != 0 ? params.dimension : 3;
     const auto positions = positions_of(params, dimension);
     if (!positions) {
@@ -90,8 +93,8 @@ Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexVie
     }
     MeshView view{*positions, indices, dimension};
     std::optional<WeldedMesh> welded;
-    if (params.weld != 0) {
-        auto result = weld(view, params.weld_distance);
+    if (params.keep_seams == 0) {
+        auto result = params.weld != 0 ? weld(view, params.weld_distance) : join_seams(view);
         if (!result) {
             return result.error();
         }
@@ -111,7 +114,11 @@ Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexVie
     }
     if (welded) {
         mesh.merged_vertices = welded->merged_vertices;
+        mesh.joined_edges = welded->joined_edges;
         mesh.triangles = std::move(welded->triangles);
+        if (mesh.merged_vertices > 0) {
+            mesh.joined = std::move(welded->vertices);
+        }
     } else {
         mesh.triangles.reserve(indices.size());
         for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -153,6 +160,21 @@ Result<std::vector<double>> factors_of(const void* factors, geodisk_type type, s
         return std::vector<double>(first, first + count);
     }
     return wrong("factors are not aligned GEODISK_FLOAT64 or GEODISK_FLOAT32");
+}
+
+/// What joined vertices have is the mean of factors that are right each.
+Result<std::vector<double>> factors_on(const Mesh& mesh, const std::vector<double>& given) {
+    if (mesh.joined.empty()) {
+        return given;
+    }
+    for (std::size_t v = 0; v < given.size(); ++v) {
+        if (mesh.joined[v] != v && !(given[v] >= RadiusField::kLeastFactor && given[v] <= 1)) {
+            return Error{
+                Status::invalid_argument,
+                "the radius factor of vertex " + std::to_string(v) + " is not from 0.001 to 1", v};
+        }
+    }
+    return means_of_joined(mesh.joined, given);
 }
 
 } // namespace
@@ -236,6 +258,7 @@ geodisk_status geodisk_mesh_describe(const geodisk_mesh* mesh, geodisk_mesh_info
         value.area = found.area;
         value.diagonal = found.diagonal;
         value.longest_edge = found.longest_edge;
+        value.joined_edges = mesh->shared->joined_edges;
         return give(info, "info", value);
     });
 }
@@ -260,7 +283,11 @@ geodisk_status geodisk_radii_create(const geodisk_mesh* mesh, const void* factor
         if (!given) {
             return given.error();
         }
-        auto field = RadiusField::prepare(prepared, *given);
+        const auto factors_used = factors_on(*mesh->shared, *given);
+        if (!factors_used) {
+            return factors_used.error();
+        }
+        auto field = RadiusField::prepare(prepared, *factors_used);
         if (!field) {
             return field.error();
         }

@@ -17,7 +17,9 @@ struct Mesh {
     std::uint32_t dimension = 0;            ///< Of the positions; 0 without any.
     std::vector<double> positions{};        ///< `dimension` for each vertex.
     std::vector<std::uint32_t> triangles{}; ///< Empty without positions.
+    std::vector<std::uint32_t> joined{};    ///< WeldedMesh::vertices; empty where none are joined.
     std::uint64_t merged_vertices = 0;
+    std::uint64_t joined_edges = 0;
 
     MeshView view() const { return {positions, triangles, dimension}; }
 };

@@ -89,7 +89,12 @@ Result<double> measure_extent(const LengthMeshView&, std::span<const HalfEdge> h
 
 std::uint64_t seams_of(const MeshView& mesh, std::span<const HalfEdge> half_edges,
                        std::span<const std::uint32_t> borders) {
-    return count_coinciding(mesh, half_edges, borders);
+    std::vector<EdgeEnds> ends;
+    ends.reserve(borders.size());
+    for (const std::uint32_t h : borders) {
+        ends.push_back({half_edges[h].origin, half_edges[next_in_face(h)].origin});
+    }
+    return coinciding_edges(mesh, ends).size();
 }
 
 std::uint64_t seams_of(const LengthMeshView&, std::span<const HalfEdge>,

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "mesh/checks.hpp"
-#include "mesh/connectivity.hpp"
+#include "mesh/joined_vertices.hpp"
 #include "mesh/position_table.hpp"
 #include "mesh/vertex_sets.hpp"
 #include "support/guard.hpp"
@@ -180,26 +180,6 @@ std::vector<std::uint32_t> join_equal(const MeshView& mesh, VertexSets& sets) {
     return places;
 }
 
-WeldedMesh welded(const MeshView& mesh, VertexSets& sets) {
-    WeldedMesh result;
-    result.vertices.reserve(mesh.vertex_count());
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        result.vertices.push_back(sets.lowest(v));
-        result.merged_vertices += result.vertices[v] != v;
-    }
-    result.triangles.reserve(mesh.triangles.size());
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        const auto before = mesh.triangles.face(f);
-        auto face = before;
-        for (std::uint32_t& v : face) {
-            v = result.vertices[v];
-            result.triangles.push_back(v);
-        }
-        result.degenerate_faces += takes_part(before) && !takes_part(face);
-    }
-    return result;
-}
-
 } // namespace
 
 Result<WeldedMesh> weld(const MeshView& mesh, double epsilon) noexcept {
@@ -220,7 +200,7 @@ Result<WeldedMesh> weld(const MeshView& mesh, double epsilon) noexcept {
             }
             pairs.join(sets);
         }
-        return welded(mesh, sets);
+        return with_joined(mesh, sets);
     });
 }
 

@@ -131,11 +131,13 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
     const auto options_of = [](const auto& entries) {
         std::string text;
         for (const auto& [key, value] : entries) {
-            if (key == "lift" || key == "weld") {
+            if (key == "keep_seams") {
+                text.append(" --keep-seams");
+            } else if (key == "lift" || key == "weld") {
                 text.append(" --").append(key).append(key == "lift" ? " " : "=").append(value);
             }
         }
-        return text.empty() ? " no --lift and no --weld" : text;
+        return text.empty() ? " no --lift, --weld and --keep-seams" : text;
     };
     const std::string used = options_of(samples.header.entries);
     if (used == options_of(additions)) {

@@ -36,7 +36,8 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
 void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
                    const std::string& mesh_path, const MeshInput& mesh);
 
-/// Warns where the samples' header tells of another --lift or --weld than `additions`, those of the
+/// Warns where the samples' header tells of another --lift, --weld or
+/// --keep-seams than `additions`, those of the
 /// mesh here: samples of another surface would show as violations, or worse, would not.
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
                            const HeaderEntries& additions, std::vector<MeshWarning>& warnings);

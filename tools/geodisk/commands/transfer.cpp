@@ -49,12 +49,13 @@ void check_files(const TransferOptions& options) {
 std::string corners_text(const MeshFile& mesh, std::size_t face) {
     std::string text;
     for (std::size_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
-        text += (text.empty() ? "" : " ") + std::to_string(mesh.triangles[corner]);
+        text += (text.empty() ? "" : " ") + std::to_string(mesh.corners_in_file()[corner]);
     }
     return text;
 }
 
-/// A face and weights mean the same place only where the corners are the same.
+/// A face and weights mean the same place only where the corners are the same. Which of them are
+/// joined may differ: seams that are closed in one pose may be open in another.
 void check_connectivity(const TransferOptions& options, const MeshFile& from, const MeshFile& to) {
     const std::size_t count = from.triangles.size() / 3;
     if (to.triangles.size() != from.triangles.size()) {
@@ -63,10 +64,11 @@ void check_connectivity(const TransferOptions& options, const MeshFile& from, co
                                         ", but " + options.from.mesh + " has " + grouped(count) +
                                         "; samples go over between meshes of the same faces alone");
     }
+    const std::vector<std::uint32_t>& corners = from.corners_in_file();
     const auto difference =
-        std::mismatch(from.triangles.begin(), from.triangles.end(), to.triangles.begin()).first;
-    if (difference != from.triangles.end()) {
-        const auto face = static_cast<std::size_t>(difference - from.triangles.begin()) / 3;
+        std::mismatch(corners.begin(), corners.end(), to.corners_in_file().begin()).first;
+    if (difference != corners.end()) {
+        const auto face = static_cast<std::size_t>(difference - corners.begin()) / 3;
         fail_input(options.to.mesh,
                    "face " + std::to_string(face) + " has the corners " + corners_text(to, face) +
                        ", but " + corners_text(from, face) + " in " + options.from.mesh +
@@ -163,8 +165,8 @@ void add_transfer_command(Command app) {
     add_sidecar_options(command, options->from, "MESH_A", "-a");
     add_sidecar_options(command, options->to, "MESH_B", "-b");
     add_lift_option(command, options->to, "-b");
-    add_weld_option(command, options->from, "-a");
-    add_weld_option(command, options->to, "-b");
+    add_weld_options(command, options->from, "-a");
+    add_weld_options(command, options->to, "-b");
     add_output_options(command, options->out);
     command.has_footer(help_footer(kExamples));
     command.calls([options] { run_transfer(*options); });

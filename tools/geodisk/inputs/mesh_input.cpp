@@ -48,6 +48,7 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
                        const DensityOptions& density) {
     MeshSources sources{options.mesh,           options.coordinates,     options.edge_lengths,
                         lift_attributes(lifts), options.weld_distance(), !density.map.empty()};
+    sources.keep_seams = options.keep_seams;
     if (!density.attribute.empty()) {
         sources.attributes.push_back(density.attribute);
     }

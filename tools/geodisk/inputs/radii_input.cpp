@@ -9,6 +9,7 @@
 #include "files/grey_image.hpp"
 #include "files/sidecar_files.hpp"
 #include "geometry/mean_curvature.hpp"
+#include "geometry/weld_mesh.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -88,6 +89,9 @@ LoadedRadii load_radii(const DensityOptions& options, const std::string& path, c
         fail_input(factors.source, "has " + counted(factors.values.size(), "value", "values") +
                                        " for the " + counted(vertex_count, "vertex", "vertices") +
                                        " of the mesh");
+    }
+    if (!options.attribute.empty() || !options.file.empty()) { // What each vertex of the file has.
+        factors.values = values_of_joined(file, factors.values);
     }
     // With edge lengths, unused vertices at the end are none.
     factors.values.resize(mesh.vertex_count());

@@ -35,6 +35,9 @@ std::optional<Length> MeshOptions::weld_distance() const {
     if (weld.empty()) {
         return std::nullopt;
     }
+    if (keep_seams) {
+        fail_usage("--weld and --keep-seams contradict each other; give just one");
+    }
     return weld == kBareFlag || weld == kExact ? Length{} : parse_length("--weld", weld);
 }
 
@@ -59,6 +62,9 @@ HeaderEntries MeshOptions::additions() const {
     }
     if (!weld.empty()) {
         result.emplace_back("weld", weld == kBareFlag ? kExact : weld);
+    }
+    if (keep_seams) {
+        result.emplace_back("keep_seams", "yes");
     }
     return result;
 }
@@ -99,17 +105,21 @@ void add_lift_option(Command command, MeshOptions& options, const std::string& s
         .takes_one_value();
 }
 
-void add_weld_option(Command command, MeshOptions& options, const std::string& suffix) {
+void add_weld_options(Command command, MeshOptions& options, const std::string& suffix) {
     // A flag: an option whose value may be absent would take the argument after it.
     command.add_flag("--weld" + suffix, options.weld,
                      "Join vertices that lie in one place; with --weld" + suffix +
                          "=EPS,\nalso those no farther apart, in mesh units or % of the\n"
                          "bounding-box diagonal",
                      kSurfaceGroup);
+    command.add_flag("--keep-seams" + suffix, options.keep_seams,
+                     "Keep border edges apart that lie exactly on others; they are\n"
+                     "joined otherwise, as along seams of texture coordinates",
+                     kSurfaceGroup);
 }
 
 void add_mesh_options(Command command, MeshOptions& options) {
-    add_weld_option(command, options);
+    add_weld_options(command, options);
     add_sidecar_options(command, options, "MESH");
     add_lift_option(command, options);
 }

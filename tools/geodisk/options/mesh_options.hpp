@@ -17,10 +17,12 @@ struct MeshOptions {
     std::string mesh, coordinates, edge_lengths;
     std::vector<std::string> lifts;
     std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
+    bool keep_seams = false;
 
     /// Throws UserError(usage) for what is no lift, and where there is nothing to lift.
     std::vector<Lift> parsed_lifts() const;
-    /// As for MeshSources::weld. Throws UserError(usage) for no length.
+    /// As for MeshSources::weld. Throws UserError(usage) for no length, and for one beside
+    /// --keep-seams.
     std::optional<Length> weld_distance() const;
     /// Adds the files that are read, called `what`.
     void add_files(std::vector<NamedFile>& read, const std::string& what) const;
@@ -44,8 +46,8 @@ void add_sidecar_options(Command command, MeshOptions& options, const std::strin
 /// Adds --lift, with `suffix`.
 void add_lift_option(Command command, MeshOptions& options, const std::string& suffix = "");
 
-/// Adds --weld, with `suffix`.
-void add_weld_option(Command command, MeshOptions& options, const std::string& suffix = "");
+/// Adds --weld and --keep-seams, with `suffix`.
+void add_weld_options(Command command, MeshOptions& options, const std::string& suffix = "");
 
 /// Adds all options besides MESH.
 void add_mesh_options(Command command, MeshOptions& options);

@@ -36,6 +36,7 @@ void add_mesh(ArgumentList& list, const MeshOptions& mesh) {
             list.add_flag("--weld=" + value, true);
         }
     }
+    list.add_flag("--keep-seams", mesh.keep_seams);
     list.add("--coordinates", mesh.coordinates);
     list.add("--edge-lengths", mesh.edge_lengths);
     for (const std::string& lift : mesh.lifts) {

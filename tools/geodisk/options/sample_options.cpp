@@ -28,7 +28,7 @@ void check_metric(const SampleOptions& options) {
                    "--density options");
     }
     for (const auto& [name, value] : options.mesh.additions()) {
-        if (options.metric != "geodesic" && name != "weld") {
+        if (options.metric != "geodesic" && name != "weld" && name != "keep_seams") {
             fail_usage("--metric " + options.metric +
                        " goes by the coordinates of the mesh file, so it takes no --" + name);
         }

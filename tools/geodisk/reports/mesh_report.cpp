@@ -18,10 +18,13 @@ std::string size_text(const MeshInput& input, std::uint64_t components_without_s
         text += ", " + counted(mesh.boundary_edges, "boundary edge", "boundary edges");
     }
     if (mesh.coinciding_border_edges > 0) {
-        text += ", " + grouped(mesh.coinciding_border_edges) + " of them in one place with others";
+        text += ", " + grouped(mesh.coinciding_border_edges) + " of them on others";
     }
     if (const auto& weld = input.file.weld) {
-        text += ", " + counted(weld->merged_vertices, "vertex", "vertices") + " joined to others";
+        text +=
+            weld->joined_edges > 0
+                ? ", " + grouped(weld->joined_edges) + " edges joined along seams"
+                : ", " + counted(weld->merged_vertices, "vertex", "vertices") + " joined to others";
         if (weld->degenerate_faces > 0) {
             text += " and " + counted(weld->degenerate_faces, "triangle", "triangles") +
                     " dropped by it";
@@ -64,6 +67,7 @@ Json mesh_json(const std::string& path, const HeaderEntries& additions, const Me
          {"triangles", mesh.triangles},
          {"polygons", input.file.polygons.empty() ? Json(nullptr) : Json(input.file.polygon_count)},
          {"merged_vertices", weld ? Json(weld->merged_vertices) : Json(nullptr)},
+         {"joined_edges", weld ? Json(weld->joined_edges) : Json(0)},
          {"welded_triangles", weld ? Json(weld->degenerate_faces) : Json(nullptr)},
          {"dropped_triangles", mesh.repeated_index_faces},
          {"components", mesh.components},

@@ -22,6 +22,7 @@ def surface_of(
     faces: Faces | None,
     edge_lengths: ArrayLike | None,
     weld: bool | float,
+    keep_seams: bool = False,
 ) -> Surface | None:
     """The surface that arguments name, else the one of the samples; None for samples in a box."""
     if not isinstance(samples, Samples):
@@ -32,9 +33,11 @@ def surface_of(
     if vertices is not None:
         if samples.face_index is None:
             raise e.invalid("samples without face_index and barycentric lie on no mesh")
-        return mesh_of(vertices, faces, edge_lengths, weld)._surface
-    if faces is not None or edge_lengths is not None or weld is not False:
-        raise TypeError("faces, edge_lengths and weld are of a mesh whose vertices are given")
+        return mesh_of(vertices, faces, edge_lengths, weld, keep_seams)._surface
+    if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
+        raise TypeError(
+            "faces, edge_lengths, weld and keep_seams are of a mesh whose vertices are given"
+        )
     if samples._surface is None and samples.extents is None:
         raise e.invalid("these samples do not know their mesh, so it has to be given")
     return samples._surface
@@ -64,6 +67,8 @@ def write_surface(
     if surface.weld is not False:
         value = "" if surface.weld is True else float(surface.weld)
         options.append(f"--weld{suffix}={value!r}" if value else f"--weld{suffix}")
+    if surface.keep_seams:
+        options.append(f"--keep-seams{suffix}")
     if surface.edge_lengths is None:
         columns = _as_columns(surface.coordinates())
         count = len(surface.coordinates())

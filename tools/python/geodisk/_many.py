@@ -78,6 +78,7 @@ def sample_many(
     face_keys: Sequence[ArrayLike | None] | None = None,
     pool_ratio: float = 20,
     weld: bool | float = False,
+    keep_seams: bool = False,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> list[Samples]:
@@ -94,7 +95,7 @@ def sample_many(
         As :func:`sample` takes them.
     density, face_keys : sequence with one for each mesh, or None
         As :func:`sample` takes them; None for a mesh without.
-    pool_ratio, weld, device, progress
+    pool_ratio, weld, keep_seams, device, progress
         As :func:`sample` takes them, for all meshes.
 
     Returns
@@ -129,7 +130,7 @@ def sample_many(
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
         return _Job(
-            _mesh_of(given[i], weld),
+            _mesh_of(given[i], weld, keep_seams),
             distance_of(*of_mesh),
             of_mesh[2],
             integer(seeds[i], "seed", 2**64 - 1),
@@ -184,12 +185,12 @@ def _named(index: int, make: Any) -> Any:
         raise type(error)(f"mesh {index}: {error}") from error
 
 
-def _mesh_of(given: Any, weld: bool | float) -> Mesh:
+def _mesh_of(given: Any, weld: bool | float, keep_seams: bool) -> Mesh:
     if isinstance(given, (tuple, list)):
         if len(given) != 2:
             raise TypeError("a mesh is a pair of vertices and faces, or brings its faces")
-        return mesh_of(given[0], given[1], None, weld)
-    return mesh_of(given, None, None, weld)
+        return mesh_of(given[0], given[1], None, weld, keep_seams)
+    return mesh_of(given, None, None, weld, keep_seams)
 
 
 def _each(values: Any, name: str, n: int) -> list[Any]:

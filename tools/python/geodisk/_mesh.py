@@ -38,6 +38,9 @@ class Mesh:
         to the second, to the third and back. ``vertices`` is then their number.
     weld : bool or float
         Join vertices that lie in one place, or no farther apart than so much.
+    keep_seams : bool
+        Keep border edges apart that coincide exactly with others. They are joined otherwise, as
+        along seams of texture coordinates; ``info["joined_edges"]`` counts them.
     attributes : sequence of str
         Names of vertex attributes to read from a file.
 
@@ -95,6 +98,7 @@ class Mesh:
         *,
         edge_lengths: ArrayLike | None = None,
         weld: bool | float = False,
+        keep_seams: bool = False,
         attributes: Sequence[str] = (),
     ) -> None:
         source: Source | None = None
@@ -102,8 +106,8 @@ class Mesh:
             if edge_lengths is not None:
                 raise TypeError("edge_lengths are of faces that are given as well, not of a file")
             path, names = vertices, tuple(attributes)
-            source = interruptible(lambda stop: read_file(path, weld, names, stop))
-            surface = _surface_of(source, source.vertices)
+            source = interruptible(lambda stop: read_file(path, weld, keep_seams, names, stop))
+            surface = _surface_of(source, source.vertices, keep_seams)
         else:
             if attributes:
                 raise TypeError("attributes are read from files")
@@ -114,19 +118,20 @@ class Mesh:
                 if edge_lengths is not None:
                     raise e.invalid("with edge lengths, all faces must be triangles")
                 polygons, points = given, Surface(vertices, None).coordinates()
-                source = interruptible(lambda stop: split(points, polygons, weld, stop))
-                surface = _surface_of(source, vertices)
+                source = interruptible(lambda stop: split(points, polygons, weld, keep_seams, stop))
+                surface = _surface_of(source, vertices, keep_seams)
             else:
-                surface = Surface(vertices, given, edge_lengths, weld)
-        self._prepare(surface)
+                surface = Surface(vertices, given, edge_lengths, weld, bool(keep_seams))
+        self._prepare(surface, source.joined_edges if source else 0)
         self.warnings = oddities_of(self._handle, source.handle if source else None)
         warn(self.warnings)
 
-    def _prepare(self, surface: Surface) -> None:
+    def _prepare(self, surface: Surface, joined_edges: int = 0) -> None:
         self._surface = surface
         self._handle = interruptible(lambda stop: _created(surface))
         self._info = s.MeshInfo()
         c.call("geodisk_mesh_describe", self._handle.value, ctypes.byref(self._info))
+        self._info.joined_edges += joined_edges
 
     @property
     def vertices(self) -> Any:
@@ -173,10 +178,14 @@ class Mesh:
         return f"<geodisk.Mesh of {self._info.faces} faces, area {self.area:.6g}>"
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"surface": self._surface, "warnings": self.warnings}
+        return {
+            "surface": self._surface,
+            "warnings": self.warnings,
+            "joined_edges": self._info.joined_edges if self._surface.joined is not None else 0,
+        }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._prepare(state["surface"])
+        self._prepare(state["surface"], state["joined_edges"])
         self.warnings = state["warnings"]  # Which were shown when it was made.
 
     def __copy__(self) -> Mesh:
@@ -185,10 +194,15 @@ class Mesh:
         return copied
 
 
-def _surface_of(source: Source, vertices: Any) -> Surface:
+def _surface_of(source: Source, vertices: Any, keep_seams: bool) -> Surface:
     """Returns the surface that a source is, where `vertices` are. Its vertices are joined already."""
     return Surface(
-        vertices, source.triangles, polygons=source.polygons, attributes=source.attributes
+        vertices,
+        source.triangles,
+        keep_seams=bool(keep_seams),
+        polygons=source.polygons,
+        attributes=source.attributes,
+        joined=source.joined,
     )
 
 
@@ -203,6 +217,7 @@ def _created(surface: Surface) -> c.Handle:
     if surface.weld is not False:
         params.weld = 1
         params.weld_distance = 0.0 if surface.weld is True else float(surface.weld)
+    params.keep_seams = surface.keep_seams
     if surface.edge_lengths is None:
         coordinates = surface.coordinates()
         params.positions = coordinates.ctypes.data
@@ -227,11 +242,14 @@ def mesh_of(
     faces: Faces | None,
     edge_lengths: ArrayLike | None,
     weld: bool | float,
+    keep_seams: bool = False,
 ) -> Mesh:
     """Returns the mesh that the arguments of a function name."""
     if not isinstance(vertices, Mesh):
-        return Mesh(vertices, faces, edge_lengths=edge_lengths, weld=weld)
-    if faces is not None or edge_lengths is not None or weld is not False:
+        return Mesh(
+            vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams
+        )
+    if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
         raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
     return vertices
 

@@ -61,6 +61,7 @@ def render(
     cut: bool = False,
     min_distance: float | None = None,
     weld: bool | float = False,
+    keep_seams: bool = False,
     device: DeviceLike | None = None,
 ) -> Picture:
     """Draws the surface, or a box of two or three dimensions, with the disk of each sample.
@@ -69,7 +70,7 @@ def render(
     ----------
     samples : Samples
         On a mesh of up to three dimensions, or in a box.
-    vertices, faces, weld
+    vertices, faces, weld, keep_seams
         Their mesh, as :func:`sample` takes it, where it is not the one that they were made on:
         for samples that were read from a file.
     size : (int, int)
@@ -110,7 +111,7 @@ def render(
     >>> geodisk.render(samples, size=(320, 240))
     <geodisk.Picture of 320 x 240 pixels>
     """
-    surface = surface_of(samples, vertices, faces, None, weld)
+    surface = surface_of(samples, vertices, faces, None, weld, keep_seams)
     options = ["--size", "x".join(map(str, size)), "--style", style, "--background", background]
     for one in [view] if isinstance(view, (str, tuple)) else view:
         name = one if isinstance(one, str) else ",".join(repr(float(angle)) for angle in one)

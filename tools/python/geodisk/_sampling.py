@@ -37,6 +37,7 @@ def sample(
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
+    keep_seams: bool = False,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
@@ -67,7 +68,7 @@ def sample(
         same key has the same candidates in every mesh.
     metric : {"geodesic", "euclidean", "approximate"}
         The latter two are for comparison.
-    edge_lengths, weld
+    edge_lengths, weld, keep_seams
         As :class:`Mesh` has them.
     device : Device, int or str, optional
         One of :func:`devices`, its index, its UUID or a part of its name. Without it, the device
@@ -118,7 +119,7 @@ def sample(
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
-    mesh = mesh_of(vertices, faces, edge_lengths, weld)
+    mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams)
     radii = None if density is None else radii_of(mesh, density)
     keys = None if face_keys is None else keys_of(mesh, face_keys)
     params = s.SurfaceParams(

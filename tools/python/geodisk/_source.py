@@ -31,6 +31,9 @@ class Source:
     attributes : dict of ndarray of float64, shape (v,)
     handle : Handle
         Has the memory of these arrays, and warnings of the reader.
+    joined : ndarray of uint32, shape (v,), or None
+        The lowest vertex that each one is joined with, where any are.
+    joined_edges : int
     """
 
     vertices: NDArray[np.float64]
@@ -38,11 +41,14 @@ class Source:
     polygons: NDArray[np.uint32] | None
     attributes: dict[str, NDArray[np.float64]]
     handle: c.Handle
+    joined: NDArray[np.uint32] | None
+    joined_edges: int
 
 
 def read_file(
     path: str | os.PathLike[str],
     weld: bool | float,
+    keep_seams: bool,
     names: Sequence[str],
     stop: ctypes.c_int32,
 ) -> Source:
@@ -64,11 +70,15 @@ def read_file(
     params = s.SourceParams(
         path=os.fsencode(name), attributes=encoded, attribute_count=len(names)
     )
-    return _read(params, weld, names, stop)
+    return _read(params, weld, keep_seams, names, stop)
 
 
 def split(
-    vertices: NDArray[Any], polygons: Polygons, weld: bool | float, stop: ctypes.c_int32
+    vertices: NDArray[Any],
+    polygons: Polygons,
+    weld: bool | float,
+    keep_seams: bool,
+    stop: ctypes.c_int32,
 ) -> Source:
     """Splits polygons into triangles as the readers do."""
     positions = np.ascontiguousarray(vertices, np.float64)
@@ -81,13 +91,18 @@ def split(
         face_ends=polygons.ends.ctypes.data,
         face_count=len(polygons.ends),
     )
-    return _read(params, weld, (), stop)
+    return _read(params, weld, keep_seams, (), stop)
 
 
 def _read(
-    params: s.SourceParams, weld: bool | float, names: Sequence[str], stop: ctypes.c_int32
+    params: s.SourceParams,
+    weld: bool | float,
+    keep_seams: bool,
+    names: Sequence[str],
+    stop: ctypes.c_int32,
 ) -> Source:
     params.stop = ctypes.pointer(stop)
+    params.keep_seams = keep_seams
     if weld is not False:
         params.weld = 1
         params.weld_distance = 0.0 if weld is True else float(weld)
@@ -107,6 +122,8 @@ def _read(
         else None,
         attributes=attributes,
         handle=handle,
+        joined=_view(arrays.joined, (arrays.vertex_count,), handle) if arrays.joined else None,
+        joined_edges=arrays.joined_edges,
     )
 
 

@@ -80,6 +80,7 @@ class MeshParams(_Sized):
         ("weld", c_int32),
         ("weld_distance", c_double),
         ("most_threads", c_uint32),
+        ("keep_seams", c_int32),
     ]
 
 
@@ -99,6 +100,7 @@ class MeshInfo(_Sized):
         ("area", c_double),
         ("diagonal", c_double),
         ("longest_edge", c_double),
+        ("joined_edges", c_uint64),
     ]
 
 
@@ -196,6 +198,7 @@ class SourceParams(_Sized):
         ("attributes", POINTER(c_char_p)),
         ("attribute_count", c_size_t),
         ("stop", POINTER(c_int32)),
+        ("keep_seams", c_int32),
     ]
 
 
@@ -209,6 +212,8 @@ class SourceArrays(_Sized):
         ("triangle_count", c_size_t),
         ("polygons", POINTER(c_uint32)),
         ("polygon_count", c_size_t),
+        ("joined", POINTER(c_uint32)),
+        ("joined_edges", c_uint64),
     ]
 
 

@@ -32,18 +32,23 @@ class Surface:
         Triangles.
     edge_lengths : array_like of float, shape (f, 3), optional
     weld : bool or float
+    keep_seams : bool
     polygons : ndarray of uint32, shape (f,), optional
         The caller's face of each triangle, where the numbers differ.
     attributes : dict of ndarray of float64, shape (v,)
         Read from a file.
+    joined : ndarray of uint32, shape (v,), optional
+        The lowest vertex that each one was joined with as the mesh was read.
     """
 
     vertices: Any
     faces: Any
     edge_lengths: Any = None
     weld: bool | float = False
+    keep_seams: bool = False
     polygons: NDArray[np.uint32] | None = None
     attributes: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    joined: NDArray[np.uint32] | None = None
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""
@@ -84,4 +89,8 @@ class Surface:
                 f"density has the shape {array.shape}, not ({self.vertex_count()},), "
                 "one for each vertex"
             )
+        if self.joined is not None:  # Both sides of a seam have a say.
+            sums = np.bincount(self.joined, array, len(array))
+            counts = np.bincount(self.joined, minlength=len(array))
+            array = (sums / np.maximum(counts, 1))[self.joined]
         return array.astype(array.dtype.newbyteorder("="), copy=False)

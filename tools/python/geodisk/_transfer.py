@@ -26,6 +26,7 @@ def transfer(
     *,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
+    keep_seams: bool = False,
 ) -> Samples:
     """The same samples on another pose of their mesh: the same faces, elsewhere.
 
@@ -35,7 +36,7 @@ def transfer(
         On a mesh.
     to : array_like of float, shape (v, d), or a mesh
         Where the vertices are; or a mesh of the same faces.
-    vertices, faces, edge_lengths, weld
+    vertices, faces, edge_lengths, weld, keep_seams
         The mesh that the samples lie on, as :func:`sample` takes it, where it is not the one that
         they were made on: for samples that were read from a file.
 
@@ -62,13 +63,15 @@ def transfer(
     >>> bool(larger.min_distance >= 0.8), np.allclose(larger.points, 2 * samples.points)
     (True, True)
     """
-    source = surface_of(samples, vertices, faces, edge_lengths, weld)
+    source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
         raise e.invalid("samples in a box lie on no mesh")
     if is_mesh(to):
         target = mesh_of(to, None, None, False)._surface
     else:
-        target = Mesh(to, source.faces, weld=source.weld)._surface
+        target = Mesh(
+            to, source.faces, weld=source.weld, keep_seams=source.keep_seams
+        )._surface
     with folder() as place:
         from_mesh, from_options = write_surface(place, source, "mesh", "-a")
         to_mesh, to_options = write_surface(place, target, "pose", "-b")

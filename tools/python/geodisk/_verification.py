@@ -90,6 +90,7 @@ def verify(
     density: ArrayLike | None = None,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
+    keep_seams: bool = False,
 ) -> Verification:
     """Computes the distances of samples anew, on the CPU in double precision.
 
@@ -99,7 +100,7 @@ def verify(
     ----------
     samples : Samples
         On a mesh or in a box.
-    vertices, faces, edge_lengths, weld
+    vertices, faces, edge_lengths, weld, keep_seams
         Their mesh, as :func:`sample` takes it, where it is not the one that they were made on:
         for samples that were read from a file.
     min_distance : float, optional
@@ -135,7 +136,7 @@ def verify(
     >>> found.ok, found.violations.shape[1]
     (False, 2)
     """
-    surface = surface_of(samples, vertices, faces, edge_lengths, weld)
+    surface = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if min_distance is not None:
         min_distance = float(min_distance)
         if not (min_distance > 0 and math.isfinite(min_distance)):

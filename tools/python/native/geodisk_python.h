@@ -32,6 +32,7 @@ typedef struct geodisk_source_params {
     size_t attribute_count;
     /* Reading ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
     const volatile int32_t *stop;
+    int32_t keep_seams;        /* As in geodisk_mesh_params. */
 } geodisk_source_params;
 
 /* Reads a mesh. Fails with GEODISK_MESH_REJECTED for a file that cannot be read or used. */
@@ -48,6 +49,8 @@ typedef struct geodisk_source_arrays {
     size_t triangle_count;
     const uint32_t *polygons;  /* The file's face of each triangle; NULL where the numbers agree. */
     size_t polygon_count;      /* Faces of the file. */
+    const uint32_t *joined;    /* Lowest vertex that each is joined with; NULL where none are. */
+    uint64_t joined_edges;     /* Border edges joined to others along seams. */
 } geodisk_source_arrays;
 
 GEODISK_C_API geodisk_status geodisk_source_describe(const geodisk_source *source,

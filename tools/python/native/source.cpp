@@ -47,6 +47,7 @@ MeshFile mesh_of(const geodisk_source_params& params) {
     if (params.weld != 0) {
         sources.weld = Length{params.weld_distance, false};
     }
+    sources.keep_seams = params.keep_seams != 0;
     if (params.path == nullptr) {
         sources.mesh = "mesh";
         return split_into_triangles(sources, polygons_of(params));
@@ -111,6 +112,8 @@ geodisk_status geodisk_source_describe(const geodisk_source* source, geodisk_sou
         value.triangle_count = mesh.triangle_count();
         value.polygons = mesh.polygons.empty() ? nullptr : mesh.polygons.data();
         value.polygon_count = mesh.polygons.empty() ? mesh.triangle_count() : mesh.polygon_count;
+        value.joined = mesh.joined.empty() ? nullptr : mesh.joined.data();
+        value.joined_edges = mesh.weld ? mesh.weld->joined_edges : 0;
         return give(arrays, "arrays", value);
     });
 }

@@ -5,6 +5,7 @@
 
 #include "c/call.hpp"
 #include "c/mesh.hpp"
+#include "geometry/shape_warnings.hpp"
 #include "geometry/surface_warnings.hpp"
 #include "source.hpp"
 
@@ -19,7 +20,7 @@ struct geodisk_warnings {
 namespace {
 
 bool is_about_seams(const MeshWarning& warning) {
-    return warning.kind == "unwelded";
+    return warning.kind == "unwelded" || warning.kind == "near_seams";
 }
 
 /// Warnings about arrays of the caller, of which only the prepared mesh knows.
@@ -27,6 +28,15 @@ std::vector<MeshWarning> array_warnings(const c::Mesh& mesh) {
     std::vector<MeshWarning> warnings;
     warn_of_repeated_vertices(warnings, mesh.prepared.statistics().repeated_index_faces, "");
     MeshFile file;
+    if (mesh.dimension > 0) {
+        file.positions = mesh.positions;
+        file.triangles = mesh.triangles;
+        file.dimension = mesh.dimension;
+        warn_of_slivers(file);
+        warn_of_far_origin(file);
+        std::ranges::move(file.warnings, std::back_inserter(warnings));
+        warn_of_near_seams(mesh.view(), mesh.prepared.statistics(), warnings);
+    }
     file.lengths.resize(1); // No reader has judged the areas.
     std::ranges::move(surface_warnings(file, mesh.prepared), std::back_inserter(warnings));
     return warnings;

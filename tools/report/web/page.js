@@ -53,7 +53,7 @@ function fillFigures() {
     ["Boundary edges", grouped(meshFacts.boundary_edges)],
     ["Area", rounded(meshFacts.area, 8)],
     ["Diagonal", meshFacts.diagonal === null ? null : rounded(meshFacts.diagonal, 6)],
-    ...Object.entries(meshFacts).filter(([name]) => /^(coordinates|edge_lengths|lift|weld|density_.*)$/.test(name))
+    ...Object.entries(meshFacts).filter(([name]) => /^(coordinates|edge_lengths|lift|weld|keep_seams|density_.*)$/.test(name))
       .map(([name, value]) => [`--${name.replace(/_/g, "-")}`, [value].flat().join(", ")]),
     ["Warnings", facts.warnings.length === 0 ? null : facts.warnings.map(warning => warning.message).join("; ")],
   ]);

@@ -1,0 +1,12 @@
+// A mesh whose vertices are joined in sets.
+#pragma once
+
+#include "geodisk/weld.hpp"
+#include "mesh/vertex_sets.hpp"
+
+namespace geodisk {
+
+/// Makes faces name the lowest vertex of each set.
+WeldedMesh with_joined(const MeshView& mesh, VertexSets& sets);
+
+} // namespace geodisk

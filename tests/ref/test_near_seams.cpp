@@ -1,0 +1,106 @@
+// Border edges that nearly lie on others, and what only looks like that.
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "geodisk/weld.hpp"
+#include "support/meshes.hpp"
+
+using namespace geodisk;
+using namespace geodisk::test;
+
+namespace {
+
+NearSeams found_in(const TestMesh& mesh) {
+    const auto found = find_near_seams(mesh.view());
+    REQUIRE(found);
+    return *found;
+}
+
+/// Every face with vertices of its own, each moved by up to `shift` along each axis.
+TestMesh shaken(const TestMesh& mesh, double shift) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-shift, shift);
+    TestMesh soup{{}, {}, mesh.dimension};
+    for (const std::uint32_t v : mesh.triangles) {
+        for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
+            const double x = mesh.positions[std::size_t{v} * mesh.dimension + axis];
+            soup.positions.push_back(x + (shift > 0 ? uniform(random) : 0));
+        }
+        soup.triangles.push_back(static_cast<std::uint32_t>(soup.triangles.size()));
+    }
+    return soup;
+}
+
+} // namespace
+
+TEST_CASE("near seams: what is told joins a shaken soup, at any scale") {
+    for (const double scale : {1e-30, 1e-6, 1.0, 1e6, 1e30}) {
+        for (const double shift : {1e-15, 1e-9, 1e-7, 1e-6, 1e-5}) {
+            CAPTURE(scale);
+            CAPTURE(shift);
+            TestMesh whole = builtin("icosphere", 3);
+            for (double& x : whole.positions) {
+                x *= scale;
+            }
+            const TestMesh soup = shaken(whole, shift * scale);
+            const NearSeams seams = found_in(soup);
+            CHECK(seams.edges == 3 * whole.face_count());
+            CHECK(seams.gap <= 4 * shift * scale);
+            CHECK(seams.degenerate_faces == 0);
+            const auto joined = weld(soup.view(), seams.epsilon);
+            REQUIRE(joined);
+            const auto closed =
+                PreparedMesh::prepare({soup.positions, joined->triangles, 3})->statistics();
+            CHECK(closed.boundary_edges == 0);
+            CHECK(closed.vertices == prepared(whole).statistics().vertices);
+        }
+    }
+}
+
+TEST_CASE("near seams: a number of one digit where a power of ten joins too much") {
+    // A strip whose seam is 2e-5 wide, and triangles of 5e-5 beside it.
+    const TestMesh mesh{{0,    0, 1, 0,       1, 1, 0, 1, 1.00002, 0, 2, 0, 2, 1, 1.00002, 1, //
+                         5e-5, 1, 0, 1 + 5e-5},
+                        {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 3, 8, 9},
+                        2};
+    const NearSeams seams = found_in(mesh);
+    CHECK(seams.edges == 2);
+    CHECK(seams.epsilon == doctest::Approx(3e-5));
+    CHECK(seams.degenerate_faces == 0);
+}
+
+TEST_CASE("near seams: not in meshes that are whole, coincide, or are narrow by themselves") {
+    CHECK(found_in(builtin("icosphere", 3)).edges == 0);
+    CHECK(found_in(flat_grid(50, 50, 1, 1)).edges == 0);
+    CHECK(found_in(flat_grid(50, 50, 1, 1e-6)).edges == 0);
+    CHECK(found_in(flat_grid(1, 1, 1, 1e-6)).edges == 0);
+    CHECK(found_in(flat_grid(20, 2, 1, 1e-6)).edges == 0);
+    CHECK(found_in(shaken(builtin("icosphere", 3), 0)).edges == 0);
+    CHECK(found_in({{0, 0, 1, 0, 1, 1e-7}, {0, 1, 2}, 2}).edges == 0);
+    // Sheets a thousandth of their size apart.
+    TestMesh sheets = flat_grid(3, 3, 1, 1);
+    const auto vertices = static_cast<std::uint32_t>(sheets.vertex_count());
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        const Vec3 p = sheets.vertex(v);
+        sheets.add_vertex({p.x, p.y, 0.001});
+    }
+    const std::vector<std::uint32_t> triangles = sheets.triangles;
+    for (const std::uint32_t v : triangles) {
+        sheets.triangles.push_back(v + vertices);
+    }
+    CHECK(found_in(sheets).edges == 0);
+}
+
+TEST_CASE("near seams: parts far smaller than the whole have their own measure") {
+    // Neighbours in a grid are a hundred thousandth of the box, but not of their edges.
+    TestMesh mesh = flat_grid(30, 30, 1e-4, 1e-4);
+    mesh = shaken(mesh, 0);
+    const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
+    mesh.positions.insert(mesh.positions.end(), {1, 0, 0, 2, 0, 0, 1, 1, 0});
+    mesh.triangles.insert(mesh.triangles.end(), {first, first + 1, first + 2});
+    CHECK(found_in(mesh).edges == 0);
+}
