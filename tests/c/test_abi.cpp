@@ -53,6 +53,7 @@ CHECK_FIELD(geodisk_progress, windows, 24);
 CHECK_FIELD(geodisk_report, windows, 32);
 CHECK_FIELD(geodisk_report, rho, 64);
 CHECK_FIELD(geodisk_report, calls, 104);
+CHECK_FIELD(geodisk_report, missing, 184);
 CHECK_FIELD(geodisk_job_options, regrowths, 20);
 CHECK_FIELD(geodisk_buffer_need, read_bytes, 24);
 CHECK_FIELD(geodisk_buffer_range, bytes, 16);

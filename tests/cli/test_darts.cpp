@@ -121,6 +121,9 @@ TEST_CASE("darts that run out before the count are told, or an error where none 
     CHECK(set.rows.size() < 100);
     CHECK(set.report["stopped_by"] == "throws");
     CHECK(contains(set.summary, " of 5,000 asked for, when the darts ran out, rho"));
+    CHECK(set.report["warnings"].back()["kind"] == "count_missed");
+    CHECK(contains(set.report["warnings"].back()["message"].get<std::string>(),
+                   " of 5,000 samples found room before the darts ran out"));
     const TemporaryFolder empty;
     check_fails(empty, 2, "of 5,000 samples 0.5 apart found room",
                 darts({"-d", "0.5", "--count", "5000", "--json", "a.json"}));

@@ -164,10 +164,36 @@ TEST_CASE("the report counts parts without a sample, which are too small for a c
     Json report = Json::parse(bytes_of(folder / "a.json"));
     CHECK(report["mesh"]["components"] == 4);
     CHECK(report["mesh"]["components_without_samples"] == 2);
+    CHECK(report["warnings"].back()["kind"] == "single_samples");
+    CHECK(contains(outcome.error, "no part has more than one sample: the minimum distance of 3"));
     outcome = sample("0.05");
     REQUIRE(outcome.status == 0);
     report = Json::parse(bytes_of(folder / "a.json"));
     CHECK(report["mesh"]["components_without_samples"] == 0);
+}
+
+TEST_CASE("a count that parts cannot give, and parts without samples, are warnings") {
+    const TemporaryFolder folder;
+    std::string parts;
+    for (int i = 0; i < 40; ++i) {
+        const std::string x = std::to_string(3 * i);
+        const std::string next = std::to_string(3 * i + 1);
+        parts += "v " + x + " 0 0\nv " + next + " 0 0\nv " + x + " 1 0\nf -3 -2 -1\n";
+    }
+    folder.write("parts.obj", parts);
+    const auto kinds = [&](const char* count) {
+        const Outcome outcome =
+            run(folder, {"sample", "parts.obj", "-o", "a.ply", "-n", count, "--json", "a.json"});
+        REQUIRE(outcome.status == 0);
+        std::vector<std::string> found;
+        for (const Json& warning : Json::parse(bytes_of(folder / "a.json"))["warnings"]) {
+            found.push_back(warning["kind"]);
+            CHECK(contains(outcome.error, warning["message"].get<std::string>()));
+        }
+        return found;
+    };
+    CHECK(kinds("2") == std::vector<std::string>{"components", "count_missed"});
+    CHECK(kinds("400") == std::vector<std::string>{"components"});
 }
 
 TEST_CASE("calls are counted where asked for, without effect on the samples") {

@@ -272,6 +272,22 @@ TEST_SUITE("darts") {
         CHECK(refused.error().message.find("one stage at a time") != std::string::npos);
     }
 
+    TEST_CASE("distances for counts give as many samples on average") {
+        constexpr double kCount = 1'500;
+        double samples = 0, runs = 0;
+        for (const char* const shape : {"icosphere", "cube", "uv-sphere"}) {
+            const PreparedMesh mesh = prepared(builtin(shape, 4));
+            for (const std::uint64_t seed : {1u, 2u, 3u}) {
+                SampleParams params;
+                params.min_distance = distance_for_count(mesh, nullptr, kCount);
+                params.seed = seed;
+                samples += static_cast<double>(sample(mesh, params).samples.size());
+                ++runs;
+            }
+        }
+        CHECK(samples / runs == doctest::Approx(kCount).epsilon(0.01));
+    }
+
     TEST_CASE("stages that cannot be are refused") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 2));
         RunPlan plan;

@@ -8,10 +8,12 @@
 
 #include "files/tuning_file.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/stopwatch.hpp"
+#include "program/time_estimate.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -19,16 +21,27 @@ namespace {
 /// Beyond what most meshes make; disks of so many are told of, since they take long.
 constexpr std::uint64_t kManyWindows = 10000;
 
-/// Draws how far a run is that should give about `expected` samples, and stops it on a signal.
+/// Draws how far a run is that should give about `expected` samples. Says once if it takes long,
+/// and stops it on a signal.
 ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected) {
-    return [&progress, &log, expected](const Progress& state) {
+    return [&progress, &log, expected, watch = Stopwatch(),
+            time = TimeEstimate()](const Progress& state) mutable {
         log.tell_progress(state);
+        const double part = part_done(state, expected);
+        time.note(watch.seconds(), part);
+        if (const auto seconds = time.long_run()) {
+            progress.clear();
+            print_warning("sampling takes about " + seconds_text(*seconds) + " on this device");
+        }
         std::string text = grouped(state.accepted) + " samples";
+        if (const auto left = time.left(); left && *left >= 1) {
+            text += ", about " + seconds_text(*left) + " left";
+        }
         if (const std::uint64_t each = state.windows / std::max(1u, state.disks);
             each >= kManyWindows) {
             text += ", " + grouped(each) + " windows in each disk";
         }
-        progress.update(part_done(state, expected), text);
+        progress.update(part, text);
         return !is_interrupted();
     };
 }
@@ -47,9 +60,16 @@ double part_done(const Progress& state, double expected) {
 }
 
 void check_run(const Error& error, bool bounded) {
-    if (error.status == Status::workspace_too_small ||
-        (error.status == Status::out_of_device_memory && bounded)) {
+    const bool is_disk = error.status == Status::workspace_too_small;
+    if (bounded && (is_disk || error.status == Status::out_of_device_memory)) {
         throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
+    }
+    if (is_disk) {
+        throw UserError(ExitCode::out_of_memory,
+                        error.message +
+                            ", which is all this device has for it; lower the distance, "
+                            "ask for more samples, or coarsen the mesh where its "
+                            "triangles are far smaller than the distance");
     }
     if (error.status == Status::device_lost) {
         throw DeviceLost(error.message);

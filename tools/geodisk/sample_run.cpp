@@ -8,6 +8,8 @@
 #include <geodisk/domain.hpp>
 
 #include "files/part_columns.hpp"
+#include "geodisk/checks/run_warnings.hpp"
+#include "geodisk/reports/mesh_parts.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -82,7 +84,17 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
     params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
-    return {params, std::move(done), to_rows(mesh, params.min_distance, set.samples), std::nullopt};
+    SampleResult result{
+        params, std::move(done), to_rows(mesh, params.min_distance, set.samples), {}, {}, {}};
+    if (mesh.prepared.statistics().components > 1) {
+        std::vector<std::uint32_t> faces;
+        for (const SampleRow& row : result.rows) {
+            faces.push_back(row.face);
+        }
+        result.bare = parts_without(mesh.prepared, mesh.file.triangles, faces);
+    }
+    result.warnings = run_warnings(job, mesh, result);
+    return result;
 }
 
 void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,

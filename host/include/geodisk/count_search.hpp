@@ -9,7 +9,8 @@
 namespace geodisk {
 
 /// Chooses distances to try by what those before gave, beginning with distance_for_count(). The
-/// same counts lead to the same distances on every machine.
+/// same counts lead to the same distances on every machine. Sample without `stop_count` while the
+/// search goes on: it cannot see what that cuts off.
 class CountSearch {
   public:
     /// `wanted` samples, at least 1.

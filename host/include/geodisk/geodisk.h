@@ -468,6 +468,8 @@ typedef struct geodisk_report {
     double sample_seconds;
     double readback_seconds;
     uint64_t calls[10]; /* Candidates by CheckStatus calls: 1 to 9, and 10 or more. */
+    uint32_t missing;   /* Samples fewer than stop_count asked for. */
+    uint32_t reserved;
 } geodisk_report;
 
 /* How the run of these samples went. */
@@ -726,7 +728,8 @@ GEODISK_C_API void geodisk_frame_sampler_release(geodisk_frame_sampler *frames);
 
 /* Where about so many samples are wanted: tries distances, beginning with that of
  * geodisk_distance_for_count, until the samples are within 5 % of them or one, or some tries have
- * not come so close. The nearest set is the answer. */
+ * not come so close. The nearest set is the answer. Sample without stop_count meanwhile: the search
+ * cannot see what that cuts off. */
 typedef struct geodisk_count_search geodisk_count_search;
 
 /* A search for about `wanted` samples, at least 1. */

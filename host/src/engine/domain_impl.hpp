@@ -54,6 +54,8 @@ struct Domain::Impl {
                             const DeviceReport& report) const = 0;
     /// Steps that a disk takes, where so many candidates are drawn at once.
     virtual double disk_steps(const RunPlan& plan, std::uint32_t candidates) const = 0;
+    /// Steps that the disks of the samples are expected to take; 0 where that is not known.
+    virtual double all_steps() const { return 0; }
     /// Dispatches of detect in which a batch should be done, most of all batches.
     virtual double detect_passes(const RunPlan& plan, std::uint32_t candidates) const = 0;
     /// Most steps that one dispatch of detect may safely take.

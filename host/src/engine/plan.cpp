@@ -81,7 +81,11 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
                     std::to_string(candidates) + " candidates" + of.beside_candidates() +
                     " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
                     " binds at most " + std::to_string(limit) +
-                    (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
+                    (of_mesh                 ? "; give a mesh of fewer faces"
+                     : of.stages.throws != 0 ? "; however few darts are thrown, they come of at "
+                                               "least 5 candidates for each sample there is room "
+                                               "for: raise the minimum distance"
+                                             : "; raise the minimum distance")};
         }
     }
     return Done{};
@@ -312,9 +316,23 @@ Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
     return guarded([&] { return grown_plan(plan, overflow, pool_bytes, impl_->report); });
 }
 
+namespace {
+
+/// The next larger one of the bounds that runs start over with: for chains of 64 crossings, 128 and
+/// so on. They do not depend on the chain that was too long, which may be seen early or late.
+double next_bound(const ErrorModel& error, double bound) {
+    std::uint32_t chain = 64;
+    while (error.error_of(chain) <= bound) {
+        chain *= 2;
+    }
+    return error.error_of(chain);
+}
+
+} // namespace
+
 RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain) {
     if (error.error_of(longest_chain) > plan.error_bound) {
-        plan.error_bound = error.error_of(2 * longest_chain);
+        plan.error_bound = next_bound(error, plan.error_bound);
     }
     return plan;
 }

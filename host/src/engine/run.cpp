@@ -29,6 +29,8 @@ constexpr std::uint64_t kRoundsBeside = 6;
 constexpr std::uint32_t kMostPasses = 64;
 // Submissions that may leave no trace, before the device counts as stuck.
 constexpr std::uint32_t kMostIdle = 8;
+// Part of a run that the steps of disks alone may count as done.
+constexpr double kMostExpected = 0.99;
 // Items of a pass before it is known how long they take.
 constexpr std::uint64_t kItemsOfNew = std::uint64_t{1} << 18;
 // Counts of candidates before an order until that of a number of darts is found.
@@ -37,16 +39,20 @@ constexpr std::uint32_t kMostGuesses = 64;
 /// One run: its memory, its job and what the device reported last.
 class Run {
   public:
-    /// Takes at most so many bytes on the device.
-    Run(Runner::Impl& runner, const Domain& domain, std::uint64_t most_bytes)
+    /// Takes at most so many bytes on the device. `before` tells of earlier starts of the run.
+    Run(Runner::Impl& runner, const Domain& domain, std::uint64_t most_bytes,
+        const RunReport& before)
         : runner_(runner), domain_(domain), most_bytes_(most_bytes), of_(Domain::Impl::of(domain)),
           memory_(*runner.workspace), kept_(runner.jobs[index_of(of_.kernels.domain)]),
           job_(kept_.job), passes_(runner.submission_seconds()),
-          rounds_(runner.submission_seconds()) {}
+          rounds_(runner.submission_seconds()) {
+        report_.seconds = before.seconds;
+    }
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
     /// The samples, or none where the run is to start over with the plan as it is then.
     Task<Result<std::optional<SampleSet>>> go(RunPlan& plan);
+    const RunReport& report() const { return report_; }
 
   private:
     Result<Done> prepare(const RunPlan& plan);
@@ -63,8 +69,8 @@ class Run {
     const Job::Impl& job() const { return Job::Impl::of(*job_); }
     Result<Done> shorten(std::uint64_t items);
     std::uint32_t record_rounds(VkCommandBuffer commands);
-    /// That the pool may take.
-    std::uint64_t pool_bytes() const;
+    /// Bytes that the pool may grow to: at most so many, and as the device has left.
+    std::uint64_t pool_bytes(std::uint64_t most) const;
     Progress how_far() const;
     Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
     Result<double> took(Result<Done> end);
@@ -91,6 +97,8 @@ class Run {
     double submitted_ = 0;   ///< When.
     std::uint32_t idle_ = 0; ///< Submissions of late that left no trace.
     gpu::ControlRec control_{};
+    double steps_ = 0;     ///< Of all rounds.
+    double all_steps_ = 0; ///< That are expected.
     RunReport report_;
 };
 
@@ -126,6 +134,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
         runner_.clock->reset();
     }
     wanted_ = plan;
+    all_steps_ = kDisksPerSample * of_.all_steps() * std::max(1.0, kLeastSlots / of_.samples);
     report_.guard = of_.guard_for(plan.error_bound);
     return Done{};
 }
@@ -266,7 +275,12 @@ Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
 Task<Result<Advice>> Run::sample() {
     for (;;) {
         // What is free is asked for only where it matters.
-        auto advice = job_->advance(control_, control_.overflow != 0 ? pool_bytes() : 0);
+        const bool grows = control_.overflow != 0;
+        auto advice = job_->advance(control_, grows ? pool_bytes(runner_.options.pool_bytes) : 0);
+        if (!advice && grows && advice.error().status == Status::workspace_too_small) {
+            // A single disk that is too large for the pool may take all that the device has.
+            advice = job_->advance(control_, pool_bytes(~std::uint64_t{0}));
+        }
         if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
             co_return advice;
         }
@@ -299,13 +313,12 @@ bool Run::fit_samples(Advice& advice) const {
     return fits(advice.sample_capacity);
 }
 
-std::uint64_t Run::pool_bytes() const {
+std::uint64_t Run::pool_bytes(std::uint64_t most) const {
     const std::uint64_t others = memory_.bytes() - memory_.range(BufferRole::pool).size;
     const std::uint64_t allowed = std::min(most_bytes_, runner_.bytes_allowed());
     const std::uint64_t left = allowed > others ? allowed - others : 0;
     // It has what it has.
-    return std::max(std::min(left, runner_.options.pool_bytes),
-                    memory_.range(BufferRole::pool).size);
+    return std::max(std::min(left, most), memory_.range(BufferRole::pool).size);
 }
 
 Task<Result<Done>> Run::follow(Advice advice) {
@@ -422,6 +435,7 @@ Task<Result<Done>> Run::run_rounds(bool rewind) {
     if (!seconds) {
         co_return seconds.error();
     }
+    steps_ += control_.steps - before.steps;
     rounds_.took(*seconds, rounds * items_of_round(job_->plan()), control_.steps - before.steps);
     // Batches that take more than a round: fewer of the other dispatches go idle when a round
     // detects longer.
@@ -446,8 +460,10 @@ Progress Run::how_far() const {
     const double in_chunk = static_cast<double>(control_.first_order) / job().push.end_order *
                             static_cast<double>(job().darts(control_));
     const double all = of_.stages.candidates();
-    const auto before = static_cast<double>(job().thrown);
-    return {static_cast<std::uint32_t>(std::min(before + in_chunk, all)),
+    const double decided = static_cast<double>(job().thrown) + in_chunk;
+    // A large disk may take as long as all others.
+    const double stepped = all_steps_ > 0 ? std::min(kMostExpected, steps_ / all_steps_) : 0;
+    return {static_cast<std::uint32_t>(std::min(std::max(decided, stepped * all), all)),
             static_cast<std::uint32_t>(all), control_.accepted, control_.disks,
             wide(control_.windows_low, control_.windows_high)};
 }
@@ -480,7 +496,7 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     if (auto done = runner_.sampler.prepare(domain_); !done) {
         co_return done.error();
     }
-    report_.seconds.compile = runner_.now() - start;
+    report_.seconds.compile += runner_.now() - start;
     start = runner_.now();
     if (auto done = prepare(plan); !done) {
         co_return done.error();
@@ -488,24 +504,24 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     if (auto done = co_await upload(); !done) {
         co_return done.error();
     }
-    report_.seconds.upload = runner_.now() - start;
+    report_.seconds.upload += runner_.now() - start;
     start = runner_.now();
     const auto advice = co_await sample();
     if (!advice) {
         co_return advice.error();
     }
+    report_.seconds.sample += runner_.now() - start;
     if (advice->next == Next::start_over) {
         plan.error_bound = advice->plan.error_bound;
         plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
         co_return std::optional<SampleSet>();
     }
-    report_.seconds.sample = runner_.now() - start;
     start = runner_.now();
     auto samples = co_await read_samples();
     if (!samples) {
         co_return samples.error();
     }
-    report_.seconds.readback = runner_.now() - start;
+    report_.seconds.readback += runner_.now() - start;
     std::uint64_t darts = job().darts(control_);
     if (has_all()) {
         // Those up to the last sample.
@@ -548,6 +564,7 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
     std::uint64_t most = runner.bytes_allowed();
     std::uint32_t samples = 0; // That there has to be room for.
     double error_bound = 0;
+    RunReport before;
     for (;;) {
         const auto fitting = fit_within(runner, domain, most, samples);
         if (!fitting) {
@@ -556,7 +573,7 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
         RunPlan plan = fitting->plan;
         plan.error_bound = std::max(plan.error_bound, error_bound);
         runner.keep();
-        Run run(runner, domain, most);
+        Run run(runner, domain, most, before);
         auto set = co_await run.go(plan);
         if (set && *set) {
             releaser.has_succeeded = true;
@@ -565,6 +582,7 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
         if (set) { // To start over, with a wider guard or more room for samples.
             samples = plan.sample_capacity;
             error_bound = plan.error_bound;
+            before = run.report();
             continue;
         }
         if (!runner.workspace->was_short()) {

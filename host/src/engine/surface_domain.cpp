@@ -30,6 +30,11 @@ constexpr double kHeapFaces = 1u << 14;
 constexpr std::uint64_t kMostHalfEdges = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMostVertices = gpu::kVertexMask;
 
+/// Steps of a disk that covers so many faces, by measurement.
+double steps_over(double faces) {
+    return (12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces)) / gpu::kTripsPerStep;
+}
+
 /// The stages of all: each has those of its own.
 Stages stages_of(PlacedSurfaces surfaces) {
     Stages all = stages_of(*surfaces[0].mesh, surfaces[0].params);
@@ -186,9 +191,25 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
 }
 
 double SurfaceDomain::disk_steps(const RunPlan&, std::uint32_t) const {
-    // By measurement.
-    const double faces = faces_per_disk();
-    return (12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces)) / gpu::kTripsPerStep;
+    return steps_over(faces_per_disk());
+}
+
+double SurfaceDomain::all_steps() const {
+    if (!kernels.adaptive) {
+        return samples * steps_over(faces_per_disk());
+    }
+    double steps = 0;
+    for (const PlacedSurface& surface : surfaces_) {
+        const PreparedMesh& mesh = *surface.mesh;
+        const double room = expected_count(1, surface.params.min_distance);
+        const double largest = 2.0 * mesh.face_count() / (room * mesh.statistics().area);
+        for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+            const double faces = largest / surface.params.radii->densities()[face];
+            steps += expected_in_face(mesh, surface.params, face, room) *
+                     steps_over(std::min<double>(faces, mesh.face_count()));
+        }
+    }
+    return steps * samples / full_;
 }
 
 double SurfaceDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {

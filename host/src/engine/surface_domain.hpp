@@ -20,6 +20,7 @@ class SurfaceDomain : public Domain::Impl {
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
                     const DeviceReport& report) const override;
     double disk_steps(const RunPlan& plan, std::uint32_t candidates) const override;
+    double all_steps() const override;
     double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
     std::uint32_t most_steps(const DeviceReport& report,
                              const KernelVariant& variant) const override;

@@ -137,6 +137,9 @@ class BatchRun {
         }
         check_dimension(job.out.target(), mesh.dimension());
         const SampleResult result = sample_on(pool_, job, mesh, none);
+        for (const MeshWarning& warning : result.warnings) {
+            entry.warnings.push_back(warning.message);
+        }
         make_folder_of(job.out.output);
         AtomicFile file(job.out.output);
         write_sample_file(file, job, mesh, result, SampleReport(job, mesh, result));

@@ -9,6 +9,7 @@
 
 #include <geodisk/domain.hpp>
 
+#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/device_run.hpp"
@@ -141,6 +142,14 @@ void run_box(const BoxOptions& options) {
     job.box.min_distance = done.min_distance;
     const std::vector<SampleRow> rows = to_rows(set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
+    if (const std::string text = shortfall(job.method, rows.size()); !text.empty()) {
+        print_warning(text);
+    }
+    const bool is_full = job.wanted_count == 0 && !job.method.throws_darts;
+    if (is_full && rows.size() == 1) {
+        print_warning("there is a single sample: the minimum distance of " +
+                      rounded(job.box.min_distance, 6) + " is larger than the box has room for");
+    }
     const BoxReport report(job, rows.size(), done);
     write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
         write_box_samples(file, job.out.target(), report.header(), rows, dimension);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "files/input_file.hpp"
+#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -70,6 +71,7 @@ void run_report(const ReportOptions& options) {
         RunDevice device = device_for(job);
         return sample_mesh(job, mesh, device, progress);
     }();
+    print_warnings(result.warnings);
     const std::vector<SurfaceDisk> disks =
         disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2);
     Stopwatch watch;

@@ -1,6 +1,7 @@
 #include <memory>
 #include <vector>
 
+#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -65,6 +66,7 @@ void sample_to_files(const SampleOptions& options, const NameOutputs& name_outpu
     }
     std::vector<FurtherFile> further;
     SampleResult result = sample_mesh(job, mesh, device, progress);
+    print_warnings(result.warnings);
     if (!job.picture.empty()) {
         draw_samples(mesh, result, device, progress);
         further.push_back({picture, [&](AtomicFile& file) {

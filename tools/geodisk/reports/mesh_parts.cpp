@@ -8,8 +8,8 @@
 
 namespace geodisk::tools {
 
-std::uint64_t parts_without(std::span<const std::uint32_t> triangles,
-                            std::span<const std::uint32_t> faces) {
+BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t> triangles,
+                        std::span<const std::uint32_t> faces) {
     const std::uint32_t vertices = triangles.empty() ? 0 : std::ranges::max(triangles) + 1;
     VertexSets parts(vertices);
     std::vector<bool> is_used(vertices);
@@ -25,11 +25,17 @@ std::uint64_t parts_without(std::span<const std::uint32_t> triangles,
     for (const std::uint32_t face : faces) {
         has_one[parts.lowest(triangles[std::size_t{3} * face])] = true;
     }
-    std::uint64_t without = 0;
+    BareParts bare;
     for (std::uint32_t v = 0; v < vertices; ++v) {
-        without += is_used[v] && parts.lowest(v) == v && !has_one[v];
+        bare.count += is_used[v] && parts.lowest(v) == v && !has_one[v];
     }
-    return without;
+    double area = 0;
+    for (std::size_t i = 0; bare.count > 0 && i < triangles.size(); i += 3) {
+        const HalfEdge& edge = mesh.half_edges()[i];
+        area += has_one[parts.lowest(triangles[i])] ? 0 : 0.5 * edge.length * edge.apex_y;
+    }
+    bare.area_share = area > 0 ? area / mesh.statistics().area : 0;
+    return bare;
 }
 
 } // namespace geodisk::tools

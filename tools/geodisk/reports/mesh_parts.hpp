@@ -4,12 +4,20 @@
 #include <cstdint>
 #include <span>
 
+#include <geodisk/mesh.hpp>
+
 namespace geodisk::tools {
 
-/// How many parts of a mesh have none of the given triangles, which each take three of `triangles`.
-/// Parts are joined by common vertices; a triangle that repeats a vertex belongs to none
+/// Parts of a mesh that have none of some triangles.
+struct BareParts {
+    std::uint64_t count = 0;
+    double area_share = 0; ///< Their part of the mesh's area, 0 to 1.
+};
+
+/// Finds the parts that have none of `faces`, which each take three of `triangles`. Parts are
+/// joined by common vertices; a triangle that repeats a vertex belongs to none
 /// (MeshStatistics::components).
-std::uint64_t parts_without(std::span<const std::uint32_t> triangles,
-                            std::span<const std::uint32_t> faces);
+BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t> triangles,
+                        std::span<const std::uint32_t> faces);
 
 } // namespace geodisk::tools

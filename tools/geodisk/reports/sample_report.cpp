@@ -6,7 +6,6 @@
 
 #include <geodisk/version.hpp>
 
-#include "geodisk/reports/mesh_parts.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
@@ -44,13 +43,6 @@ SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const Sa
     : job_(job), mesh_(mesh), result_(result), samples_(result.rows.size()),
       rho_(packing_density(effective_area(mesh.prepared, result.params), result.params.min_distance,
                            static_cast<double>(samples_))) {
-    if (mesh.prepared.statistics().components > 1) {
-        std::vector<std::uint32_t> faces;
-        for (const SampleRow& row : result.rows) {
-            faces.push_back(row.face);
-        }
-        bare_components_ = parts_without(mesh.file.triangles, faces);
-    }
     if (has_radii(result.rows)) {
         const auto [least, most] = std::ranges::minmax_element(
             result.rows, {}, [](const auto& row) { return row.radius; });
@@ -88,16 +80,18 @@ std::string SampleReport::summary(double write_seconds) const {
 Json SampleReport::document(const SecondsByStage& after) const {
     const RunReport& run = result_.done.run;
     const SampleParams& params = result_.params;
+    std::vector<MeshWarning> warnings = mesh_.warnings;
+    warnings.insert(warnings.end(), result_.warnings.begin(), result_.warnings.end());
     Json document{{"version", GEODISK_VERSION_STRING},
                   {"mesh", mesh_json(job_.mesh.mesh, job_.additions(), mesh_)},
-                  {"warnings", warnings_json(mesh_.warnings)},
+                  {"warnings", warnings_json(warnings)},
                   {"output", job_.out.output},
                   {"min_distance", params.min_distance},
                   {"radius", params.min_distance / 2},
                   {"metric", metric_text(job_)},
                   {"sample_radii", nullptr}, // Where they do not vary.
                   {"seed", params.seed}};
-    document["mesh"]["components_without_samples"] = bare_components_;
+    document["mesh"]["components_without_samples"] = result_.bare.count;
     if (result_.picture) {
         document["picture"] = job_.picture;
     }
@@ -121,7 +115,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
 
 std::string SampleReport::summary(const SecondsByStage& after) const {
     std::ostringstream out;
-    out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, bare_components_)
+    out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, result_.bare.count)
         << distance_line(job_, result_.params.min_distance);
     if (most_radius_ > 0) {
         out << "radii         " << rounded(least_radius_, 6) << " to " << rounded(most_radius_, 6)

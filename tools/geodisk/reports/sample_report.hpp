@@ -12,6 +12,7 @@
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/json.hpp"
+#include "geodisk/reports/mesh_parts.hpp"
 #include "geodisk/reports/run_report.hpp"
 
 namespace geodisk::tools {
@@ -21,6 +22,8 @@ struct SampleResult {
     SampleParams params; ///< Of the job, on its mesh.
     DeviceRun done;
     std::vector<SampleRow> rows;
+    BareParts bare;
+    std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;
 };
 
@@ -52,7 +55,6 @@ class SampleReport {
     const MeshInput& mesh_;
     const SampleResult& result_;
     std::size_t samples_;
-    std::uint64_t bare_components_ = 0; ///< That have no sample.
     double rho_; ///< Where radii vary, of the samples on a surface of the effective area.
     double least_radius_ = 0, most_radius_ = 0; ///< Of the samples, where radii vary; else 0.
 };

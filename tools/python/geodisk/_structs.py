@@ -171,6 +171,8 @@ class Report(_Sized):
         ("sample_seconds", c_double),
         ("readback_seconds", c_double),
         ("calls", c_uint64 * 10),
+        ("missing", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 

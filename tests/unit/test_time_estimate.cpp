@@ -1,0 +1,35 @@
+// How long a run is said to take.
+#include <doctest/doctest.h>
+
+#include "program/time_estimate.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+TEST_CASE("what is left of a run follows from two seconds of its work, once it is warm") {
+    TimeEstimate time;
+    time.note(3, 0); // Candidates are drawn.
+    time.note(4, 0.01);
+    time.note(4.9, 0.1);
+    time.note(6, 0.15);
+    CHECK_FALSE(time.left());
+    time.note(8.9, 0.3);
+    REQUIRE(time.left());
+    CHECK(*time.left() == doctest::Approx(14));
+    const auto whole = time.long_run();
+    REQUIRE(whole);
+    CHECK(*whole == doctest::Approx(22.9));
+    CHECK_FALSE(time.long_run()); // Once is enough.
+}
+
+TEST_CASE("runs that are soon done are no long ones") {
+    TimeEstimate time;
+    time.note(0.5, 0.1);
+    time.note(4, 0.8);
+    REQUIRE(time.left());
+    CHECK(*time.left() == doctest::Approx(1));
+    CHECK_FALSE(time.long_run());
+}
+
+} // namespace
+} // namespace geodisk::tools

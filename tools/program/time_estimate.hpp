@@ -1,0 +1,27 @@
+// How long a run will take, judging by what is done of it.
+#pragma once
+
+#include <optional>
+
+namespace geodisk::tools {
+
+/// Runs that are expected to take longer are worth a word.
+inline constexpr double kLongRun = 20;
+
+/// Follows one run.
+class TimeEstimate {
+  public:
+    /// Notes that so much of the work, 0 to 1, is done after so many seconds.
+    void note(double seconds, double part);
+    /// Seconds that are left; none while too little is known.
+    std::optional<double> left() const { return left_; }
+    /// Seconds that the whole run takes, once, if that is a long time.
+    std::optional<double> long_run();
+
+  private:
+    double start_seconds_ = 0, start_part_ = 0, seconds_ = 0;
+    bool is_told_ = false;
+    std::optional<double> first_, left_; ///< Seconds when work began; and that are left.
+};
+
+} // namespace geodisk::tools
