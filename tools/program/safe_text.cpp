@@ -101,9 +101,10 @@ std::string one_line(std::string_view text) {
 }
 
 std::string csv_cell(std::string_view text) {
-    const bool is_formula = begins_formula(trimmed(text)) && !parse_real(text);
-    std::string plain(is_formula ? 1 : 0, '\'');
-    plain += one_line(text);
+    std::string plain = one_line(text); // Blanks for line breaks, which may come first.
+    if (begins_formula(trimmed(plain)) && !parse_real(text)) {
+        plain.insert(0, 1, '\'');
+    }
     if (plain.find_first_of(",;\"#") == std::string::npos) {
         return plain;
     }
