@@ -107,6 +107,13 @@ def test_strips_and_mixed_faces():
     assert mesh.polygons.tolist() == [0, 0, 1, 2]
 
 
+def test_seams_are_joined():
+    expected = geodisk.sample(VERTICES, FACES, min_distance=0.5)
+    mesh = geodisk.Mesh(thing(vertices=SOUP[0], triangles=SOUP[1]))
+    assert mesh.info["joined_edges"] == 3 * len(FACES) and mesh.warnings == ()
+    assert np.array_equal(geodisk.sample(mesh, min_distance=0.5).face_index, expected.face_index)
+
+
 def test_scenes_are_placed_by_their_graph():
     cube = thing(vertices=CUBE, faces=np.array(SIDES))
     there = np.diag([-2.0, 1, 1, 1])
@@ -134,10 +141,12 @@ def _is_turned_in():
 def test_seams_are_warned_of_at_the_line_of_the_caller():
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        mesh = geodisk.Mesh(thing(vertices=SOUP[0], faces=SOUP[1]))
+        mesh = geodisk.Mesh(thing(vertices=SOUP[0], faces=SOUP[1]), keep_seams=True)
         geodisk.sample(mesh, min_distance=1)
     told = [one.message for one in caught]
-    assert told and tuple(told) == mesh.warnings
+    assert tuple(told) == mesh.warnings
+    assert [one.kind for one in told] == ["unwelded", "components"]
+    assert told[0].count == 3 * len(FACES)
     assert all(isinstance(one, geodisk.MeshWarning) for one in told)
     assert issubclass(geodisk.MeshWarning, geodisk.GeodiskWarning)
     assert issubclass(geodisk.GeodiskWarning, UserWarning)
