@@ -70,7 +70,7 @@ struct MeshStatistics {
     std::uint64_t components = 0;     ///< Parts with no path between them.
     std::uint64_t boundary_edges = 0; ///< Edges of one face.
     /// Boundary edges with both ends exactly where those of another one are: seams that are open
-    /// because their vertices are doubled, which `weld` closes. 0 for a mesh without coordinates.
+    /// because their vertices are doubled; see `join_seams`. 0 for a mesh without coordinates.
     std::uint64_t coinciding_border_edges = 0;
     std::uint64_t nonmanifold_edges = 0;    ///< Edges of three or more faces.
     std::uint64_t repeated_index_faces = 0; ///< Faces naming a vertex twice; they take no part.
@@ -87,9 +87,9 @@ struct MeshStatistics {
 /// indexed as in the caller's mesh: face f owns half-edges 3f, 3f+1, 3f+2.
 class PreparedMesh {
   public:
-    /// Builds connectivity, intrinsic frames and vertex fans. Time and memory are linear in the
-    /// mesh (about 300 bytes per face). Large meshes take further threads as `threads` allows,
-    /// which end before it returns; the result does not depend on them.
+    /// Connects faces that share vertices (for seams, see `join_seams`) and builds their frames.
+    /// Takes linear time and memory (about 300 bytes per face). Large meshes take further threads
+    /// as `threads` allows, which end before it returns; the result does not depend on them.
     ///
     /// Fails with `mesh_rejected` and the face or vertex in `Error::element` when an index is out
     /// of range, a used coordinate is not finite, there is no face with area, or the mesh is too
