@@ -9,6 +9,7 @@
 #include "kernels/poisson.hpp"
 #include "lib/rng.hpp"
 #include "lib/scalar.hpp"
+#include "mesh/candidate_share.hpp"
 
 namespace geodisk::ref {
 namespace {
@@ -41,9 +42,17 @@ Draw draw_uniform(std::uint32_t face, const std::array<std::uint32_t, 4>& random
     return {face, second, both - second};
 }
 
+/// What is linear in the face, at a point of it.
+template <class Value>
+float interpolated(const Draw& draw, const Value (&corners)[3]) {
+    const auto [face, weight1, weight2] = draw.point<float>();
+    return (1.0f - weight1 - weight2) * static_cast<float>(corners[0]) +
+           weight1 * static_cast<float>(corners[1]) + weight2 * static_cast<float>(corners[2]);
+}
+
 /// Makes points as dense as 1 / s^3 in their face, and tells which to keep for 1 / g^2.
 template <class Real>
-bool propose(Draw& draw, const FaceRadii<Real>& radii, const std::array<std::uint32_t, 4>& random) {
+bool propose_by_factors(Draw& draw, const FaceRadii<Real>& radii, float fraction) {
     const float(&s)[3] = radii.spread;
     const float share0 =
         static_cast<float>(kOneWeight - draw.weight1 - draw.weight2) * (s[1] * s[2]);
@@ -55,16 +64,33 @@ bool propose(Draw& draw, const FaceRadii<Real>& radii, const std::array<std::uin
     };
     draw.weight1 = std::min(steps(share1), kOneWeight - 1);
     draw.weight2 = std::min(steps(share2), kOneWeight - 1 - draw.weight1);
-    const auto [face, weight1, weight2] = draw.point<float>();
-    const auto here = [weight1 = weight1, weight2 = weight2](auto a, auto b, auto c) {
-        return (1.0f - weight1 - weight2) * static_cast<float>(a) +
-               weight1 * static_cast<float>(b) + weight2 * static_cast<float>(c);
-    };
-    const float spread = here(s[0], s[1], s[2]);
-    const float g = 2.0f * here(radii.radius[0], radii.radius[1], radii.radius[2]);
+    const float spread = interpolated(draw, s);
+    const float g = 2.0f * interpolated(draw, radii.corner);
+    return fraction * (g * g) < spread * spread * spread;
+}
+
+/// How dense candidates are at a point of this density and packing.
+float thinned(float density, float packing) {
+    const float share = ratio(density, packing);
+    return packing * (share < 1 ? candidates_for_share(share, ratio<float>) : 1.0f);
+}
+
+template <class Real>
+bool propose_by_density(const Draw& draw, const FaceRadii<Real>& radii, float fraction) {
+    float most = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        most = std::max(most, thinned(radii.spread[k], -static_cast<float>(radii.corner[k])));
+    }
+    const float packing = -interpolated(draw, radii.corner);
+    return fraction * most < thinned(interpolated(draw, radii.spread), packing);
+}
+
+template <class Real>
+bool propose(Draw& draw, const FaceRadii<Real>& radii, const std::array<std::uint32_t, 4>& random) {
     const std::uint32_t bits = (random[2] & 511u) << 9 | (random[3] & 511u);
     const float fraction = (static_cast<float>(bits) + 0.5f) * 0x1p-18f;
-    return fraction * (g * g) < spread * spread * spread;
+    return radii.has_packing() ? propose_by_density(draw, radii, fraction)
+                               : propose_by_factors(draw, radii, fraction);
 }
 
 template <class Real>

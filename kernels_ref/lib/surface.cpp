@@ -34,8 +34,11 @@ Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params)
     for (std::uint32_t f = 0; f < face_count(); ++f) {
         FaceRadii<Real>& face = radii.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
-            face.radius[k] = static_cast<Real>(params.radii->factors()[std::size_t{3} * f + k]) / 2;
-            face.spread[k] = params.radii->spreads()[std::size_t{3} * f + k];
+            const std::size_t h = std::size_t{3} * f + k;
+            face.corner[k] = params.radii->packing().empty()
+                                 ? static_cast<Real>(params.radii->factors()[h]) / 2
+                                 : -static_cast<Real>(params.radii->packing()[h]);
+            face.spread[k] = params.radii->spreads()[h];
         }
         face.bound = static_cast<Real>((*bounds)[f]);
     }
@@ -43,9 +46,9 @@ Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params)
 
 template <class Real>
 Real Surface<Real>::radius_at(FacePoint<Real> point) const {
-    const Real(&r)[3] = radii[point.face].radius;
-    return (Real{1} - point.weight1 - point.weight2) * r[0] + point.weight1 * r[1] +
-           point.weight2 * r[2];
+    const Real(&r)[3] = radii[point.face].corner;
+    return FaceRadii<Real>::radius_of((Real{1} - point.weight1 - point.weight2) * r[0] +
+                                      point.weight1 * r[1] + point.weight2 * r[2]);
 }
 
 template <class Real>

@@ -10,6 +10,7 @@
 #include "constants.h"
 #include "geodisk/mesh.hpp"
 #include "geodisk/params.hpp"
+#include "lib/scalar.hpp"
 
 namespace geodisk::ref {
 
@@ -19,15 +20,21 @@ struct Edge {
     std::uint32_t origin, around, fan_angles;
 };
 
-/// The radii at the corners of a face, how far disks reach into it (RadiusField::reach_bounds), and
-/// what candidates are proposed by (RadiusField::spreads).
+/// The radii at the corners of a face, or where they come from a density its packing, negative; how
+/// far disks reach into it (RadiusField::reach_bounds), and what candidates are proposed by
+/// (RadiusField::spreads).
 template <class Real>
 struct FaceRadii {
-    Real radius[3];
+    Real corner[3];
     Real bound;
     float spread[3];
 
-    Real largest() const { return std::max({radius[0], radius[1], radius[2]}); }
+    bool has_packing() const { return corner[0] < 0; }
+    /// What is linear between the corners, as a radius.
+    static Real radius_of(Real value) {
+        return value < 0 ? ratio(static_cast<Real>(0.5), root(-value)) : value;
+    }
+    Real largest() const { return radius_of(std::max({corner[0], corner[1], corner[2]})); }
 };
 
 /// A point of a face by the weights of its second and third corner.

@@ -1,5 +1,5 @@
 // Candidates on a surface as its disks are large: as face_candidate.glsl has them, and where radii vary
-// with correctly rounded quotients.
+// with correctly rounded quotients and roots.
 #ifndef GEODISK_CANDIDATE_GLSL
 #define GEODISK_CANDIDATE_GLSL
 
@@ -33,7 +33,7 @@ uint stages_of(uint face) { return kSeveral ? part_word(part_of(face), 3u) : kAl
 // 1 / s^3 in a face; each is kept with probability s^3 / g^2, where g = 2 r. Between corners with s_k =
 // g_k^(2/3) s is nowhere more than g^(2/3), so that is no more than 1, and at least 0.059 however much
 // g varies. Returns whether this one is kept.
-bool propose(inout Candidate c, uvec4 random) {
+bool propose_by_factors(inout Candidate c, float fraction) {
     vec3 spreads = face_spreads(c.face).xyz;
     // 1 / s_k but for a factor.
     precise float inverse0 = spreads.y * spreads.z;
@@ -49,12 +49,48 @@ bool propose(inout Candidate c, uvec4 random) {
     float weight2 = weight_of(c.weight2);
     float spread = interpolated(spreads, weight1, weight2);
     precise float g = 2.0 * radius_at(face_radii(c.face), weight1, weight2);
-    // The bits that the weights left over.
-    uint bits = (random.z & 511u) << 9 | (random.w & 511u);
-    precise float fraction = (float(bits) + 0.5) * 3.814697265625e-6;
     precise float threshold = fraction * (g * g);
     precise float cube = spread * spread * spread;
     return threshold < cube;
+}
+
+// The share of candidates that gives the share x of the samples that fit: src/mesh/candidate_share.hpp.
+float candidates_for_share(float x) {
+    precise float rest = 1.14 - x;
+    precise float slope = 0.06517 + x * (-0.0582 + x * 0.01263);
+    precise float above = x * slope;
+    precise float below = rest * rest;
+    return ratio(above, below);
+}
+
+// How dense candidates are at a point of this density and packing.
+float thinned(float density, float packing) {
+    float share = ratio(density, packing);
+    precise float result = packing * (share < 1.0 ? candidates_for_share(share) : 1.0);
+    return result;
+}
+
+// Where radii come from a density, uniform points are kept with a probability in proportion to how dense
+// candidates are, a convex function that is largest at a corner.
+bool propose_by_density(Candidate c, vec4 radii, float fraction) {
+    vec3 densities = face_spreads(c.face).xyz;
+    float most = max(thinned(densities.x, -radii.x),
+                     max(thinned(densities.y, -radii.y), thinned(densities.z, -radii.z)));
+    float weight1 = weight_of(c.weight1);
+    float weight2 = weight_of(c.weight2);
+    float packing = -interpolated(radii.xyz, weight1, weight2);
+    precise float threshold = fraction * most;
+    return threshold < thinned(interpolated(densities, weight1, weight2), packing);
+}
+
+// Returns whether to keep the candidate, which has uniform weights and is moved in its face.
+bool propose(inout Candidate c, uvec4 random) {
+    // The bits that the weights left over.
+    uint bits = (random.z & 511u) << 9 | (random.w & 511u);
+    precise float fraction = (float(bits) + 0.5) * 3.814697265625e-6;
+    vec4 radii = face_radii(c.face);
+    return has_packing(radii) ? propose_by_density(c, radii, fraction)
+                              : propose_by_factors(c, fraction);
 }
 
 Candidate draw_candidate(uint face, uint stage, uint number) {

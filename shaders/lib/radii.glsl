@@ -1,5 +1,6 @@
-// Radii that vary over the surface (paper section 5.8), in units of the minimum distance: linear in
-// each face, half of the unit at most. Where they do not vary, nothing of this is left in a kernel.
+// Radii that vary over the surface (paper section 5.8), in units of the minimum distance, half of the
+// unit at most: linear in each face, or 0.5 / sqrt(s) with s, the packing, linear. Where they do not
+// vary, nothing of this is left in a kernel. Needs rounding.glsl.
 #ifndef GEODISK_RADII_GLSL
 #define GEODISK_RADII_GLSL
 
@@ -14,7 +15,7 @@ vec4 radii_row(uint face, uint row) {
     return uintBitsToFloat(row_at(fans, first + kRadiiRows * face + row));
 }
 
-// Of a face: the radii of its corners, and how far disks reach into it.
+// Of a face: the radii of its corners or their packing, negative, and how far disks reach into it.
 vec4 face_radii(uint face) { return radii_row(face, 0u); }
 
 // And what candidates are proposed by, and how much denser they are.
@@ -27,11 +28,18 @@ float interpolated(vec3 corners, float weight1, float weight2) {
     return value;
 }
 
+bool has_packing(vec4 radii) { return radii.x < 0.0; }
+
+// What a row of radii has at a point, as a radius.
+float radius_of_value(float value) { return value < 0.0 ? ratio(0.5, root(-value)) : value; }
+
 float radius_at(vec4 radii, float weight1, float weight2) {
-    return interpolated(radii.xyz, weight1, weight2);
+    return radius_of_value(interpolated(radii.xyz, weight1, weight2));
 }
 
-float largest_radius(vec4 radii) { return max(radii.x, max(radii.y, radii.z)); }
+float largest_radius(vec4 radii) {
+    return radius_of_value(max(radii.x, max(radii.y, radii.z)));
+}
 
 // Cells per unit of length: a power of two, so that a cell is at most as wide as the largest radius of
 // its face and more than half as wide. It is kCellsPerDistance for the largest radius of all.

@@ -20,9 +20,10 @@ struct FaceLengthsRec {
     float length0; float length1; float length2; uint cells;
 };
 
-// The radii at the corners of a face, how far disks reach into it (RadiusField::reach_bounds), what
-// candidates are proposed by (RadiusField::spreads), and how many more of them it has
-// (RadiusField::densities). Only where radii vary.
+// The radii at the corners of a face, or where they come from a density RadiusField::packing, negative;
+// how far disks reach into it (RadiusField::reach_bounds), what candidates are proposed by
+// (RadiusField::spreads), and how many more of them it has (RadiusField::densities). Only where radii
+// vary.
 struct RadiiRec {
     float radius0; float radius1; float radius2; float bound;
     float spread0; float spread1; float spread2; float density;

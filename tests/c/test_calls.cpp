@@ -141,6 +141,20 @@ TEST_CASE("wrong arguments are told of") {
     CHECK(geodisk_radii_create(mesh.get(), factors.data(), GEODISK_FLOAT64, 8, &made_radii,
                                &error) == GEODISK_INVALID_ARGUMENT);
     CHECK(error.element == 3);
+    check_wrong("densities for", [&](geodisk_error* e) {
+        return geodisk_density_create(mesh.get(), factors.data(), GEODISK_FLOAT64, 9, &made_radii,
+                                      e);
+    });
+    factors[3] = -2;
+    CHECK(geodisk_density_create(mesh.get(), factors.data(), GEODISK_FLOAT64, 8, &made_radii,
+                                 &error) == GEODISK_INVALID_ARGUMENT);
+    CHECK(error.element == 3);
+    factors[3] = 4;
+    const auto density = owned<geodisk_radii>([&](auto** object, geodisk_error* e) {
+        return geodisk_density_create(mesh.get(), factors.data(), GEODISK_FLOAT64, 8, object, e);
+    });
+    CHECK(geodisk_radii_least_factor(density.get()) == 0.5);
+    CHECK(geodisk_radii_least_factor(nullptr) == 1);
 
     check_wrong("no parts", [&](geodisk_error* e) {
         return geodisk_domain_surfaces(nullptr, 0, &made_domain, e);

@@ -191,11 +191,12 @@ TEST_CASE("lines of a manifest have options of their own") {
     std::filesystem::create_directories(folder / "in/sub");
     write_shape(folder, "cube", "in/sub/a b.ply");
     folder.write("in/grey.txt", "1\n1\n1\n1\n0.5\n0.5\n0.5\n0.5\n");
-    folder.write("in/list.txt", "\xEF\xBB\xBF# meshes\r\n\r\n"
-                                "'sub/a b.ply' -n 60 # fewer\r\n"
-                                "\"sub/a b.ply\" -r 10% -o second.v2\r\n"
-                                "sub/a\" \"b.ply --density-file grey.txt -o deep/third.csv\r\n"
-                                "builtin:torus-knot:24 --method pdts --throws 900 -d 5% --seed 7");
+    folder.write("in/list.txt",
+                 "\xEF\xBB\xBF# meshes\r\n\r\n"
+                 "'sub/a b.ply' -n 60 # fewer\r\n"
+                 "\"sub/a b.ply\" -r 10% -o second.v2\r\n"
+                 "sub/a\" \"b.ply --radius-factor file:grey.txt -o deep/third.csv\r\n"
+                 "builtin:torus-knot:24 --method pdts --throws 900 -d 5% --seed 7");
     const Outcome outcome = run(folder, {"batch", "in/list.txt", "-o", "out", "-n", "80",
                                          "--pool-ratio", "30", "--seed", "3"});
     INFO(outcome.err);
@@ -205,7 +206,7 @@ TEST_CASE("lines of a manifest have options of their own") {
     check_same(folder, "out/sub/a b.ply", joined({mesh, "-n", "60"}, common));
     check_same(folder, "out/second.v2.ply", joined({mesh, "-r", "10%"}, common));
     check_same(folder, "out/deep/third.csv",
-               joined({mesh, "-n", "80", "--density-file", "in/grey.txt"}, common));
+               joined({mesh, "-n", "80", "--radius-factor", "file:in/grey.txt"}, common));
     check_same(folder, "out/torus-knot-24.ply",
                {"builtin:torus-knot:24", "--method", "pdts", "--throws", "900", "-d", "5%", "-n",
                 "80", "--seed", "7"});
@@ -384,11 +385,12 @@ TEST_CASE("a batch neither overwrites a log nor takes a lost file for done") {
 
 TEST_CASE("the commands that a log tells do the same") {
     const TemporaryFolder folder;
-    folder.write("list.txt", "builtin:cube --weld --ascii\n"
-                             "builtin:icosphere:2 --density-curvature --density-floor 0.3\n"
-                             "builtin:icosphere:3 --lift normals:0.2 --seed 0x9 -d 20%\n"
-                             "builtin:torus-knot:24 --metric euclidean --pool-ratio 10\n"
-                             "builtin:cube:3 --method pdts -r 0.1 --throws 300 -o darts.csv\n");
+    folder.write("list.txt",
+                 "builtin:cube --weld --ascii\n"
+                 "builtin:icosphere:2 --radius-factor curvature --radius-factor-floor 0.3\n"
+                 "builtin:icosphere:3 --lift normals:0.2 --seed 0x9 -d 20%\n"
+                 "builtin:torus-knot:24 --metric euclidean --pool-ratio 10\n"
+                 "builtin:cube:3 --method pdts -r 0.1 --throws 300 -o darts.csv\n");
     REQUIRE(run(folder, {"batch", "list.txt", "-o", "out", "-n", "40"}).status == 0);
     for (const Json& entry : log_of(folder / "out/batch.jsonl")) {
         Arguments words;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +17,8 @@ namespace {
 
 constexpr int kParts = 24; // Of each side of the square.
 
-/// A unit square as PLY: vertex properties q = 0.2 to 1 along x, and s t = x y.
+/// A unit square as PLY: vertex properties q = 0.2 to 1 along x, s t = x y, and a mask m of 0 and
+/// 255 that begins at x = 0.5.
 void write_square(const TemporaryFolder& folder) {
     std::string vertices, faces, values, obj;
     for (int y = 0; y <= kParts; ++y) {
@@ -24,7 +26,8 @@ void write_square(const TemporaryFolder& folder) {
             const std::string at =
                 std::to_string(x / double{kParts}) + " " + std::to_string(y / double{kParts});
             const std::string g = std::to_string(0.2 + 0.8 * x / kParts);
-            vertices.append(at).append(" 0 ").append(g).append(" ").append(at).append("\n");
+            vertices.append(at).append(" 0 ").append(g).append(" ").append(at);
+            vertices.append(2 * x < kParts ? " 0\n" : " 255\n");
             values.append(g).append("\n");
             obj.append("v ").append(at).append(" 0\nvt ").append(at).append("\n");
         }
@@ -48,7 +51,7 @@ void write_square(const TemporaryFolder& folder) {
     folder.write("mesh.ply",
                  "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
                      "\nproperty float x\nproperty float y\nproperty float z\nproperty float q\n"
-                     "property float s\nproperty float t\nelement face " +
+                     "property float s\nproperty float t\nproperty uchar m\nelement face " +
                      std::to_string(kParts * kParts) +
                      "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces);
     folder.write("mesh.obj", obj);
@@ -95,7 +98,7 @@ TEST_CASE("radii from every source are sampled, written and verified") {
     const TemporaryFolder folder;
     write_square(folder);
     for (const std::string output : {"a.ply", "a.csv"}) {
-        const auto samples = check_passes(folder, "mesh.ply", {"--density-attribute", "q"}, output);
+        const auto samples = check_passes(folder, "mesh.ply", {"--radius-factor", "q"}, output);
         const double largest = header_number(samples, "radius");
         std::size_t wrong = 0;
         for (const tools::SampleRow& row : samples.rows) {
@@ -108,14 +111,16 @@ TEST_CASE("radii from every source are sampled, written and verified") {
         CHECK(left > static_cast<std::ptrdiff_t>(2 * samples.rows.size() / 3));
     }
     const auto of_attribute = tools::read_samples(folder / "a.csv");
-    const auto of_file = check_passes(folder, "mesh.obj", {"--density-file", "g.txt"});
+    const auto of_file = check_passes(folder, "mesh.obj", {"--radius-factor", "file:g.txt"});
     CHECK(of_file.rows.size() == of_attribute.rows.size());
-    const auto of_map = check_passes(folder, "mesh.ply", {"--density-map", "g.png"});
-    CHECK(check_passes(folder, "mesh.obj", {"--density-map", "g.png"}).rows.size() ==
+    const auto of_map = check_passes(folder, "mesh.ply", {"--radius-factor", "map:g.png"});
+    CHECK(check_passes(folder, "mesh.obj", {"--radius-factor", "map:g.png"}).rows.size() ==
           of_map.rows.size());
-    const auto curved = check_passes(folder, "builtin:torus-knot:8", {"--density-curvature"});
-    const auto clipped = check_passes(folder, "builtin:torus-knot:8",
-                                      {"--density-curvature", "--density-floor", "0.9"});
+    const auto curved =
+        check_passes(folder, "builtin:torus-knot:8", {"--radius-factor", "curvature"});
+    const auto clipped =
+        check_passes(folder, "builtin:torus-knot:8",
+                     {"--radius-factor", "curvature", "--radius-factor-floor", "0.9"});
     CHECK(header_number(curved, "radius") > header_number(clipped, "radius"));
 }
 
@@ -123,26 +128,26 @@ TEST_CASE("radii that vary go with lifts, edge lengths and more dimensions") {
     const TemporaryFolder folder;
     write_square(folder);
     REQUIRE(run(folder, {"sample", "mesh.ply", "-o", "a.ply", "-n", "100", "--lift",
-                         "attribute:q:0.5", "--density-attribute", "s", "--density-floor", "0.3"})
+                         "attribute:q:0.5", "--radius-factor", "s", "--radius-factor-floor", "0.3"})
                 .status == 0);
     CHECK(run(folder, {"verify", "mesh.ply", "a.ply", "--lift", "attribute:q:0.5",
-                       "--density-attribute", "s", "--density-floor", "0.3"})
+                       "--radius-factor", "s", "--radius-factor-floor", "0.3"})
               .status == 0);
-    check_passes(folder, "builtin:klein-bottle:12", {"--density-curvature"});
+    check_passes(folder, "builtin:klein-bottle:12", {"--density", "curvature"});
     folder.write("bare.obj", "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
     folder.write("lengths.txt", "1 2 3\n2 3 4\n1 3 5\n3 4 3.5\n1 4 4.5\n2 4 5\n");
     folder.write("g4.txt", "1\n0.5\n0.25\n0.5\n");
     const Arguments surface{"--edge-lengths", "lengths.txt"};
-    check_passes(folder, "bare.obj", {"--density-file", "g4.txt"}, "a.ply", surface);
-    check_fails(
-        folder, 2, "--density-curvature needs a mesh with coordinates",
-        joined({"sample", "bare.obj", "-o", "b.ply", "-n", "9", "--density-curvature"}, surface));
+    check_passes(folder, "bare.obj", {"--radius-factor", "file:g4.txt"}, "a.ply", surface);
+    check_fails(folder, 2, "curvature needs a mesh with coordinates",
+                joined({"sample", "bare.obj", "-o", "b.ply", "-n", "9", "--density", "curvature"},
+                       surface));
 }
 
 TEST_CASE("what is wrong with the radii of a file is found") {
     const TemporaryFolder folder;
     write_square(folder);
-    const Arguments density{"--density-attribute", "q"};
+    const Arguments density{"--radius-factor", "q"};
     tools::SampleFile samples = check_passes(folder, "mesh.ply", density);
     samples.rows[5].radius *= 1.5;
     tools::write_samples(folder / "b.csv", samples.header, samples.rows, false);
@@ -150,7 +155,7 @@ TEST_CASE("what is wrong with the radii of a file is found") {
     CHECK(told.status == 1);
     CHECK(contains(told.err, "b.csv: 1 radius is not what the density options give"));
     CHECK(contains(told.out, "violations    0\nwrong radii   1\n"));
-    CHECK(contains(told.out, "density_attribute q\n"));
+    CHECK(contains(told.out, "radius_factor attribute:q\n"));
     samples.rows[5].radius *= 10;
     tools::write_samples(folder / "b.csv", samples.header, samples.rows, false);
     const Outcome read = run(folder, {"verify", "mesh.ply", "b.csv"});
@@ -170,14 +175,83 @@ TEST_CASE("what is wrong with the radii of a file is found") {
     CHECK(run(folder, {"verify", "mesh.ply", "b.csv"}).status == 1);
 }
 
+TEST_CASE("a density has samples in proportion, and none where it is 0") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    const auto left_of = [](const tools::SampleFile& samples, double x) {
+        return std::count_if(samples.rows.begin(), samples.rows.end(),
+                             [x](const auto& row) { return row.position[0] < x; });
+    };
+    for (const char* const source : {"m", "attribute:m"}) {
+        const auto mask = check_passes(folder, "mesh.ply", {"--density", source}, "m.csv");
+        CHECK(left_of(mask, 0.5 - 1.0 / kParts) == 0);
+        CHECK(left_of(mask, 0.5) < 40);
+    }
+    for (const char* const source : {"s", "map:g.png", "file:g.txt"}) {
+        const auto ramp = check_passes(folder, "mesh.ply", {"--density", source});
+        CHECK(2 * left_of(ramp, 0.5) < static_cast<std::ptrdiff_t>(ramp.rows.size()));
+    }
+    // The distance is the least one, in the options, the header and the report.
+    const Outcome made = run(folder, {"sample", "mesh.ply", "-o", "d.csv", "-d", "0.02",
+                                      "--density", "s", "--json", "-"});
+    REQUIRE(made.status == 0);
+    const auto report = nlohmann::json::parse(made.out);
+    CHECK(report["min_distance"] == 0.02);
+    CHECK(report["mesh"]["density"] == "attribute:s");
+    CHECK(report["sample_radii"]["least"] >= 0.01 - 1e-9);
+    const auto samples = tools::read_samples(folder / "d.csv");
+    CHECK(header_number(samples, "min_distance") == 0.02);
+    const Outcome checked =
+        run(folder, {"verify", "mesh.ply", "d.csv", "--density", "s", "-d", "0.02"});
+    CHECK(checked.status == 0);
+    CHECK(contains(checked.out, "min distance  0.02 in mesh units\n"));
+    CHECK(run(folder, {"verify", "mesh.ply", "d.csv", "-d", "0.0199"}).status == 0);
+    const Outcome told =
+        run(folder, {"sample", "mesh.ply", "-o", "e.csv", "-d", "0.02", "--density", "s"});
+    CHECK(contains(told.out, "min distance  0.02 to 0.0979796 (radius 0.01 to 0.0489898)"));
+}
+
+TEST_CASE("options of earlier versions mean what they did, with a warning") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    const auto set = [&](const std::string& mesh, const Arguments& density, std::string& warnings) {
+        std::filesystem::remove(folder / "o.csv");
+        const Outcome made =
+            run(folder, joined({"sample", mesh, "-o", "o.csv", "-n", "200"}, density));
+        INFO(made.err);
+        REQUIRE(made.status == 0);
+        warnings = made.err;
+        return tools::read_samples(folder / "o.csv").rows;
+    };
+    std::string warnings, none;
+    const auto same = [](const auto& a, const auto& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+            return x.face == y.face && x.bary[1] == y.bary[1] && x.radius == y.radius;
+        });
+    };
+    CHECK(same(set("mesh.ply", {"--density-attribute", "q"}, warnings),
+               set("mesh.ply", {"--radius-factor", "q"}, none)));
+    CHECK(contains(warnings, "--density-attribute gives factors of the radius and is now "
+                             "--radius-factor attribute:q; for a density, where more means more "
+                             "samples, give --density attribute:q\n"));
+    CHECK(none.empty());
+    CHECK(same(
+        set("mesh.ply", {"--density-map", "g.png", "--density-floor", "0.5"}, warnings),
+        set("mesh.ply", {"--radius-factor", "map:g.png", "--radius-factor-floor", "0.5"}, none)));
+    CHECK(same(set("builtin:torus-knot:8", {"--density-curvature"}, warnings),
+               set("builtin:torus-knot:8", {"--density", "curvature"}, none)));
+    CHECK(contains(warnings, "--density-curvature is now --density curvature"));
+    CHECK(none.empty());
+}
+
 TEST_CASE("the report tells of radii that vary") {
     const TemporaryFolder folder;
     write_square(folder);
     const Outcome made = run(folder, {"sample", "mesh.ply", "-o", "a.xyz", "-r", "0.05",
-                                      "--density-attribute", "q", "--json", "-"});
+                                      "--radius-factor", "q", "--json", "-"});
     REQUIRE(made.status == 0);
     const auto report = nlohmann::json::parse(made.out);
-    CHECK(report["mesh"]["density_attribute"] == "q");
+    CHECK(report["mesh"]["radius_factor"] == "attribute:q");
     CHECK(report["radius"] == 0.05);
     CHECK(report["sample_radii"]["least"] >= 0.01);
     CHECK(report["sample_radii"]["most"] <= 0.05);
@@ -198,8 +272,8 @@ TEST_CASE("the smallest radii count as a thousandth of the largest, with a warni
     write_with_first("tiny.txt", "1e-9");
     write_with_first("small.txt", "0.001");
     const auto sample = [&](const std::string& g, const std::string& output) {
-        const Outcome outcome =
-            run(folder, {"sample", "mesh.ply", "-o", output, "-d", "0.2", "--density-file", g});
+        const Outcome outcome = run(folder, {"sample", "mesh.ply", "-o", output, "-d", "0.2",
+                                             "--radius-factor", "file:" + g});
         REQUIRE(outcome.status == 0);
         return outcome.err;
     };
@@ -223,20 +297,25 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
         check_fails(folder, status, part,
                     joined({"sample", mesh, "-o", "a.ply", "-n", "9"}, density));
     };
-    fails(3, "mesh.ply: element vertex has no property 'w'", {"--density-attribute", "w"});
-    fails(3, "mesh.obj: has no vertex properties, so no 'q'", {"--density-attribute", "q"},
-          "mesh.obj");
+    fails(3, "mesh.ply: element vertex has no property 'w'", {"--radius-factor", "w"});
+    fails(3, "mesh.obj: has no vertex properties, so no 'q'", {"--radius-factor", "q"}, "mesh.obj");
     fails(3,
           "mesh.ply: 's': the radius factor g of vertex 0 (from 0) is 0; it must be from 0.001 "
-          "to 1, or be raised by --density-floor",
-          {"--density-attribute", "s"});
-    fails(3, "mesh.ply: 'z': all radius factors g are zero", {"--density-attribute", "z"});
+          "to 1; for a density, where 0 means no samples, give --density attribute:s",
+          {"--radius-factor", "s"});
+    for (const char* const old : {"--density-attribute", "--radius-factor"}) {
+        fails(3,
+              "g of vertex 12 (from 0) is 255; it must be from 0.001 to 1; for a density, where 0 "
+              "means no samples, give --density attribute:m",
+              {old, "m", "--radius-factor-floor", "0.1"});
+    }
+    fails(3, "mesh.ply: 'z': all radius factors g are zero", {"--radius-factor", "z"});
     fails(3, "'z': all radius factors g are zero",
-          {"--density-attribute", "z", "--density-floor", "0.5"});
-    fails(3, "none.txt: no such file", {"--density-file", "none.txt"});
+          {"--radius-factor", "z", "--radius-factor-floor", "0.5"});
+    fails(3, "none.txt: no such file", {"--radius-factor", "file:none.txt"});
     folder.write("short.txt", "1\n0.5\n");
     fails(3, "short.txt: has 2 values for the 625 vertices of the mesh",
-          {"--density-file", "short.txt"});
+          {"--radius-factor", "file:short.txt"});
     std::string values = bytes_of(folder / "g.txt");
     const auto with_first = [&](const std::string& first) {
         folder.write("bad.txt", first + values.substr(values.find('\n')));
@@ -244,28 +323,43 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
     with_first("-0.1");
     fails(3,
           "bad.txt: the radius factor g of vertex 0 (from 0) is -0.1; it must be from 0.001 to 1",
-          {"--density-file", "bad.txt", "--density-floor", "0.1"});
+          {"--radius-factor", "file:bad.txt", "--radius-factor-floor", "0.1"});
     with_first("1.5");
-    fails(3, "vertex 0 (from 0) is 1.5", {"--density-file", "bad.txt"});
+    fails(3, "vertex 0 (from 0) is 1.5", {"--radius-factor", "file:bad.txt"});
     with_first("nan");
-    fails(3, "bad.txt: line 1: 'nan' is not finite", {"--density-file", "bad.txt"});
-    fails(3, "none.png: no such file", {"--density-map", "none.png"});
-    fails(3, "g.txt: is neither a PNG nor a JPEG image", {"--density-map", "g.txt"});
-    fails(3, "builtin:cube: has no texture coordinates", {"--density-map", "g.png"},
+    fails(3, "bad.txt: line 1: 'nan' is not finite", {"--radius-factor", "file:bad.txt"});
+    fails(3, "none.png: no such file", {"--radius-factor", "map:none.png"});
+    fails(3, "g.txt: is neither a PNG nor a JPEG image", {"--density", "map:g.txt"});
+    fails(3, "builtin:cube: has no texture coordinates", {"--radius-factor", "map:g.png"},
           "builtin:cube");
     folder.write("black.png", tools::png_bytes(1, 1, std::string_view("\0", 1)));
-    fails(3, "black.png: all radius factors g are zero", {"--density-map", "black.png"});
-    fails(2, "--density-file and --density-map contradict each other",
-          {"--density-map", "g.png", "--density-file", "g.txt"});
-    fails(2, "--density-floor raises the values of another --density option",
+    fails(3, "black.png: all radius factors g are zero", {"--radius-factor", "map:black.png"});
+    fails(2, "--density and --density-map contradict each other",
+          {"--density-map", "g.png", "--density", "file:g.txt"});
+    fails(2, "--density-floor raises radius factors; give --radius-factor",
           {"--density-floor", "0.5"});
+    fails(2, "--radius-factor-floor raises radius factors; --density takes 0 and any range",
+          {"--density", "q", "--radius-factor-floor", "0.5"});
+    fails(2, "--density-floor and --radius-factor-floor are the same",
+          {"--radius-factor", "q", "--radius-factor-floor", "0.5", "--density-floor", "0.5"});
     fails(2, "--density-floor: '0' is not a number of 0.001 to 1",
           {"--density-curvature", "--density-floor", "0"});
+    fails(2, "--density: 'g.txt' is a file; give file:g.txt", {"--density", "g.txt"});
+    fails(2, "--density: 'map:' names nothing", {"--density", "map:"});
+    fails(3, "black.png: the density is 0 everywhere, so no samples fit",
+          {"--density", "map:black.png"});
+    with_first("-0.1");
+    fails(3,
+          "bad.txt: the density of vertex 0 (from 0) is -0.1; it must be 0 or positive, and finite",
+          {"--density", "file:bad.txt"});
+    fails(3, "short.txt: has 2 values for the 625 vertices of the mesh",
+          {"--density", "file:short.txt"});
+    fails(2, "takes no radii that vary, so neither --density nor --radius-factor",
+          {"--density", "q", "--metric", "euclidean"});
     check_fails(folder, 2, "g.txt: the report would replace the density",
-                {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--density-file", "g.txt",
+                {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--density", "file:g.txt",
                  "--json", "g.txt"});
-    check_fails(folder, 3, "no property 'w'",
-                {"verify", "mesh.ply", "g.txt", "--density-attribute", "w"});
+    check_fails(folder, 3, "no property 'w'", {"verify", "mesh.ply", "g.txt", "--density", "w"});
 }
 
 } // namespace geodisk::test

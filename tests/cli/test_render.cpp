@@ -200,8 +200,8 @@ TEST_CASE("samples in space are balls in a frame") {
 
 TEST_CASE("radii that vary are those of the file") {
     const TemporaryFolder folder;
-    REQUIRE(run(folder, {"sample", "builtin:showpiece:60", "--density-curvature", "-n", "300", "-o",
-                         "a.ply"})
+    REQUIRE(run(folder, {"sample", "builtin:showpiece:60", "--density", "curvature", "-n", "300",
+                         "-o", "a.ply"})
                 .status == 0);
     const PngImage image = picture(folder, {"builtin:showpiece:60", "a.ply", "--size", "240x240"});
     CHECK(count_if(image, is_orange) == 0);

@@ -163,7 +163,7 @@ TEST_CASE("a page has a spectrum where one is asked for") {
                 {"report", "builtin:cube", "-d", "0.4", "-o", "q.html", "--harmonics", "9"});
     check_fails(folder, 2, "do not vary",
                 {"report", "builtin:icosphere:3", "-d", "0.4", "-o", "q.html", "--harmonics", "9",
-                 "--density-curvature"});
+                 "--density", "curvature"});
     CHECK_FALSE(std::filesystem::exists(folder / "q.html"));
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("surfaces of every kind have a page") {
 TEST_CASE("radii that vary are each sample's own") {
     const TemporaryFolder folder;
     const PageFile found =
-        page(folder, {"builtin:showpiece:60", "-n", "300", "--density-curvature"});
+        page(folder, {"builtin:showpiece:60", "-n", "300", "--density", "curvature"});
     const std::vector<double>& radii = found.arrays.at("sample_radii");
     REQUIRE(radii.size() == found.facts["samples"]);
     const auto [least, most] = std::minmax_element(radii.begin(), radii.end());

@@ -158,7 +158,7 @@ TEST_CASE("samples name the triangles and faces of the mesh file, whatever of it
                              "4 3 2 1 0\n2 0 1\n4 1 2 3 0\n3 4 4 5\n4 4 5 6 7\n"
                              "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
     for (const Arguments& more :
-         {Arguments{}, {"--density-curvature"}, {"--lift", "normals:0.5"}}) {
+         {Arguments{}, {"--density", "curvature"}, {"--lift", "normals:0.5"}}) {
         const Arguments sample{"sample", "mesh.ply", "-o",     "a.csv",
                                "-n",     "300",      "--json", "a.json"};
         const Outcome made = run(folder, joined(sample, more));

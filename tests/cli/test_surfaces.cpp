@@ -176,8 +176,8 @@ TEST_CASE("what differs on both sides of a seam counts as its mean") {
     folder.write("seam.txt", "1\n1\n0.5\n0.6\n1\n1\n");
     folder.write("mean.txt", "0.8\n1\n0.75\n0.8\n0.75\n1\n");
     const auto dense = [&](const std::string& values) {
-        REQUIRE(run(folder,
-                    {"sample", "seam.ply", "--density-file", values, "-d", "0.1", "-o", "b.xyz"})
+        REQUIRE(run(folder, {"sample", "seam.ply", "--radius-factor", "file:" + values, "-d", "0.1",
+                             "-o", "b.xyz"})
                     .status == 0);
         return bytes_of(folder / "b.xyz");
     };

@@ -245,8 +245,9 @@ class Program {
         factors[0] = bytes_.below(4) == 0 ? bytes_.number() : 1;
         geodisk_radii* radii = nullptr;
         const geodisk_type type = bytes_.below(4) == 0 ? GEODISK_FLOAT32 : GEODISK_FLOAT64;
-        geodisk_radii_create(meshes_.any(bytes_), factors.data(), type, bytes_.below(kVertices + 1),
-                             &radii, e);
+        const auto create = bytes_.below(2) == 0 ? geodisk_radii_create : geodisk_density_create;
+        create(meshes_.any(bytes_), factors.data(), type, bytes_.below(kVertices + 1), &radii, e);
+        geodisk_radii_least_factor(radii);
         radii_.add(radii);
     }
 

@@ -486,6 +486,10 @@ TEST_SUITE("kernels") {
         const RadiusField rough = radius_field(mesh, rough_factors(cube, 0.05));
         step_through(mesh, 3000, on_cpu(), 256, {}, &rough);
         step_through(mesh, 40, on_native_gpu(), 16, {}, &rough);
+        const RadiusField density = density_field(mesh, {0, 1, 1e-7, 2, 0, 900, 30, 1});
+        step_through(mesh, 1000, on_cpu(), 256, {}, &density);
+        step_through(mesh, 1000, kOnGpu, 256, {}, &density);
+        step_through(mesh, 40, on_native_gpu(), 16, {}, &density);
     }
 
     TEST_CASE("step by step with as few candidates at a time as may be") {

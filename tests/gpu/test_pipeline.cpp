@@ -69,10 +69,12 @@ TEST_SUITE("pipeline") {
             const PreparedMesh mesh = prepared(shape);
             const RadiusField wavy = radius_field(mesh, wavy_factors(shape, 0.1));
             const RadiusField rough = radius_field(mesh, rough_factors(shape, 0.01));
+            const RadiusField density = density_field(mesh, rough_density(shape));
             for (const double count : {30.0, 1000.0}) {
                 CAPTURE(count);
                 check_against_reference(mesh, count, 1, &wavy);
                 check_against_reference(mesh, count, 2, &rough);
+                check_against_reference(mesh, count, 3, &density);
             }
         }
     }

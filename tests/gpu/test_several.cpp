@@ -114,9 +114,11 @@ TEST_SUITE("several") {
         const PreparedMesh terrain = prepared(terrain_shape);
         const RadiusField of_knot = radius_field(knot, wavy_factors(knot_shape, 0.2));
         const RadiusField of_terrain = radius_field(terrain, rough_factors(terrain_shape, 0.1));
+        const RadiusField density = density_field(knot, rough_density(knot_shape));
         check_each_alone({{&knot, params_for(knot, 300, 1, &of_knot)},
                           {&terrain, params_for(terrain, 500, 2, &of_terrain)},
-                          {&knot, params_for(knot, 100, 3, &of_knot), 0.5}});
+                          {&knot, params_for(knot, 100, 3, &of_knot), 0.5},
+                          {&knot, params_for(knot, 200, 4, &density)}});
         const std::string message =
             refusal({{&knot, params_for(knot, 300, 1, &of_knot)}, {&knot, params_for(knot, 300)}});
         CHECK(message == "surface 1: some surfaces have radii that vary, others have not");

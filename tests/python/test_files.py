@@ -28,7 +28,7 @@ def equal(a, b):
 SETS = {
     "mesh": geodisk.sample(VERTICES, FACES, min_distance=0.5, seed=2**64 - 1),
     "radii": geodisk.sample(
-        VERTICES, FACES, min_distance=0.6, density=np.linspace(0.3, 1, len(VERTICES))
+        VERTICES, FACES, min_distance=0.6, radius_factor=np.linspace(0.3, 1, len(VERTICES))
     ),
     "plane": geodisk.sample([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], min_distance=0.1),
     "space": geodisk.sample(np.hstack([VERTICES, VERTICES]), FACES, min_distance=0.9),

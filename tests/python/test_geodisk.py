@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -122,8 +123,8 @@ def test_options():
         VERTICES, FACES, min_distance=0.4, face_keys=np.arange(len(FACES))[::-1]
     )
     assert not same(keyed, every)
-    density = np.linspace(0.3, 1, len(VERTICES))
-    varied = geodisk.sample(VERTICES, FACES, min_distance=0.6, density=density)
+    factors = np.linspace(0.3, 1, len(VERTICES))
+    varied = geodisk.sample(VERTICES, FACES, min_distance=0.6, radius_factor=factors)
     assert 0.09 <= varied.radius.min() < 0.15 and varied.radius.max() <= 0.3
     lengths = np.linalg.norm(VERTICES[np.roll(FACES, -1, axis=1)] - VERTICES[FACES], axis=-1)
     bare = geodisk.sample(len(VERTICES), FACES, edge_lengths=lengths, min_distance=0.4)
@@ -151,6 +152,28 @@ def test_a_count_with_a_stop_is_searched_for_without_it():
         geodisk.sample_box([1, 1], min_distance=0.2, stop_count=999)
     with pytest.raises(ValueError, match="throws"):
         geodisk.sample(VERTICES, FACES, count=200, throws=100)
+
+
+def test_density():
+    x = VERTICES[:, 0] - VERTICES[:, 0].min()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # No factors: there is a zero.
+        samples = geodisk.sample(VERTICES, FACES, count=400, density=x)
+        mask = geodisk.sample(VERTICES, FACES, min_distance=0.3, density=x > x.max() / 2)
+    assert 380 < len(samples) < 420
+    middle = VERTICES[:, 0].min() + x.max() / 2
+    assert (samples.points[:, 0] > middle).mean() > 0.6
+    assert samples.min_distance == pytest.approx(2 * samples.radius.min(), rel=0.05)
+    in_mask = (x > x.max() / 2)[FACES].any(axis=1)
+    assert len(mask) > 50 and in_mask[mask.face_index].all()
+    assert mask.min_distance == mask.report["min_distance"] == 0.3
+    assert same(geodisk.sample(VERTICES, FACES, count=400, density=1000 * x), samples)
+    geodisk._radii._has_warned = False
+    with pytest.warns(geodisk.GeodiskWarning, match="give radius_factor="):
+        geodisk.sample(VERTICES, FACES, min_distance=0.5, density=np.linspace(0.3, 1, len(x)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # Just once.
+        geodisk.sample(VERTICES, FACES, min_distance=0.5, density=np.linspace(0.3, 1, len(x)))
 
 
 def test_boxes():
@@ -208,7 +231,10 @@ def test_bad_values():
     fails(ValueError, "pool", pool_ratio=0.5)
     fails(ValueError, "metric", metric="manhattan")
     fails(ValueError, "shape", density=[1, 1])
-    fails(ValueError, "0.001", density=[1, 1, 2, 1])
+    fails(ValueError, "vertex 2 .* -2", density=[1, 1, -2, 1])
+    fails(ValueError, "0 everywhere", density=[0, 0, 0, 0])
+    fails(ValueError, "0.001", radius_factor=[1, 1, 2, 1])
+    fails(ValueError, "contradict", density=[1, 1, 1, 1], radius_factor=[1, 1, 1, 1])
     fails(ValueError, "shape", face_keys=[1, 2])
     fails(ValueError, "alike", face_keys=[1, 2, 2, 3])
     fails(geodisk.NoDevice, "nowhere", device="nowhere")

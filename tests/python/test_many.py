@@ -30,7 +30,7 @@ def test_counts_densities_and_keys():
         arguments = mesh if isinstance(mesh, tuple) else (mesh,)
         alone = geodisk.sample(*arguments, count=count)
         assert same(samples, alone) and samples.min_distance == alone.min_distance
-    density = np.linspace(0.3, 1, len(VERTICES))
+    density = np.linspace(0, 1, len(VERTICES))
     keys = np.arange(len(FACES))[::-1]
     a, b, flat = geodisk.sample_many(
         [MESHES[0], MESHES[0], ([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])],

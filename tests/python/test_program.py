@@ -51,19 +51,23 @@ def test_verify():
 
 
 def test_verify_computes_radii_again():
-    density = np.linspace(0.3, 1, len(VERTICES))
-    samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, density=density, seed=2)
-    found = geodisk.verify(samples, density=density)
+    factors = np.linspace(0.3, 1, len(VERTICES))
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, radius_factor=factors, seed=2)
+    found = geodisk.verify(samples, radius_factor=factors)
     assert found and found.min_distance == 0.6 and found.wrong_radii == 0
     assert found.smallest_ratio == geodisk.verify(samples).smallest_ratio
     assert found.rho == pytest.approx(samples.report["rho"])
-    flatter = geodisk.verify(samples, density=density.astype(np.float32) ** 0.9)
+    flatter = geodisk.verify(samples, radius_factor=factors.astype(np.float32) ** 0.9)
     assert not flatter and flatter.wrong_radii > 0.9 * len(samples) and len(flatter.violations) > 0
     assert f"{flatter.wrong_radii} of wrong radius" in repr(flatter)
-    # Samples without radii of their own take those that the density gives.
-    assert geodisk.verify(SAMPLES, density=density).smallest_ratio > 1
-    larger = geodisk.verify(samples, density=density, min_distance=0.7)
+    # Samples without radii of their own take those that the factors give.
+    assert geodisk.verify(SAMPLES, radius_factor=factors).smallest_ratio > 1
+    larger = geodisk.verify(samples, radius_factor=factors, min_distance=0.7)
     assert not larger and larger.min_distance == 0.7
+    density = np.arange(len(VERTICES))
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.2, density=density)
+    found = geodisk.verify(samples, density=density)
+    assert found and found.min_distance == pytest.approx(0.2) and found.wrong_radii == 0
 
 
 def test_verify_finds_what_was_moved():
@@ -190,8 +194,13 @@ def test_render(tmp_path):
         (lambda: geodisk.verify(SAMPLES, min_distance=np.nan), ValueError, "positive"),
         (lambda: geodisk.verify(SAMPLES, density=[1, 1]), ValueError, "one for each vertex"),
         (lambda: geodisk.verify(SAMPLES, density="flat"), TypeError, "density"),
-        (lambda: geodisk.verify(SAMPLES, density=2 * ONES), ValueError, "density"),
-        (lambda: geodisk.verify(SAMPLES, density=ONES / 2000), ValueError, "vertex 0 is 0.0005"),
+        (lambda: geodisk.verify(SAMPLES, density=-ONES), ValueError, "density"),
+        (lambda: geodisk.verify(SAMPLES, radius_factor=2 * ONES), ValueError, "factor"),
+        (
+            lambda: geodisk.verify(SAMPLES, radius_factor=ONES / 2000),
+            ValueError,
+            "vertex 0 is 0.0005",
+        ),
         (lambda: geodisk.verify(SAMPLES, density=np.nan * ONES), ValueError, "density"),
         (lambda: geodisk.verify(SQUARE, density=ONES), ValueError, "box"),
         (lambda: geodisk.verify(geodisk.Samples([[0, 0]])), ValueError, "do not know their mesh"),

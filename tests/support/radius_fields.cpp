@@ -33,12 +33,39 @@ std::vector<double> rough_factors(const TestMesh& mesh, double least, std::uint3
     return factors;
 }
 
-RadiusField radius_field(const PreparedMesh& mesh, const std::vector<double>& factors) {
-    auto field = RadiusField::prepare(mesh, factors);
+std::vector<double> density_along(const TestMesh& mesh, const std::function<double(double)>& of_x) {
+    std::vector<double> density;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        density.push_back(of_x(mesh.positions[std::size_t{v} * mesh.dimension]));
+    }
+    return density;
+}
+
+std::vector<double> rough_density(const TestMesh& mesh, std::uint32_t seed) {
+    std::vector<double> density = rough_factors(mesh, 0, seed);
+    for (double& value : density) {
+        value = value < 0.25 ? 0 : value * value * value;
+    }
+    return density;
+}
+
+namespace {
+
+RadiusField expect_field(Result<RadiusField> field) {
     if (!field) {
         throw std::runtime_error(field.error().message);
     }
     return std::move(*field);
+}
+
+} // namespace
+
+RadiusField density_field(const PreparedMesh& mesh, const std::vector<double>& density) {
+    return expect_field(RadiusField::from_density(mesh, density));
+}
+
+RadiusField radius_field(const PreparedMesh& mesh, const std::vector<double>& factors) {
+    return expect_field(RadiusField::prepare(mesh, factors));
 }
 
 } // namespace geodisk::test

@@ -26,9 +26,10 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     SampleParams params = job.params;
     params.radii = mesh.radii ? &*mesh.radii : nullptr;
     const double area = effective_area(mesh.prepared, params);
-    params.min_distance = job.min_distance
-                              ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics())
-                              : distance_for_count(mesh.prepared, params.radii, job.wanted_count);
+    params.min_distance =
+        job.min_distance
+            ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
+            : distance_for_count(mesh.prepared, params.radii, job.wanted_count);
     params.throws = job.method.throws_for(expected_count(area, params.min_distance));
     return params;
 }
@@ -83,7 +84,8 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     };
     auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
     params.min_distance = done.min_distance;
-    job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
+    job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
+                           done.run.candidates);
     SampleResult result{
         params, std::move(done), to_rows(mesh, params.min_distance, set.samples), {}, {}, {}};
     if (mesh.prepared.statistics().components > 1) {

@@ -166,7 +166,9 @@ CommandFacts Command::facts() const {
     CommandFacts facts{app_->get_name(), app_->get_description(), app_->get_footer(), {}, {}};
     const CLI::App& app = *app_;
     for (const CLI::Option* option : app.get_options()) {
-        facts.options.push_back(facts_of(*option, *offers_));
+        if (!option->get_group().empty()) { // Else it is hidden.
+            facts.options.push_back(facts_of(*option, *offers_));
+        }
     }
     for (CLI::App* command : app_->get_subcommands(std::function<bool(CLI::App*)>())) {
         if (!command->get_group().empty()) {

@@ -281,6 +281,17 @@ typedef struct geodisk_radii geodisk_radii;
 GEODISK_C_API geodisk_status geodisk_radii_create(const geodisk_mesh *mesh, const void *factors,
                                                   geodisk_type type, size_t count,
                                                   geodisk_radii **radii, geodisk_error *error);
+
+/* Radii by a density, one value for each vertex as above: 0 or positive, in any unit. Samples per
+ * area come out in proportion to it, none where it is 0. */
+GEODISK_C_API geodisk_status geodisk_density_create(const geodisk_mesh *mesh, const void *density,
+                                                    geodisk_type type, size_t count,
+                                                    geodisk_radii **radii, geodisk_error *error);
+
+/* The least of the factors: min_distance times this is the least distance of two samples. 1 for
+ * NULL. */
+GEODISK_C_API double geodisk_radii_least_factor(const geodisk_radii *radii);
+
 GEODISK_C_API void geodisk_radii_release(geodisk_radii *radii);
 
 /* ---- Domains: what is sampled ------------------------------------------------------------------ */

@@ -1,6 +1,7 @@
 #include "c/mesh.hpp"
 
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -147,34 +148,75 @@ Result<Mesh> make_mesh(const geodisk_mesh_params& params) {
                                        : make_by_lengths(params, *indices, threads);
 }
 
-Result<std::vector<double>> factors_of(const void* factors, geodisk_type type, std::size_t count) {
-    if (factors == nullptr) {
-        return wrong("factors is NULL");
+/// One value for each vertex, which an error calls `name`.
+Result<std::vector<double>> values_of(const void* values, geodisk_type type, std::size_t count,
+                                      const std::string& name) {
+    if (values == nullptr) {
+        return wrong(name + " is NULL");
     }
-    if (type == GEODISK_FLOAT64 && is_aligned<double>(factors, 0)) {
-        const auto* const first = static_cast<const double*>(factors);
+    if (type == GEODISK_FLOAT64 && is_aligned<double>(values, 0)) {
+        const auto* const first = static_cast<const double*>(values);
         return std::vector<double>(first, first + count);
     }
-    if (type == GEODISK_FLOAT32 && is_aligned<float>(factors, 0)) {
-        const auto* const first = static_cast<const float*>(factors);
+    if (type == GEODISK_FLOAT32 && is_aligned<float>(values, 0)) {
+        const auto* const first = static_cast<const float*>(values);
         return std::vector<double>(first, first + count);
     }
-    return wrong("factors are not aligned GEODISK_FLOAT64 or GEODISK_FLOAT32");
+    return wrong(name + " are not aligned GEODISK_FLOAT64 or GEODISK_FLOAT32");
 }
 
-/// What joined vertices have is the mean of factors that are right each.
-Result<std::vector<double>> factors_on(const Mesh& mesh, const std::vector<double>& given) {
+/// What joined vertices have is the mean of values from `least` to `most`.
+Result<std::vector<double>> values_on(const Mesh& mesh, const std::vector<double>& given,
+                                      double least, double most) {
     if (mesh.joined.empty()) {
         return given;
     }
     for (std::size_t v = 0; v < given.size(); ++v) {
-        if (mesh.joined[v] != v && !(given[v] >= RadiusField::kLeastFactor && given[v] <= 1)) {
-            return Error{
-                Status::invalid_argument,
-                "the radius factor of vertex " + std::to_string(v) + " is not from 0.001 to 1", v};
+        if (mesh.joined[v] != v && !(given[v] >= least && given[v] <= most)) {
+            return Error{Status::invalid_argument,
+                         most > 1 ? "the density of vertex " + std::to_string(v) +
+                                        " is not 0 or positive, and finite"
+                                  : "the radius factor of vertex " + std::to_string(v) +
+                                        " is not from 0.001 to 1",
+                         v};
         }
     }
     return means_of_joined(mesh.joined, given);
+}
+
+/// The radii by a density or factors.
+geodisk_status create_radii(bool is_density, const geodisk_mesh* mesh, const void* values,
+                            geodisk_type type, size_t count, geodisk_radii** radii,
+                            geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || radii == nullptr) {
+            return wrong("mesh or radii is NULL");
+        }
+        const PreparedMesh& prepared = mesh->shared->prepared;
+        const std::string name = is_density ? "densities" : "factors";
+        if (count != prepared.vertex_count()) { // Before so many are read.
+            return wrong("there are " + std::to_string(count) + " " + name + " for " +
+                         std::to_string(prepared.vertex_count()) + " vertices");
+        }
+        const auto given = values_of(values, type, count, name);
+        if (!given) {
+            return given.error();
+        }
+        const auto used =
+            is_density ? values_on(*mesh->shared, *given, 0, std::numeric_limits<double>::max())
+                       : values_on(*mesh->shared, *given, RadiusField::kLeastFactor, 1);
+        if (!used) {
+            return used.error();
+        }
+        auto field = is_density ? RadiusField::from_density(prepared, *used)
+                                : RadiusField::prepare(prepared, *used);
+        if (!field) {
+            return field.error();
+        }
+        *radii = new geodisk_radii{
+            std::make_shared<const Radii>(Radii{std::move(*field), prepared.identity()})};
+        return Done{};
+    });
 }
 
 } // namespace
@@ -270,31 +312,17 @@ void geodisk_mesh_release(geodisk_mesh* mesh) {
 geodisk_status geodisk_radii_create(const geodisk_mesh* mesh, const void* factors,
                                     geodisk_type type, size_t count, geodisk_radii** radii,
                                     geodisk_error* error) {
-    return answer(error, [&]() -> Result<Done> {
-        if (mesh == nullptr || radii == nullptr) {
-            return wrong("mesh or radii is NULL");
-        }
-        const PreparedMesh& prepared = mesh->shared->prepared;
-        if (count != prepared.vertex_count()) { // Before so many are read.
-            return wrong("there are " + std::to_string(count) + " factors for " +
-                         std::to_string(prepared.vertex_count()) + " vertices");
-        }
-        const auto given = factors_of(factors, type, count);
-        if (!given) {
-            return given.error();
-        }
-        const auto factors_used = factors_on(*mesh->shared, *given);
-        if (!factors_used) {
-            return factors_used.error();
-        }
-        auto field = RadiusField::prepare(prepared, *factors_used);
-        if (!field) {
-            return field.error();
-        }
-        *radii = new geodisk_radii{
-            std::make_shared<const Radii>(Radii{std::move(*field), prepared.identity()})};
-        return Done{};
-    });
+    return create_radii(false, mesh, factors, type, count, radii, error);
+}
+
+geodisk_status geodisk_density_create(const geodisk_mesh* mesh, const void* density,
+                                      geodisk_type type, size_t count, geodisk_radii** radii,
+                                      geodisk_error* error) {
+    return create_radii(true, mesh, density, type, count, radii, error);
+}
+
+double geodisk_radii_least_factor(const geodisk_radii* radii) {
+    return radii == nullptr ? 1 : radii->shared->field.least_factor();
 }
 
 void geodisk_radii_release(geodisk_radii* radii) {

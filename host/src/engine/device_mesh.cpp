@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -50,13 +51,18 @@ gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face) {
     }
     const float* const g = &params.radii->factors()[std::size_t{3} * face];
     const float* const s = &params.radii->spreads()[std::size_t{3} * face];
-    return {0.5f * g[0], 0.5f * g[1], 0.5f * g[2], 0,
-            s[0],        s[1],        s[2],        params.radii->densities()[face]};
+    const float density = params.radii->densities()[face];
+    if (params.radii->packing().empty()) {
+        return {0.5f * g[0], 0.5f * g[1], 0.5f * g[2], 0, s[0], s[1], s[2], density};
+    }
+    const float* const packing = &params.radii->packing()[std::size_t{3} * face];
+    return {-packing[0], -packing[1], -packing[2], 0, s[0], s[1], s[2], density};
 }
 
 /// As shaders/lib/radii.glsl has it.
 float cells_per_unit(const gpu::RadiiRec& radii) {
-    const float largest = std::max({radii.radius0, radii.radius1, radii.radius2});
+    const float corner = std::max({radii.radius0, radii.radius1, radii.radius2});
+    const float largest = corner < 0 ? 0.5f / std::sqrt(-corner) : corner;
     return std::bit_cast<float>(0x7f000000u -
                                 (std::bit_cast<std::uint32_t>(largest) & 0x7f800000u));
 }

@@ -60,7 +60,9 @@ double border_length(const PreparedMesh& mesh, const RadiusField* radii) {
             radii == nullptr
                 ? 1
                 : 0.5 * (double{radii->factors()[h]} + double{radii->factors()[next_in_face(h)]});
-        length += edges[h].length / factor;
+        const double share =
+            radii == nullptr ? 1 : 0.5 * (radii->share_at(h) + radii->share_at(next_in_face(h)));
+        length += edges[h].length / factor * share;
     }
     return length;
 }

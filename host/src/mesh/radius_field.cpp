@@ -5,15 +5,12 @@
 #include <string>
 
 #include "mesh/inverse_square.hpp"
+#include "mesh/vertex_use.hpp"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
-
-bool is_used(const PreparedMesh& mesh, std::size_t vertex) {
-    return mesh.fans()[vertex].corner_count > 0;
-}
 
 /// g^(2/3), by Newton's method from above: by + - * / alone, so it is the same on every machine.
 float spread_of(float g) {
@@ -91,10 +88,12 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
 }
 
 double RadiusField::factor_at(std::uint32_t face, const float (&weights)[3]) const noexcept {
-    const float* const g = &factors_[std::size_t{3} * face];
-    return static_cast<double>(weights[0]) * static_cast<double>(g[0]) +
-           static_cast<double>(weights[1]) * static_cast<double>(g[1]) +
-           static_cast<double>(weights[2]) * static_cast<double>(g[2]);
+    const bool by_density = !packing_.empty();
+    const float* const g = &(by_density ? packing_ : factors_)[std::size_t{3} * face];
+    const double sum = static_cast<double>(weights[0]) * static_cast<double>(g[0]) +
+                       static_cast<double>(weights[1]) * static_cast<double>(g[1]) +
+                       static_cast<double>(weights[2]) * static_cast<double>(g[2]);
+    return by_density ? 1 / std::sqrt(sum) : sum;
 }
 
 } // namespace geodisk

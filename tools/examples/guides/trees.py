@@ -27,7 +27,7 @@ slope = np.hypot(dx, dy).ravel()
 space = np.clip(0.4 + slope, 0.4, 1)
 
 # Trunks are at least the sum of two radii apart along the ground; the largest radius is 10 m.
-samples = geodisk.sample(vertices, faces, radius=10, density=space, seed=1)
+samples = geodisk.sample(vertices, faces, radius=10, radius_factor=space, seed=1)
 
 # Taking trees away brings no others closer. Cutting water out of the mesh would: ways around it
 # are longer than those across.

@@ -145,7 +145,7 @@ class BatchRun {
         write_sample_file(file, job, mesh, result, SampleReport(job, mesh, result));
         file.sync();
         entry.samples = result.rows.size();
-        entry.min_distance = result.params.min_distance;
+        entry.min_distance = result.params.min_distance * mesh.distance_part;
         entry.device = result.done.device.name;
         entry.seconds = watch.seconds();
         note(entry, &file);

@@ -49,12 +49,14 @@ struct VerifyOptions {
     HeaderEntries additions() const { return density.added_to(mesh.additions()); }
 };
 
-double distance_of(const VerifyOptions& options, const SampleFile& samples,
-                   const MeshStatistics& mesh) {
-    if (!options.min_distance.empty()) {
-        return distance_on_mesh(parse_length("--min-distance", options.min_distance), mesh);
-    }
-    return header_distance(options.samples, samples.header);
+/// Of two samples with the largest radius.
+double distance_of(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
+    const double given =
+        options.min_distance.empty()
+            ? header_distance(options.samples, samples.header)
+            : distance_on_mesh(parse_length("--min-distance", options.min_distance),
+                               mesh.prepared.statistics());
+    return given / mesh.distance_part;
 }
 
 /// How far samples must be apart.
@@ -71,7 +73,7 @@ Spacing spacing_of(const VerifyOptions& options, const SampleFile& samples, cons
     Spacing spacing;
     spacing.radii_vary = mesh.radii || (has_radii(samples.rows) && options.min_distance.empty());
     if (mesh.radii || !spacing.radii_vary) {
-        spacing.min_distance = distance_of(options, samples, mesh.prepared.statistics());
+        spacing.min_distance = distance_of(options, samples, mesh);
     }
     constexpr double kSame = 1e-6; // Of radii that other programs rounded.
     for (const SampleRow& row : samples.rows) {
@@ -123,7 +125,8 @@ std::string result_text(const Check& check) {
         << "samples       " << grouped(check.samples.rows.size()) << " in "
         << one_line(check.options.samples) << '\n';
     if (spacing.min_distance > 0) {
-        out << "min distance  " << rounded(spacing.min_distance, 9) << " in mesh units\n"
+        out << "min distance  " << rounded(spacing.min_distance * check.mesh.distance_part, 9)
+            << " in mesh units\n"
             << "rho           " << rounded(check.rho(), 3) << '\n';
     }
     if (spacing.radii_vary && !spacing.radii.empty()) {
@@ -155,7 +158,8 @@ std::string report_text(const Check& check) {
              {"warnings", warnings_json(warnings)},
              {"samples_file", options.samples},
              {"samples", samples.rows.size()},
-             {"min_distance", has_distance ? Json(spacing.min_distance) : Json(nullptr)},
+             {"min_distance",
+              has_distance ? Json(spacing.min_distance * check.mesh.distance_part) : Json(nullptr)},
              {"rho", has_distance ? Json(check.rho()) : Json(nullptr)},
              {"radii_vary", spacing.radii_vary},
              {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},

@@ -45,12 +45,14 @@ PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<co
 
 /// What the lifts and the density need of the mesh file.
 MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
-                       const DensityOptions& density) {
-    MeshSources sources{options.mesh,           options.coordinates,     options.edge_lengths,
-                        lift_attributes(lifts), options.weld_distance(), !density.map.empty()};
+                       const std::optional<DensitySource>& density) {
+    using Kind = DensitySource::Kind;
+    MeshSources sources{
+        options.mesh,           options.coordinates,     options.edge_lengths,
+        lift_attributes(lifts), options.weld_distance(), density && density->kind == Kind::map};
     sources.keep_seams = options.keep_seams;
-    if (!density.attribute.empty()) {
-        sources.attributes.push_back(density.attribute);
+    if (density && density->kind == Kind::attribute) {
+        sources.attributes.push_back(density->name);
     }
     return sources;
 }
@@ -99,11 +101,11 @@ void MeshInput::place(SampleRow& row) const {
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
                         const DensityOptions& density) {
     const std::string& path = options.mesh;
-    const bool radii_vary = density.is_given();
+    const std::optional<DensitySource> source = density.source();
     const std::vector<Lift> lifts = options.parsed_lifts();
     progress.begin_stage("reading the mesh");
     Stopwatch watch;
-    MeshSources sources = sources_of(options, lifts, density);
+    MeshSources sources = sources_of(options, lifts, source);
     sources.progress = [&](double part) {
         check_interrupted();
         progress.update(part, "");
@@ -116,18 +118,22 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     watch = Stopwatch();
     PreparedMesh prepared = prepare(path, file, lifts);
     std::optional<RadiusField> radii;
-    std::optional<MeshWarning> radii_warning;
-    if (radii_vary) {
-        LoadedRadii loaded = load_radii(density, path, file, prepared);
+    double distance_part = 1;
+    std::vector<MeshWarning> density_warnings;
+    if (source) {
+        LoadedRadii loaded = load_radii(*source, path, file, prepared);
         radii = std::move(loaded.field);
-        radii_warning = std::move(loaded.warning);
+        distance_part = source->is_density ? radii->least_factor() : 1;
+        for (std::optional<MeshWarning> warning : {density.warning(path), loaded.warning}) {
+            if (warning) {
+                density_warnings.push_back(std::move(*warning));
+            }
+        }
     }
-    MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), {},
+    MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), distance_part, {},
                    load_seconds,    watch.seconds()};
     collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
-    if (radii_warning) {
-        mesh.warnings.push_back(std::move(*radii_warning));
-    }
+    mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());
     check_interrupted();
     return mesh;
 }

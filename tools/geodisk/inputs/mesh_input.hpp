@@ -24,7 +24,10 @@ namespace geodisk::tools {
 struct MeshInput {
     MeshFile file;
     PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
-    std::optional<RadiusField> radii;  ///< Where the options say that radii vary.
+    std::optional<RadiusField> radii; ///< Where the options say that radii vary.
+    /// Distances given and told, as a part of that of two samples with the largest radius: with
+    /// --density they are those of the smallest.
+    double distance_part = 1;
     std::vector<MeshWarning> warnings; ///< For the user.
     double load_seconds = 0;
     double prepare_seconds = 0;

@@ -16,16 +16,16 @@
 namespace geodisk::tools {
 namespace {
 
-/// Factors, and where they come from for messages.
-struct Factors {
+/// Values at the vertices, and where they come from for messages.
+struct Values {
     std::string source;
     std::vector<double> values;
 };
 
 /// The mean over the texture coordinates of each vertex: where a seam runs through it, both sides
 /// have a say. Vertices without any are unused.
-std::vector<double> map_factors(const GreyImage& image, const MeshFile& file,
-                                std::size_t vertex_count) {
+std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
+                               std::size_t vertex_count) {
     std::vector<double> sums(vertex_count, 0.0);
     std::vector<std::uint32_t> counts(vertex_count, 0);
     for (const auto& [vertex, u, v] : file.uvs) {
@@ -38,26 +38,27 @@ std::vector<double> map_factors(const GreyImage& image, const MeshFile& file,
     return sums;
 }
 
-Factors factors_of(const DensityOptions& options, const std::string& path, const MeshFile& file,
-                   std::size_t vertex_count) {
-    if (!options.attribute.empty()) {
-        return {path + ": " + in_quotes(options.attribute), file.attributes.back()};
-    }
-    if (!options.file.empty()) {
-        return {options.file, read_values(options.file)};
-    }
-    if (!options.map.empty()) {
-        return {options.map, map_factors(GreyImage(options.map), file, vertex_count)};
+Values values_of(const DensitySource& of, const std::string& path, const MeshFile& file,
+                 std::size_t vertex_count) {
+    switch (of.kind) {
+    case DensitySource::Kind::attribute:
+        return {path + ": " + in_quotes(of.name), file.attributes.back()};
+    case DensitySource::Kind::file:
+        return {of.name, read_values(of.name)};
+    case DensitySource::Kind::map:
+        return {of.name, map_values(GreyImage(of.name), file, vertex_count)};
+    case DensitySource::Kind::curvature:
+        break;
     }
     if (file.positions.empty()) {
-        fail_usage("--density-curvature needs a mesh with coordinates");
+        fail_usage("curvature needs a mesh with coordinates");
     }
     return {path, curvature_factors(file)};
 }
 
 /// Positive values below the least factor count as that: disks only become larger, but not
 /// silently. Returns a warning, or nothing.
-std::optional<MeshWarning> raise_small(Factors& factors, const PreparedMesh& mesh) {
+std::optional<MeshWarning> raise_small(Values& factors, const PreparedMesh& mesh) {
     Found raised;
     for (std::size_t v = 0; v < factors.values.size(); ++v) {
         double& value = factors.values[v];
@@ -78,38 +79,56 @@ std::optional<MeshWarning> raise_small(Factors& factors, const PreparedMesh& mes
                        factors.source};
 }
 
+/// What to give instead, where values are no factors of a radius: many a mask or density is tried
+/// as one.
+std::string density_hint(const DensitySource& of) {
+    return "; for a density, where 0 means no samples, give --density " + of.text();
+}
+
+RadiusField field_of(const DensitySource& of, Values& values, const PreparedMesh& mesh,
+                     std::optional<MeshWarning>& warning) {
+    // Curvature as a density is that of its factors.
+    if (of.is_density && of.kind != DensitySource::Kind::curvature) {
+        auto field = RadiusField::from_density(mesh, values.values);
+        if (!field && field.error().status == Status::invalid_argument) {
+            fail_input(values.source, field.error().message);
+        }
+        return take(std::move(field));
+    }
+    const bool all_zero = std::all_of(values.values.begin(), values.values.end(),
+                                      [](double value) { return value == 0; });
+    for (double& value : values.values) {
+        value = of.floor && value >= 0 && !all_zero ? std::max(value, *of.floor) : value;
+    }
+    warning = raise_small(values, mesh);
+    auto field = RadiusField::prepare(mesh, values.values);
+    if (!field && field.error().status == Status::invalid_argument) {
+        fail_input(values.source, field.error().message + density_hint(of));
+    }
+    return take(std::move(field));
+}
+
 } // namespace
 
-LoadedRadii load_radii(const DensityOptions& options, const std::string& path, const MeshFile& file,
+LoadedRadii load_radii(const DensitySource& of, const std::string& path, const MeshFile& file,
                        const PreparedMesh& mesh) {
     const std::size_t vertex_count =
         file.positions.empty() ? mesh.vertex_count() : file.positions.size() / file.dimension;
-    Factors factors = factors_of(options, path, file, vertex_count);
-    if (factors.values.size() != vertex_count) {
-        fail_input(factors.source, "has " + counted(factors.values.size(), "value", "values") +
-                                       " for the " + counted(vertex_count, "vertex", "vertices") +
-                                       " of the mesh");
+    Values values = values_of(of, path, file, vertex_count);
+    if (values.values.size() != vertex_count) {
+        fail_input(values.source, "has " + counted(values.values.size(), "value", "values") +
+                                      " for the " + counted(vertex_count, "vertex", "vertices") +
+                                      " of the mesh");
     }
-    if (!options.attribute.empty() || !options.file.empty()) { // What each vertex of the file has.
-        factors.values = values_of_joined(file, factors.values);
+    using Kind = DensitySource::Kind;
+    if (of.kind == Kind::attribute || of.kind == Kind::file) { // What each vertex of the file has.
+        values.values = values_of_joined(file, values.values);
     }
     // With edge lengths, unused vertices at the end are none.
-    factors.values.resize(mesh.vertex_count());
-    const std::optional<double> floor = options.least_factor();
-    const bool all_zero = std::all_of(factors.values.begin(), factors.values.end(),
-                                      [](double value) { return value == 0; });
-    for (double& value : factors.values) {
-        value = floor && value >= 0 && !all_zero ? std::max(value, *floor) : value;
-    }
-    std::optional<MeshWarning> warning = raise_small(factors, mesh);
-    auto field = RadiusField::prepare(mesh, factors.values);
-    if (!field && field.error().status == Status::invalid_argument) {
-        const std::uint64_t v = field.error().element;
-        const bool is_zero = v < factors.values.size() && factors.values[v] == 0;
-        fail_input(factors.source,
-                   field.error().message + (is_zero ? ", or be raised by --density-floor" : ""));
-    }
-    return {take(std::move(field)), std::move(warning)};
+    values.values.resize(mesh.vertex_count());
+    std::optional<MeshWarning> warning;
+    RadiusField field = field_of(of, values, mesh, warning);
+    return {std::move(field), std::move(warning)};
 }
 
 } // namespace geodisk::tools

@@ -17,11 +17,13 @@ struct LoadedRadii {
     std::optional<MeshWarning> warning;
 };
 
-/// The factors at the vertices of the mesh at `path`, which must have been read with what the
-/// options need: for an attribute as the last one of `file`, for an image with texture coordinates.
+/// The radii by the values at the vertices of the mesh at `path`, which must have been read with
+/// what the source needs: for an attribute as the last one of `file`, for an image with texture
+/// coordinates.
 ///
-/// Throws UserError(bad_input) naming the source of a value that is no factor, and its vertex.
-LoadedRadii load_radii(const DensityOptions& options, const std::string& path, const MeshFile& file,
+/// Throws UserError(bad_input) naming the source of a value that is no density or factor, and its
+/// vertex.
+LoadedRadii load_radii(const DensitySource& source, const std::string& path, const MeshFile& file,
                        const PreparedMesh& mesh);
 
 } // namespace geodisk::tools

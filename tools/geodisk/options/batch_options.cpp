@@ -49,9 +49,7 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     if (!line.method.method.empty()) {
         (throws_darts ? common.method.pool_ratio : common.method.throws).clear();
     }
-    const DensityOptions& density = line.density;
-    if (!density.attribute.empty() || !density.file.empty() || !density.map.empty() ||
-        density.curvature) {
+    if (!line.density.given().empty()) {
         common.density = {};
     }
 }
@@ -136,12 +134,14 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     sample.mesh.mesh = seen_from(folder, sample.mesh.mesh);
     for (const auto& [path, given] :
          {std::pair{&sample.mesh.coordinates, &alone.sample.mesh.coordinates},
-          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths},
-          {&sample.density.file, &alone.sample.density.file},
-          {&sample.density.map, &alone.sample.density.map}}) {
+          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths}}) {
         if (!given->empty()) {
             *path = seen_from(folder, *given);
         }
+    }
+    if (!alone.sample.density.given().empty()) {
+        sample.density.place_files(
+            [&folder](const std::string& name) { return seen_from(folder, name); });
     }
     return line;
 }

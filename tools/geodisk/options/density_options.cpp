@@ -1,5 +1,8 @@
 #include "geodisk/options/density_options.hpp"
 
+#include <array>
+#include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <geodisk/radius_field.hpp>
@@ -7,82 +10,202 @@
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
 
+using Kind = DensitySource::Kind;
+
 /// Few vertices are curved so much that a tenth is not small enough, and those are often noise.
 constexpr double kCurvatureFloor = 0.1;
 
-} // namespace
+constexpr std::array<std::pair<std::string_view, Kind>, 3> kPrefixes{
+    {{"attribute:", Kind::attribute}, {"file:", Kind::file}, {"map:", Kind::map}}};
 
-bool DensityOptions::is_given() const {
-    std::string given;
-    int count = 0;
-    for (const auto& [name, has] : {std::pair{"--density-attribute", !attribute.empty()},
-                                    {"--density-file", !file.empty()},
-                                    {"--density-map", !map.empty()},
-                                    {"--density-curvature", curvature}}) {
-        if (has) {
-            given += given.empty() ? name : std::string(" and ") + name;
-            ++count;
+DensitySource parse_source(const std::string& option, const std::string& text) {
+    DensitySource source;
+    source.option = option;
+    source.name = text;
+    if (text == "curvature") {
+        source.kind = Kind::curvature;
+        source.name.clear();
+        return source;
+    }
+    for (const auto& [prefix, kind] : kPrefixes) {
+        if (text.starts_with(prefix)) {
+            source.kind = kind;
+            source.name = text.substr(prefix.size());
+            if (source.name.empty()) {
+                fail_usage(option + ": " + in_quotes(text) + " names nothing");
+            }
+            return source;
         }
     }
-    if (count > 1) {
-        fail_usage(given + " contradict each other; give just one of them");
+    std::error_code ignored;
+    if (text.find('.') != std::string::npos && std::filesystem::is_regular_file(text, ignored)) {
+        fail_usage(option + ": " + in_quotes(text) + " is a file; give file:" + text +
+                   " for values, or map:" + text + " for an image");
     }
-    if (count == 0 && !floor.empty()) {
-        fail_usage("--density-floor raises the values of another --density option; give one");
-    }
-    least_factor();
-    return count > 0;
+    return source;
 }
 
-std::optional<double> DensityOptions::least_factor() const {
-    if (!floor.empty()) {
-        return parse_ratio("--density-floor", floor, RadiusField::kLeastFactor, 1);
+DensitySource old_source(const std::string& option, Kind kind, const std::string& name) {
+    DensitySource source;
+    source.option = option;
+    source.kind = kind;
+    source.name = name;
+    return source;
+}
+
+} // namespace
+
+std::string DensitySource::text() const {
+    for (const auto& [prefix, of] : kPrefixes) {
+        if (kind == of) {
+            return std::string(prefix) + name;
+        }
     }
-    return curvature ? std::optional(kCurvatureFloor) : std::nullopt;
+    return "curvature";
+}
+
+HeaderEntries DensityOptions::given() const {
+    HeaderEntries result;
+    for (const auto& [name, value] : {std::pair{"--density", density},
+                                      {"--radius-factor", radius_factor},
+                                      {"--density-attribute", attribute},
+                                      {"--density-file", file},
+                                      {"--density-map", map}}) {
+        if (!value.empty()) {
+            result.emplace_back(name, value);
+        }
+    }
+    if (curvature) {
+        result.emplace_back("--density-curvature", "");
+    }
+    return result;
+}
+
+std::optional<DensitySource> DensityOptions::source() const {
+    const HeaderEntries sources = given();
+    if (sources.size() > 1) {
+        std::string names;
+        for (const auto& [name, value] : sources) {
+            names += (names.empty() ? "" : " and ") + name;
+        }
+        fail_usage(names + " contradict each other; give just one of them");
+    }
+    if (!floor.empty() && !factor_floor.empty()) {
+        fail_usage("--density-floor and --radius-factor-floor are the same; give just one of them");
+    }
+    const char* const floor_name = floor.empty() ? "--radius-factor-floor" : "--density-floor";
+    const std::string& least = floor.empty() ? factor_floor : floor;
+    if (sources.empty()) {
+        if (!least.empty()) {
+            fail_usage(std::string(floor_name) + " raises radius factors; give --radius-factor");
+        }
+        return std::nullopt;
+    }
+    const auto& [name, value] = sources.front();
+    DensitySource source;
+    if (name == "--density" || name == "--radius-factor") {
+        source = parse_source(name, value);
+    } else if (!attribute.empty()) {
+        source = old_source(name, Kind::attribute, attribute);
+    } else if (!file.empty()) {
+        source = old_source(name, Kind::file, file);
+    } else if (!map.empty()) {
+        source = old_source(name, Kind::map, map);
+    } else {
+        source = old_source(name, Kind::curvature, "");
+    }
+    source.is_density = is_density();
+    if (!least.empty()) {
+        if (source.is_density) {
+            fail_usage(std::string(floor_name) +
+                       " raises radius factors; --density takes 0 and any range as they are");
+        }
+        source.floor = parse_ratio(floor_name, least, RadiusField::kLeastFactor, 1);
+    } else if (source.kind == Kind::curvature) {
+        source.floor = kCurvatureFloor;
+    }
+    return source;
+}
+
+std::optional<MeshWarning> DensityOptions::warning(const std::string& path) const {
+    const auto of = source();
+    if (!of || of->option == "--density" || of->option == "--radius-factor") {
+        return std::nullopt;
+    }
+    if (of->kind == Kind::curvature) {
+        return MeshWarning{"old_option", 1, "",
+                           "--density-curvature is now --density curvature, or with the distance "
+                           "of the largest radius --radius-factor curvature",
+                           path};
+    }
+    return MeshWarning{"old_option", 1, "",
+                       of->option + " gives factors of the radius and is now --radius-factor " +
+                           of->text() + "; for a density, where more means more samples, give " +
+                           "--density " + of->text(),
+                       path};
 }
 
 void DensityOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
-    for (const std::string& path : {file, map}) {
-        if (!path.empty()) {
-            read.push_back({what, path});
-        }
+    const auto of = source();
+    if (of && (of->kind == Kind::file || of->kind == Kind::map)) {
+        read.push_back({what, of->name});
+    }
+}
+
+void DensityOptions::place_files(const std::function<std::string(const std::string&)>& place) {
+    const auto of = source();
+    if (!of || (of->kind != Kind::file && of->kind != Kind::map)) {
+        return;
+    }
+    DensitySource placed = *of;
+    placed.name = place(of->name);
+    if (!density.empty()) {
+        density = placed.text();
+    } else if (!radius_factor.empty()) {
+        radius_factor = placed.text();
+    } else {
+        (file.empty() ? map : file) = placed.name;
     }
 }
 
 HeaderEntries DensityOptions::added_to(HeaderEntries entries) const {
-    for (const auto& [name, value] : {std::pair{"density_attribute", attribute},
-                                      {"density_file", file},
-                                      {"density_map", map},
-                                      {"density_curvature", std::string(curvature ? "mean" : "")},
-                                      {"density_floor", floor}}) {
-        if (!value.empty()) {
-            entries.emplace_back(name, value);
+    if (const auto of = source()) {
+        entries.emplace_back(of->is_density ? "density" : "radius_factor", of->text());
+        if (const std::string& least = floor.empty() ? factor_floor : floor; !least.empty()) {
+            entries.emplace_back("radius_factor_floor", least);
         }
     }
     return entries;
 }
 
 void add_density_options(Command command, DensityOptions& options) {
-    const char* const density =
-        "Radii that vary: the largest times g, above 0 and up to 1; give one";
-    command.add_option("--density-attribute", options.attribute, "NAME",
-                       "g is this vertex property of a PLY", density);
-    command.add_option("--density-file", options.file, "FILE",
-                       "g is in this text file, one value per line and vertex", density);
-    command.add_option("--density-map", options.map, "FILE",
-                       "g is the grey of this image, black 0 and white 1, at the\n"
-                       "texture coordinates of the vertices",
+    const char* const density = "Density, give one";
+    command.add_option("--density", options.density, "SOURCE",
+                       "Spread samples in proportion to a density: 0 for none, any\n"
+                       "unit. attribute:NAME, a vertex property of a PLY, or just\n"
+                       "NAME; file:FILE, one value per line and vertex; map:FILE,\n"
+                       "the grey of an image at the texture coordinates; or\n"
+                       "curvature. Distances are then those where it is largest",
                        density);
-    command.add_flag("--density-curvature", options.curvature,
-                     "g is 1 where the mesh is flat, 1/2 where its mean curvature\n"
-                     "is the average, and falls to 0.1",
-                     density);
-    command.add_option("--density-floor", options.floor, "G",
-                       "Raise smaller g to this; for curvature 0.1 unless given", density);
+    command.add_option("--radius-factor", options.radius_factor, "SOURCE",
+                       "Multiply the radius by a factor g, 0 < g <= 1: the smaller,\n"
+                       "the more samples. Sources as for --density. Distances are\n"
+                       "those where g is 1. (--density-attribute, -file, -map and\n"
+                       "-curvature of earlier versions do the same)",
+                       density);
+    command.add_option("--radius-factor-floor", options.factor_floor, "G",
+                       "Raise smaller factors to this; for curvature 0.1 unless given", density);
+    const char* const hidden = "";
+    command.add_option("--density-attribute", options.attribute, "NAME", "Factors", hidden);
+    command.add_option("--density-file", options.file, "FILE", "Factors", hidden);
+    command.add_option("--density-map", options.map, "FILE", "Factors", hidden);
+    command.add_flag("--density-curvature", options.curvature, "Factors", hidden);
+    command.add_option("--density-floor", options.floor, "G", "Least factor", hidden);
 }
 
 } // namespace geodisk::tools

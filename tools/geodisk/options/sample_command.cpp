@@ -45,10 +45,14 @@ void add_mesh(ArgumentList& list, const MeshOptions& mesh) {
 }
 
 void add_density(ArgumentList& list, const DensityOptions& density) {
-    list.add("--density-attribute", density.attribute);
-    list.add("--density-file", density.file);
-    list.add("--density-map", density.map);
-    list.add_flag("--density-curvature", density.curvature);
+    for (const auto& [name, value] : density.given()) {
+        if (value.empty()) {
+            list.add_flag(name, true);
+        } else {
+            list.add(name.c_str(), value);
+        }
+    }
+    list.add("--radius-factor-floor", density.factor_floor);
     list.add("--density-floor", density.floor);
 }
 

@@ -24,8 +24,7 @@ void check_metric(const SampleOptions& options) {
     }
     if (options.metric != "geodesic" && options.density.is_given()) {
         fail_usage("--metric " + options.metric +
-                   " takes no radii that vary, so none of the "
-                   "--density options");
+                   " takes no radii that vary, so neither --density nor --radius-factor");
     }
     for (const auto& [name, value] : options.mesh.additions()) {
         if (options.metric != "geodesic" && name != "weld" && name != "keep_seams") {

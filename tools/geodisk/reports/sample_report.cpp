@@ -18,8 +18,19 @@ std::string metric_text(const SampleJob& job) {
     return job.is_geodesic() ? job.metric : job.metric + ", not exact along the surface";
 }
 
-std::string distance_line(const SampleJob& job, double distance) {
-    return "min distance  " + rounded(distance, 6) + " (radius " + rounded(distance / 2, 6) +
+/// The distance that was given, or as it would be; `largest` is that of two samples with the
+/// largest radius.
+double told_distance(const SampleJob& job, const MeshInput& mesh, double largest) {
+    return job.min_distance ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics())
+                            : largest * mesh.distance_part;
+}
+
+std::string distance_line(const SampleJob& job, const MeshInput& mesh, double largest) {
+    const double least = mesh.radii ? mesh.radii->least_factor() : 1;
+    const auto range = [&](double of) {
+        return least < 1 ? rounded(of * least, 6) + " to " + rounded(of, 6) : rounded(of, 6);
+    };
+    return "min distance  " + range(largest) + " (radius " + range(largest / 2) +
            ") in mesh units" + (job.is_geodesic() ? "" : ", " + metric_text(job)) + '\n';
 }
 
@@ -31,12 +42,13 @@ std::string dry_sample_json(const SampleJob& job, const MeshInput& mesh, const D
                   {"warnings", warnings_json(mesh.warnings)},
                   {"metric", metric_text(job)}};
     document.update(dry_run_json(dry));
+    document["min_distance"] = told_distance(job, mesh, dry.min_distance);
     return text_of(document);
 }
 
 std::string dry_sample_text(const SampleJob& job, const MeshInput& mesh, const DryRun& dry) {
     return mesh_lines("mesh", job.mesh.mesh, job.additions(), mesh) +
-           distance_line(job, dry.min_distance) + dry_run_text(dry);
+           distance_line(job, mesh, dry.min_distance) + dry_run_text(dry);
 }
 
 SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const SampleResult& result)
@@ -54,10 +66,11 @@ SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const Sa
 SampleHeader SampleReport::header() const {
     const DeviceRun& done = result_.done;
     const HeaderEntries additions = job_.additions();
+    const double distance = told_distance(job_, mesh_, result_.params.min_distance);
     SampleHeader header{{{"version", "geodisk " GEODISK_VERSION_STRING},
                          {"mesh", job_.mesh.mesh},
-                         {"min_distance", exact_text(result_.params.min_distance)},
-                         {"radius", exact_text(result_.params.min_distance / 2)},
+                         {"min_distance", exact_text(distance)},
+                         {"radius", exact_text(distance / 2)},
                          {"seed", exact_text(result_.params.seed)},
                          candidates_entry(drawn()),
                          {"device", done.device.name},
@@ -82,12 +95,13 @@ Json SampleReport::document(const SecondsByStage& after) const {
     const SampleParams& params = result_.params;
     std::vector<MeshWarning> warnings = mesh_.warnings;
     warnings.insert(warnings.end(), result_.warnings.begin(), result_.warnings.end());
+    const double distance = told_distance(job_, mesh_, params.min_distance);
     Json document{{"version", GEODISK_VERSION_STRING},
                   {"mesh", mesh_json(job_.mesh.mesh, job_.additions(), mesh_)},
                   {"warnings", warnings_json(warnings)},
                   {"output", job_.out.output},
-                  {"min_distance", params.min_distance},
-                  {"radius", params.min_distance / 2},
+                  {"min_distance", distance},
+                  {"radius", distance / 2},
                   {"metric", metric_text(job_)},
                   {"sample_radii", nullptr}, // Where they do not vary.
                   {"seed", params.seed}};
@@ -116,7 +130,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
 std::string SampleReport::summary(const SecondsByStage& after) const {
     std::ostringstream out;
     out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, result_.bare.count)
-        << distance_line(job_, result_.params.min_distance);
+        << distance_line(job_, mesh_, result_.params.min_distance);
     if (most_radius_ > 0) {
         out << "radii         " << rounded(least_radius_, 6) << " to " << rounded(most_radius_, 6)
             << " at the samples\n";

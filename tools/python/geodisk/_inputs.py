@@ -90,15 +90,17 @@ def write_surface(
     return f"{name}.ply", options
 
 
-def write_density(folder: pathlib.Path, surface: Surface, density: ArrayLike) -> list[str]:
-    """Writes the factors of radii at vertices; the option that names them."""
-    factors = surface.factors(density)
+def write_density(
+    folder: pathlib.Path, surface: Surface, name: str, values: ArrayLike
+) -> list[str]:
+    """Writes the `density` or `radius_factor` of vertices; the option that names the file."""
+    array = surface.vertex_values(values, name)
     corners = surface.indices()
-    small = corners[factors[corners] < 0.001]  # Which the program raises, and the library refuses.
-    if small.size > 0:
-        raise e.invalid(f"the density of vertex {small[0]} is {factors[small[0]]}, below 0.001")
-    np.savetxt(folder / "density.txt", factors, fmt="%.17g")
-    return ["--density-file", "density.txt"]
+    small = corners[array[corners] < 0.001]  # Which the program raises, and the library refuses.
+    if name == "radius_factor" and small.size > 0:
+        raise e.invalid(f"the {name} of vertex {small[0]} is {array[small[0]]}, below 0.001")
+    np.savetxt(folder / "density.txt", array, fmt="%.17g")
+    return ["--" + name.replace("_", "-"), "file:density.txt"]
 
 
 def _as_columns(coordinates: NDArray[Any]) -> dict[str, NDArray[Any]]:

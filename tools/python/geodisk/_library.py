@@ -39,6 +39,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_mesh_load": [c_char_p, c_size_t, _HANDLE],
     "geodisk_mesh_describe": [c_void_p, POINTER(MeshInfo)],
     "geodisk_radii_create": [c_void_p, c_void_p, c_int32, c_size_t, _HANDLE],
+    "geodisk_density_create": [c_void_p, c_void_p, c_int32, c_size_t, _HANDLE],
     "geodisk_domain_surface": [c_void_p, POINTER(SurfaceParams), _HANDLE],
     "geodisk_domain_surfaces": [POINTER(SurfacePart), c_size_t, _HANDLE],
     "geodisk_domain_box": [POINTER(BoxParams), _HANDLE],
@@ -108,6 +109,8 @@ _library.geodisk_status_name.restype = c_char_p
 _library.geodisk_version.restype = c_char_p
 _library.geodisk_cancel.argtypes = [c_void_p]
 _library.geodisk_cancel.restype = None
+_library.geodisk_radii_least_factor.argtypes = [c_void_p]
+_library.geodisk_radii_least_factor.restype = c_double
 _library.geodisk_samples_count.argtypes = [c_void_p]
 _library.geodisk_samples_count.restype = c_size_t
 _library.geodisk_skip_exit_handlers.argtypes = []
@@ -136,6 +139,10 @@ def call(name: str, *arguments: Any) -> None:
 
 def cancel(sampler: c_void_p) -> None:
     _library.geodisk_cancel(sampler)
+
+
+def radii_least_factor(radii: c_void_p) -> float:
+    return float(_library.geodisk_radii_least_factor(radii))
 
 
 def samples_count(samples: c_void_p) -> int:

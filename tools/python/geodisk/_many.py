@@ -14,8 +14,9 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
-from ._mesh import Mesh, keys_of, mesh_of, radii_of
+from ._mesh import Mesh, keys_of, mesh_of
 from ._protocols import MeshLike
+from ._radii import radii_of
 from ._results import samples_of_parts
 from ._running import CountSearch, ProgressCallback, Runs
 from ._samples import Samples
@@ -32,13 +33,15 @@ class _Job:
         count: float | None,
         seed: int,
         density: ArrayLike | None,
+        radius_factor: ArrayLike | None,
         face_keys: ArrayLike | None,
         pool_ratio: float,
     ) -> None:
         self.mesh, self.seed = mesh, seed
-        self._radii = None if density is None else radii_of(mesh, density)
+        self._radii = radii_of(mesh, density, radius_factor)
+        self.distance_part = 1.0 if self._radii is None else self._radii.distance_part
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
-        radii = None if self._radii is None else self._radii.value
+        radii = None if self._radii is None else self._radii.handle.value
         self.has_radii = self._radii is not None
         self.params = s.SurfaceParams(
             seed=seed,
@@ -53,8 +56,14 @@ class _Job:
             c.call("geodisk_distance_for_count", handle, radii, float(count or 0), byref(first))
             distance = first.value
             self.search = CountSearch(float(count or 0), distance)
+        else:
+            distance /= self.distance_part
         self.params.min_distance = distance
         self.result: Samples | None = None
+
+    def told_distance(self) -> float:
+        """Returns the distance as :func:`sample` has it, see Radii."""
+        return self.params.min_distance * self.distance_part
 
     def take(self, found: Samples) -> bool:
         """Takes the samples of a run. Returns whether another one is needed."""
@@ -75,6 +84,7 @@ def sample_many(
     count: float | Sequence[float] | None = None,
     seed: int | Sequence[int] = 0,
     density: Sequence[ArrayLike | None] | None = None,
+    radius_factor: Sequence[ArrayLike | None] | None = None,
     face_keys: Sequence[ArrayLike | None] | None = None,
     pool_ratio: float = 20,
     weld: bool | float = False,
@@ -93,7 +103,7 @@ def sample_many(
         a pair of vertices and faces. One :class:`Mesh` may be there many times.
     min_distance, radius, count, seed : number, or a sequence with one for each mesh
         As :func:`sample` takes them.
-    density, face_keys : sequence with one for each mesh, or None
+    density, radius_factor, face_keys : sequence with one for each mesh, or None
         As :func:`sample` takes them; None for a mesh without.
     pool_ratio, weld, keep_seams, device, progress
         As :func:`sample` takes them, for all meshes.
@@ -126,6 +136,7 @@ def sample_many(
     ]
     seeds = _each(seed, "seed", n)
     densities, keys = _each_array(density, "density", n), _each_array(face_keys, "face_keys", n)
+    factors = _each_array(radius_factor, "radius_factor", n)
 
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
@@ -135,6 +146,7 @@ def sample_many(
             of_mesh[2],
             integer(seeds[i], "seed", 2**64 - 1),
             densities[i],
+            factors[i],
             keys[i],
             pool_ratio,
         )
@@ -160,7 +172,7 @@ def _run(runs: Runs, jobs: list[_Job]) -> list[_Job]:
     """Samples the meshes of jobs. Returns those that need another run."""
     found = samples_of_parts(
         runs.run(_domain(jobs)),
-        [(job.seed, job.params.min_distance, job.mesh._surface) for job in jobs],
+        [(job.seed, job.told_distance(), job.mesh._surface) for job in jobs],
     )
     return [job for job, samples in zip(jobs, found) if job.take(samples)]
 

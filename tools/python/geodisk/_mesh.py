@@ -254,19 +254,6 @@ def mesh_of(
     return vertices
 
 
-def radii_of(mesh: Mesh, density: ArrayLike) -> c.Handle:
-    """Returns the library's radii."""
-    factors = mesh._surface.factors(density)
-    return c.Handle(
-        "radii",
-        "geodisk_radii_create",
-        mesh._handle.value,
-        factors.ctypes.data,
-        s.FLOAT32 if factors.dtype == np.float32 else s.FLOAT64,
-        len(factors),
-    )
-
-
 def keys_of(mesh: Mesh, face_keys: ArrayLike) -> NDArray[np.uint32]:
     """Returns keys of faces as the library takes them."""
     keys = indices(face_keys, "face_keys").astype(np.uint32, copy=False)

@@ -33,10 +33,21 @@ def polygons_of(surface: Surface | None, faces: NDArray[np.uint32]) -> NDArray[n
 
 
 def samples_of(
-    handle: c.Handle, seed: int, surface: Surface | None = None, **box: Any
+    handle: c.Handle,
+    seed: int,
+    surface: Surface | None = None,
+    *,
+    given: float | None = None,
+    distance_part: float = 1,
+    **box: Any,
 ) -> Samples:
-    """Returns what a run gave on a surface or in a box."""
+    """Returns what a run gave on a surface or in a box.
+
+    `given` is the distance that was asked for, if any. Without it, the distance is `distance_part`
+    of that of the run, see Radii.
+    """
     report = _report_of(handle)
+    report["min_distance"] = report["min_distance"] * distance_part if given is None else given
     columns = _columns_of(handle)
     columns.pop("part")
     return _made(columns, surface, report, report["min_distance"], seed, **box)

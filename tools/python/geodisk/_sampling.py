@@ -12,9 +12,10 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
-from ._mesh import keys_of, mesh_of, radii_of
+from ._mesh import keys_of, mesh_of
 from ._oddities import warn
 from ._protocols import Faces, MeshLike
+from ._radii import radii_of
 from ._results import samples_of
 from ._running import ProgressCallback, sampled
 from ._samples import Samples
@@ -30,6 +31,7 @@ def sample(
     count: float | None = None,
     seed: int = 0,
     density: ArrayLike | None = None,
+    radius_factor: ArrayLike | None = None,
     pool_ratio: float = 20,
     throws: int = 0,
     stop_count: int = 0,
@@ -56,7 +58,11 @@ def sample(
     seed : int
         A number of 64 bits. Equal seeds give equal samples, on every device.
     density : array_like of float, shape (v,), optional
-        Radii that vary: at each vertex the part of the largest radius, 0.001 to 1.
+        How dense samples are to be at each vertex, in any unit: none where it is 0. The distance
+        is then that where it is largest.
+    radius_factor : array_like of float, shape (v,), optional
+        Radii that vary: at each vertex the part of the largest radius, 0.001 to 1. The distance is
+        then that of two samples with the largest radius.
     pool_ratio : float
         Candidates per expected sample, 1 to 10,000; more leave fewer gaps.
     throws : int
@@ -114,19 +120,20 @@ def sample(
     True
     """
     throws = integer(throws, "throws", 2**32 - 1)
-    distance = distance_of(min_distance, radius, count, throws)
+    distance = given = distance_of(min_distance, radius, count, throws)
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
     mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams)
-    radii = None if density is None else radii_of(mesh, density)
+    radii = radii_of(mesh, density, radius_factor)
+    part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)
     params = s.SurfaceParams(
         seed=seed,
         pool_ratio=float(pool_ratio),
         throws=throws,
-        radii=None if radii is None else radii.value,
+        radii=None if radii is None else radii.handle.value,
         face_keys=None if keys is None else keys.ctypes.data,
         metric=s.METRICS[metric],
     )
@@ -140,13 +147,13 @@ def sample(
         c.call(
             "geodisk_distance_for_count",
             mesh._handle.value,
-            None if radii is None else radii.value,
+            None if radii is None else radii.handle.value,
             float(count or 0),
             byref(found),
         )
-        distance = found.value
-    made = sampled(domain_at, distance, count, stop_count, device, progress)
-    return _told(samples_of(made, seed, mesh._surface), stop_count)
+        distance = found.value * part
+    made = sampled(domain_at, distance / part, count, stop_count, device, progress)
+    return _told(samples_of(made, seed, mesh._surface, given=given, distance_part=part), stop_count)
 
 
 def sample_box(

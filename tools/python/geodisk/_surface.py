@@ -81,12 +81,15 @@ class Surface:
             return vertex_number(self.vertices)
         return len(self.coordinates())
 
-    def factors(self, density: ArrayLike) -> NDArray[Any]:
-        """Returns a density as float64 or float32, one number for each vertex."""
-        array = np.ascontiguousarray(real(density, "density"))
+    def vertex_values(self, values: ArrayLike, name: str) -> NDArray[Any]:
+        """Returns the values as float64 or float32, one for each vertex."""
+        array = np.asarray(values)
+        if array.dtype == bool and name == "density":  # A mask.
+            array = array.astype(np.float64)
+        array = np.ascontiguousarray(real(array, name))
         if array.shape != (self.vertex_count(),):
             raise e.invalid(
-                f"density has the shape {array.shape}, not ({self.vertex_count()},), "
+                f"{name} has the shape {array.shape}, not ({self.vertex_count()},), "
                 "one for each vertex"
             )
         if self.joined is not None:  # Both sides of a seam have a say.

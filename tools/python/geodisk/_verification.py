@@ -13,6 +13,7 @@ from . import _errors as e
 from ._inputs import surface_of, write_density, write_subject
 from ._program import folder, run
 from ._protocols import Faces, MeshLike
+from ._radii import one_of
 from ._samples import Samples
 from ._writing import has_own_radii
 
@@ -26,7 +27,7 @@ class Verification:
     samples : int
         How many there are.
     min_distance : float
-        How far apart they should be, or where a density was given those of the largest radius;
+        How far apart they should be, or where a radius_factor was given those of the largest radius;
         NaN where each keeps the radius that it has.
     smallest : float
         The distance of the closest pair, or of the one that is closest for its radii; infinite
@@ -88,6 +89,7 @@ def verify(
     *,
     min_distance: float | None = None,
     density: ArrayLike | None = None,
+    radius_factor: ArrayLike | None = None,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -105,9 +107,9 @@ def verify(
         for samples that were read from a file.
     min_distance : float, optional
         The distance to keep, in the unit of the vertices; without it, each keeps its radius.
-    density : array_like of float, shape (v,), optional
-        As :func:`sample` takes it: radii are computed again from it and the minimum distance, that
-        of the samples if none is given, and those of the samples are compared with them.
+    density, radius_factor : array_like of float, shape (v,), optional
+        As :func:`sample` takes them: radii are computed again from one and the minimum distance,
+        that of the samples if none is given, and those of the samples are compared with them.
 
     Returns
     -------
@@ -136,21 +138,23 @@ def verify(
     >>> found.ok, found.violations.shape[1]
     (False, 2)
     """
+    varying = one_of(density, radius_factor)
     surface = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if min_distance is not None:
         min_distance = float(min_distance)
         if not (min_distance > 0 and math.isfinite(min_distance)):
             raise e.invalid(f"the minimum distance is {min_distance}, not positive")
-    elif (density is not None or not has_own_radii(samples)) and not samples.min_distance > 0:
+    elif (varying or not has_own_radii(samples)) and not samples.min_distance > 0:
         raise e.invalid(
             f"the minimum distance of these samples is {samples.min_distance}; give min_distance"
         )
-    if density is not None and surface is None:
-        raise e.invalid("a density is of a mesh, and these samples are in a box")
+    if varying and surface is None:
+        raise e.invalid(f"{varying} is of a mesh, and these samples are in a box")
     with folder() as place:
         arguments = [*write_subject(place, samples, surface), "--json", "report.json"]
-        if density is not None and surface is not None:
-            arguments += write_density(place, surface, density)
+        values = radius_factor if density is None else density
+        if varying and surface is not None and values is not None:
+            arguments += write_density(place, surface, varying, values)
         if min_distance is not None:
             arguments += ["--min-distance", repr(min_distance)]
         run(place, ["verify", *arguments], accepted=(0, 1))

@@ -1,0 +1,75 @@
+"""Radii that vary: by a density, or by factors."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._mesh import Mesh
+
+_MEANING = (
+    "density= is the density of samples now: more where it is larger, none where it is 0, and "
+    "min_distance is the least distance of all. For factors of the radius, as in earlier versions, "
+    "give radius_factor=. To silence this, multiply the density, such as by 1000: its unit does "
+    "not matter"
+)
+_has_warned = False
+
+
+@dataclass(frozen=True)
+class Radii:
+    """The library's radii."""
+
+    handle: c.Handle
+    #: Distances given and told, as a part of that of two samples with the largest radius.
+    distance_part: float
+
+
+def one_of(density: ArrayLike | None, radius_factor: ArrayLike | None) -> str | None:
+    """Which of the two is given, if any."""
+    if density is not None and radius_factor is not None:
+        raise e.invalid("density and radius_factor contradict each other; give just one of them")
+    if density is not None:
+        return "density"
+    return None if radius_factor is None else "radius_factor"
+
+
+def radii_of(
+    mesh: Mesh, density: ArrayLike | None, radius_factor: ArrayLike | None
+) -> Radii | None:
+    name = one_of(density, radius_factor)
+    if name is None:
+        return None
+    given = density if name == "density" else radius_factor
+    assert given is not None
+    values = mesh._surface.vertex_values(given, name)
+    create = "geodisk_radii_create"
+    if name == "density":
+        create = "geodisk_density_create"
+        _warn_of_meaning(values)
+    handle = c.Handle(
+        "radii",
+        create,
+        mesh._handle.value,
+        values.ctypes.data,
+        s.FLOAT32 if values.dtype == np.float32 else s.FLOAT64,
+        len(values),
+    )
+    part = c.radii_least_factor(handle.value) if name == "density" else 1.0
+    return Radii(handle, part)
+
+
+def _warn_of_meaning(density: NDArray[Any]) -> None:
+    """Once, where the values may be meant as factors, which `density` took before."""
+    global _has_warned
+    if _has_warned or not ((density >= 0.001) & (density <= 1)).all() or (density == 1).all():
+        return
+    _has_warned = True
+    warnings.warn(_MEANING, e.GeodiskWarning, stacklevel=4)
