@@ -116,7 +116,7 @@ def test_meshes_of_all_kinds(tmp_path):
         {"vertices": SOUP[0], "faces": SOUP[1], "weld": True, "min_distance": 0.5},
         {"vertices": SOUP[0], "faces": SOUP[1], "weld": 1e-9, "min_distance": 0.5},
         {"vertices": SOUP[0], "faces": SOUP[1], "min_distance": 0.5},
-        {"vertices": SOUP[0], "faces": SOUP[1], "keep_seams": True, "min_distance": 0.5},
+        {"vertices": SOUP[0], "faces": SOUP[1], "keep_seams": True, "min_distance": 0.15},
         {"vertices": VERTICES + 1e6, "faces": FACES, "min_distance": 0.5},
         {
             "vertices": VERTICES,
