@@ -37,7 +37,7 @@ expect 'geodisk sam' sample
 expect 'geodisk s' sample spectrum shapes
 expect 'geodisk bun' FILES
 expect 'geodisk --v' --version
-expect 'geodisk sample --co' --count --coordinates --count-calls
+expect 'geodisk sample --co' --count --coordinates --count-calls --columns
 expect 'geodisk sample bunny.obj -d 1 --pool' --pool-ratio
 expect 'geodisk sample --format ' ply csv xyz obj pcd npz gltf glb
 expect 'geodisk sample --format g' gltf glb
