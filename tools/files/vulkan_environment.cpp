@@ -140,7 +140,9 @@ std::string with_driver_fault(const std::string& message) {
     if (fault.empty()) {
         return message;
     }
-    return message.substr(0, message.find("; install")) + "; " + fault;
+    // The library's own words on such variables, from what the loader reports, tell less.
+    const std::size_t end = std::min(message.find("; install"), message.find(": VK_"));
+    return message.substr(0, end) + "; " + fault;
 }
 
 } // namespace geodisk::tools
