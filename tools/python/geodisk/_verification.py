@@ -27,7 +27,7 @@ class Verification:
     samples : int
         How many there are.
     min_distance : float
-        How far apart they should be, or where a radius_factor was given those of the largest radius;
+        How far apart they should be; with a radius_factor, those of the largest radius;
         NaN where each keeps the radius that it has.
     smallest : float
         The distance of the closest pair, or of the one that is closest for its radii; infinite
