@@ -117,12 +117,6 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         advice.plan = *grown;
         return advice;
     }
-    // However far the run is: it would be for nothing.
-    advice.plan = widened(plan, error, control.longest_chain);
-    if (advice.plan.error_bound != plan.error_bound) {
-        advice.next = Next::start_over;
-        return advice;
-    }
     if (control.done == 0) {
         return advice;
     }
@@ -142,7 +136,8 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         advice.next = Next::begin;
         return advice;
     }
-    advice.next = Next::complete;
+    advice.plan = widened(plan, error, control.longest_chain);
+    advice.next = advice.plan.error_bound == plan.error_bound ? Next::complete : Next::start_over;
     return advice;
 }
 

@@ -316,23 +316,9 @@ Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
     return guarded([&] { return grown_plan(plan, overflow, pool_bytes, impl_->report); });
 }
 
-namespace {
-
-/// The next larger one of the bounds that runs start over with: for chains of 64 crossings, 128 and
-/// so on. They do not depend on the chain that was too long, which may be seen early or late.
-double next_bound(const ErrorModel& error, double bound) {
-    std::uint32_t chain = 64;
-    while (error.error_of(chain) <= bound) {
-        chain *= 2;
-    }
-    return error.error_of(chain);
-}
-
-} // namespace
-
 RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain) {
     if (error.error_of(longest_chain) > plan.error_bound) {
-        plan.error_bound = next_bound(error, plan.error_bound);
+        plan.error_bound = error.error_of(2 * longest_chain);
     }
     return plan;
 }
