@@ -7,7 +7,6 @@
 
 #include <geodisk/version.hpp>
 
-#include "owned/driver_files.hpp"
 #include "vk/enumerate.hpp"
 #include "vk/extensions.hpp"
 #include "vk/result.hpp"
@@ -38,9 +37,6 @@ Function find(PFN_vkGetInstanceProcAddr get, VkInstance instance, const char* na
 }
 
 Error no_driver() {
-    if (const std::string problem = driver_files_problem(); !problem.empty()) {
-        return Error{Status::no_device, "no Vulkan driver was found: " + problem};
-    }
     return Error{Status::no_device,
                  "no Vulkan driver was found; install the driver of the graphics card or, to run "
                  "on the CPU, Mesa's lavapipe (Debian and Ubuntu: mesa-vulkan-drivers)"};

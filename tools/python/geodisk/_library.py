@@ -59,6 +59,7 @@ _FALLIBLE: dict[str, list[Any]] = {
         POINTER(c_double),
         POINTER(c_int32),
     ],
+    "geodisk_explain_no_device": [c_char_p, c_char_p, c_size_t],
     "geodisk_source_read": [POINTER(SourceParams), _HANDLE],
     "geodisk_source_describe": [c_void_p, POINTER(SourceArrays)],
     "geodisk_source_attribute": [c_void_p, c_size_t, POINTER(POINTER(c_double))],
@@ -126,6 +127,9 @@ def version() -> str:
     return name.decode()
 
 
+_NO_DEVICE = -4
+
+
 def call(name: str, *arguments: Any) -> None:
     """Calls a function that can fail; raises what it fails with."""
     error = CError()
@@ -134,6 +138,10 @@ def call(name: str, *arguments: Any) -> None:
         kind: str = _library.geodisk_status_name(status).decode()
         element = None if error.element == NO_ELEMENT else int(error.element)
         message = error.message.decode("utf-8", "replace")
+        if status == _NO_DEVICE:
+            text = ctypes.create_string_buffer(2048)
+            call("geodisk_explain_no_device", error.message, text, len(text))
+            message = text.value.decode("utf-8", "replace")
         raise BY_STATUS.get(status, Error)(message, kind, element)
 
 

@@ -63,7 +63,7 @@ class _Job:
 
     def told_distance(self) -> float:
         """Returns the distance as :func:`sample` has it, see Radii."""
-        return self.params.min_distance * self.distance_part
+        return float(self.params.min_distance) * self.distance_part
 
     def take(self, found: Samples) -> bool:
         """Takes the samples of a run. Returns whether another one is needed."""

@@ -85,6 +85,11 @@ GEODISK_C_API geodisk_status geodisk_warnings_get(const geodisk_warnings *warnin
                                                   geodisk_warning *warning, geodisk_error *error);
 GEODISK_C_API void geodisk_warnings_release(geodisk_warnings *warnings);
 
+/* Writes the message of a GEODISK_NO_DEVICE to `text`, with what variables of the environment keep
+ * Vulkan's loader from finding a driver, if any do. */
+GEODISK_C_API geodisk_status geodisk_explain_no_device(const char *message, char *text,
+                                                       size_t capacity, geodisk_error *error);
+
 /* For a child of fork() whose parent has used a driver: the threads of the driver are not there, and
  * its exit handler would wait for them forever. Lets exit() end the process without the handlers that
  * were registered before, once standard streams are flushed. Does nothing where the system has no
