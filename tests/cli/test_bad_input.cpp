@@ -118,6 +118,46 @@ TEST_CASE("samples go to a stream behind what is there, and what is told goes el
     CHECK(shape.out.starts_with("ply\n"));
 }
 
+TEST_CASE("meshes and samples are read from streams, and as what the user says") {
+    const TemporaryFolder folder;
+    folder.write("plate.txt", kTriangle);
+    const Arguments sample{"sample", "plate.txt", "-o", "a.csv", "-n", "9"};
+    check_fails(folder, 3, "or give --mesh-format", sample);
+    const Arguments as_obj = joined(sample, {"--mesh-format", "obj"});
+    REQUIRE(run(folder, as_obj).status == 0);
+    CHECK(contains(bytes_of(folder / "a.csv"), "# mesh_format: obj\n"));
+    CHECK(run(folder, {"verify", "plate.txt", "a.csv", "--mesh-format", "obj"}).status == 0);
+    check_fails(folder, 2, "--mesh-format: 'doc' is none of",
+                joined(sample, {"--mesh-format", "doc"}));
+
+    Setting shell;
+    shell.program = "/bin/sh";
+    const auto piped = [&](const std::string& arguments) -> Arguments {
+        return {"-c", "cat plate.txt a.csv | " GEODISK_COMMAND " " + arguments};
+    };
+    const Outcome from_input =
+        run(folder,
+            {"-c", "cat plate.txt | " GEODISK_COMMAND
+                   " sample - -o - --format csv -n 9 --mesh-format obj | tee b.csv"},
+            shell);
+    CHECK(from_input.status == 0);
+    CHECK(contains(from_input.out, "# mesh: -\n"));
+    CHECK(run(folder,
+              {"-c", "cat a.csv | " GEODISK_COMMAND " verify plate.txt - --mesh-format obj"}, shell)
+              .status == 0);
+    check_fails(folder, 3, "standard input: unknown mesh format", piped("sample - -o c.csv -n 9"),
+                shell);
+    check_fails(folder, 2, "a stream is read once", piped("verify - - --mesh-format obj"), shell);
+    const Outcome plain = run(folder, joined(as_obj, {"--no-header"}));
+    CHECK(plain.status == 0);
+    CHECK(bytes_of(folder / "a.csv").starts_with("x,y,z,nx,"));
+    check_fails(folder, 2, "give --min-distance",
+                {"verify", "plate.txt", "a.csv", "--mesh-format", "obj"});
+    CHECK(
+        run(folder, {"verify", "plate.txt", "a.csv", "--mesh-format", "obj", "-d", "1%"}).status ==
+        0);
+}
+
 /// Whether samples can be drawn at all where no file may be larger. Some drivers compile into files
 /// in memory, which the limit ends as well.
 bool driver_lives_with(const TemporaryFolder& folder, std::size_t file_size_limit) {

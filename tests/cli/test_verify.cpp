@@ -170,11 +170,44 @@ TEST_CASE("rows that are not on the mesh at all are malformed") {
     bad.rows[6].bary[1] += 0.5f;
     write_back(folder, bad);
     check_fails(folder, 3, "weights", {"verify", kMesh, "b.csv"});
-    folder.write("c.csv", "x,y,z\n1,2,3\n");
-    check_fails(folder, 3, "face_index", {"verify", kMesh, "c.csv"});
+    folder.write("c.csv", "x,y,z,face_index\n1,2,3,0\n");
+    check_fails(folder, 3, "no column bary_u", {"verify", kMesh, "c.csv"});
     check_fails(folder, 3, "no such file", {"verify", kMesh, "none.csv"});
     folder.write("c.txt", "");
-    check_fails(folder, 3, "unknown sample format", {"verify", kMesh, "c.txt"});
+    check_fails(folder, 3, "has no header row", {"verify", kMesh, "c.txt"});
+}
+
+TEST_CASE("points of other programs are put on the nearest face") {
+    const TemporaryFolder folder;
+    make_samples(folder);
+    REQUIRE(run(folder, {"shapes", "cube", "-o", "cube.ply"}).status == 0);
+    folder.write("points.csv", "x,y,z\n0.25,0.25,0.0000001\n-0.0000002,0.75,0.75\n"
+                               "0.5,1,0.5\n");
+    const Outcome passed =
+        run(folder, {"verify", "cube.ply", "points.csv", "-d", ".3", "--json", "a.json"});
+    CHECK(passed.status == 0);
+    CHECK(contains(passed.err, "points.csv: 3 points without faces put on the nearest face of "
+                               "cube.ply, from up to 2e-07 away (tolerance 0.00173)"));
+    CHECK(contains(bytes_of(folder / "a.json"), "points_moved"));
+    CHECK(run(folder, {"verify", "cube.ply", "points.csv", "-d", "2"}).status == 1);
+    const Outcome far =
+        run(folder, {"verify", "cube.ply", "points.csv", "-d", ".3", "--tolerance", "1.5e-7"});
+    CHECK(far.status == 1);
+    CHECK(contains(far.out, "sample 1: 2e-07 away from the surface"));
+    CHECK(contains(far.err, "1 point lies farther off the mesh than --tolerance allows"));
+    check_fails(folder, 2, "--tolerance",
+                {"verify", "cube.ply", "points.csv", "-d", ".3", "--tolerance", "far"});
+    // Other commands take no point that lies elsewhere.
+    CHECK(run(folder, {"analyze", "cube.ply", "points.csv", "-d", ".3", "-q"}).status == 0);
+    const Outcome analyzed =
+        run(folder, {"analyze", "cube.ply", "points.csv", "-d", ".3", "--tolerance", "1.5e-7"});
+    CHECK(analyzed.status == 3);
+    CHECK(contains(analyzed.err, "1 point lies farther off cube.ply than --tolerance allows; "
+                                 "sample 1 is 2e-07 away"));
+    const Outcome moved =
+        run(folder, {"transfer", "points.csv", "cube.ply", "cube.ply", "-o", "moved.ply"});
+    CHECK(moved.status == 0);
+    CHECK(run(folder, {"verify", "cube.ply", "moved.ply"}).status == 0);
 }
 
 TEST_CASE("the distance comes from the option or the header") {

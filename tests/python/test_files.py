@@ -132,6 +132,7 @@ def archive(**arrays):
         ("a.npz", b"no archive", "no archive"),
         ("a.csv", b"x,y,z\n1,2,3\n", "neither face_index nor a box"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\n0,1,0\n", "3 columns"),
+        ("a.csv", b"# samples: 2\nface_index,bary_u,bary_v,bary_w\n0,1,0,0\n", "header says 2"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\n0.5,1,0,0\n", "not whole"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\nnan,1,0,0\n", "not whole"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\n0,1,0,x\n", "'x'"),

@@ -169,7 +169,7 @@ TEST_CASE("the text formats are plain") {
     write_samples(folder / "a.xyz", header, rows, false);
     CHECK(bytes_of(folder / "a.xyz") == "0.1 -2 1e-07\n0 0 0\n");
     write_samples(folder / "a.csv", header, rows, false);
-    CHECK(bytes_of(folder / "a.csv") == "# mesh: two lines\n"
+    CHECK(bytes_of(folder / "a.csv") == "# mesh: two lines\n# samples: 2\n"
                                         "x,y,z,nx,ny,nz,face_index,bary_u,bary_v,bary_w\n"
                                         "0.1,-2,1e-07,0,0,1,5,0.2,0.8,0\n0,0,0,0,0,0,0,0,0,0\n");
     write_samples(folder / "a.ply", header, rows, true);
@@ -220,14 +220,13 @@ TEST_CASE("sample files may lack and add columns in any order") {
 }
 
 TEST_CASE("broken sample files are refused with their line or record") {
-    check_refused("a.xyz", "0 0 0\n", "face_index");
-    check_refused("a.obj", "v 0 0 0\n", "an .obj file has no face_index");
-    for (const char* const name : {"a.pcd", "a.npz", "a.gltf", "a.glb"}) {
-        check_refused(name, "", "does not read them back; use .ply or .csv");
+    for (const char* const name : {"a.npz", "a.gltf", "a.glb"}) {
+        check_refused(name, "", "does not read them back; use .ply, .csv or .pcd");
     }
-    check_refused("a.txt", "0 0 0\n", "unknown sample format");
     check_refused("a.csv", "", "no header row");
-    check_refused("a.csv", "x,y,z\n1,2,3\n", "no column face_index");
+    check_refused("a.csv", "x,y,z,face_index\n1,2,3,0\n", "no column bary_u");
+    check_refused("a.csv", "1,2\n", "line 1: has no header row, and fewer than three numbers");
+    check_refused("a.obj", "v 0 0 0\nf 1 1 1\n", "line 2: a face, so this is a mesh");
     check_refused("a.csv", csv_with("1,2,3,0,1,0"), "line 2");
     check_refused("a.csv", csv_with("1,2,3,0,1,0,0,0"), "line 2");
     check_refused("a.csv", csv_with("1,2,x,0,1,0,0"), "line 2: 'x'");
@@ -244,12 +243,99 @@ TEST_CASE("broken sample files are refused with their line or record") {
     check_refused("a.ply", bytes + "x", "after the last sample");
 }
 
+TEST_CASE("sample files that are cut short are refused") {
+    const TemporaryFolder folder;
+    for (const auto& [name, is_text] : {std::pair{"a.csv", true},
+                                        {"b.ply", true},
+                                        {"c.ply", false},
+                                        {"d.pcd", true},
+                                        {"e.pcd", false}}) {
+        write_samples(folder / name, kHeader, some_rows(0), is_text);
+        const std::string bytes = bytes_of(folder / name);
+        INFO(name);
+        CHECK(read_samples(folder / name).rows.size() == 100);
+        for (const std::size_t cut : {1u, 2u, 5u, 9u, 200u, 1000u}) {
+            INFO(cut);
+            folder.write("cut", bytes.substr(0, bytes.size() - cut));
+            std::filesystem::rename(folder / "cut", folder / ("cut" + std::string(name)));
+            const auto error =
+                error_of([&] { read_samples(folder / ("cut" + std::string(name))); });
+            REQUIRE(error);
+            CHECK(error->code() == ExitCode::bad_input);
+        }
+    }
+    const std::string csv = bytes_of(folder / "a.csv");
+    CHECK(contains(csv, "\n# samples: 100\nx,y,z,"));
+    std::string lines = csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1);
+    check_refused("a.csv", lines, "has 99 samples, but its header says 100");
+    check_refused("a.csv", csv + csv.substr(lines.size()), "has 101 samples");
+    // Files of before have no count.
+    lines.erase(lines.find("# samples"), lines.find("x,y,z") - lines.find("# samples"));
+    CHECK(read_samples(folder.write("old.csv", lines)).rows.size() == 99);
+}
+
+TEST_CASE("points of other programs are read from tables of all kinds") {
+    const TemporaryFolder folder;
+    const auto check = [&](std::string_view name, std::string_view bytes) {
+        const std::string shown = std::string(name) + ": " + std::string(bytes);
+        INFO(shown);
+        const SampleFile file = read_samples(folder.write(name, bytes));
+        CHECK_FALSE(file.has_faces);
+        CHECK(file.dimension == 3);
+        REQUIRE(file.rows.size() == 2);
+        CHECK(file.rows[1].position[0] == 4);
+        CHECK(file.rows[1].position[1] == 5.5);
+        CHECK(file.rows[1].position[2] == -6);
+    };
+    check("a.csv", "x,y,z\n1,2,3\n4,5.5,-6\n");
+    check("a.csv", "1,2,3\n4,5.5,-6\n");
+    check("a.csv", "id;Z;Y;X\r\n1;3;2;1\r\n2;-6;5.5;4\r\n");
+    check("a.csv", "\"X\";\"Y\";\"Z\"\n1;2;3\n4;5,5;-6\n"); // With commas for points.
+    check("a.txt", "//X Y Z\n1 2 3\n4 5.5 -6\n");           // CloudCompare
+    check("a.csv", "\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n4,5.5,-6\n"); // ParaView
+    check("a.xyz", "1 2 3\n4 5.5 -6\n");
+    check("a.tsv", "# of numpy\n1\t2\t3\t0\n4\t5.5\t-6\t0\n");
+    check("a.pts", "2\n1 2 3 0 9 9 9\n4 5.5 -6 0 9 9 9\n");
+    check("a.asc", "\xEF\xBB\xBF"
+                   "1 2 3\n4 5.5 -6\n");
+    check("a.obj", "# points\nv 1 2 3\nv 4 5.5 -6\np 1\np 2\n");
+    check("a.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                   "property float z\nend_header\n1 2 3\n4 5.5 -6\n");
+    check("a.pcd", "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n"
+                   "WIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n"
+                   "1 2 3 7\n4 5.5 -6 7\n");
+    check("pipe", "x,y,z\n1,2,3\n4,5.5,-6\n"); // Without an extension, by how it begins.
+    check_refused("a.pts", "3\n1 2 3\n4 5.5 -6\n", "has 2 points, but its first line says 3");
+    check_refused("a.xyz", "1 2 3\n4 5.5 -6", "its last line has no line end");
+    check_refused("a.pcd",
+                  "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 2\n"
+                  "DATA binary_compressed\n",
+                  "'binary_compressed' is not read");
+}
+
+TEST_CASE("comments are left out on request, and the samples read back") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"a.csv", "a.ply", "a.pcd"}) {
+        SampleTarget target = sample_target(folder / name);
+        target.has_header = false;
+        AtomicFile file(target.path);
+        write_samples(file, target, kHeader, some_rows(0));
+        file.commit();
+        CHECK_FALSE(contains(bytes_of(target.path), "llvmpipe"));
+        const SampleFile read = read_samples(target.path);
+        CHECK(read.rows.size() == 100);
+        CHECK(read.header.entries.empty());
+    }
+    CHECK(bytes_of(folder / "a.csv").starts_with("x,y,z,nx,"));
+}
+
 TEST_CASE("a mesh file is not a sample file and the other way round") {
     const TemporaryFolder folder;
     write_samples(folder / "a.ply", kHeader, some_rows(0), false);
     check_fails(ExitCode::bad_input, "no faces", [&] { read_mesh((folder / "a.ply").string()); });
     check_refused("b.ply",
-                  "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
-                  "property float y\nproperty float z\nend_header\n",
-                  "no column face_index");
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                  "property float y\nproperty float z\nelement face 1\n"
+                  "property list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 0\n",
+                  "has faces, so this is a mesh");
 }

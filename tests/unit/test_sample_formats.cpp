@@ -141,9 +141,44 @@ TEST_CASE("PCD tells its fields, in text and binary") {
         CHECK(value_at<float>(binary, at + 32) == 0.75f);
         CHECK(value_at<double>(binary, at + 40) == rows[i].radius);
     }
-    CHECK(contains(written("b.pcd", some_rows(1e7)), "SIZE 8 8 8 4"));
+    // Others read x y z as floats, so these are kept about a point that the header names.
+    const std::vector<SampleRow> far = some_rows(1e7);
+    for (const bool is_text : {false, true}) {
+        const std::string bytes = written("b.pcd", far, 3, is_text);
+        CHECK(contains(bytes, "SIZE 4 4 4 4"));
+        CHECK(contains(bytes, "# origin: "));
+        const TemporaryFolder folder;
+        const SampleFile read = read_samples(folder.write("b.pcd", bytes));
+        REQUIRE(read.rows.size() == far.size());
+        CHECK(std::abs(read.rows[3].position[1] - far[3].position[1]) < 1e-6);
+        CHECK(read.rows[3].face == far[3].face);
+        CHECK(read.header.find("origin") == nullptr);
+    }
+    CHECK(precision_note(sample_target("b.pcd"), far, 3));
+    CHECK_FALSE(precision_note(sample_target("b.pcd"), rows, 3));
+    CHECK_FALSE(precision_note(sample_target("b.ply"), far, 3));
     CHECK(contains(written("b.pcd", some_rows(0), 4), "FIELDS x y z x0 x1 x2 x3 face_index"));
-    CHECK(contains(written_box("b.pcd", some_rows(0), 2), "FIELDS x y z\nSIZE 8 8 8\n"));
+    CHECK(contains(written_box("b.pcd", some_rows(0), 2), "FIELDS x y z\nSIZE 4 4 4\n"));
+}
+
+TEST_CASE("numbers that a float does not hold are told") {
+    for (const char* const name : {"a.pcd"
+#ifdef GEODISK_GLTF
+                                   ,
+                                   "a.gltf", "a.glb"
+#endif
+         }) {
+        for (const double scale : {1e39, 1e-40}) {
+            std::vector<SampleRow> rows = some_rows(0);
+            for (SampleRow& row : rows) {
+                for (double& x : row.position) {
+                    x *= scale;
+                }
+            }
+            check_fails(ExitCode::usage, "holds floats, and these samples have coordinates up to",
+                        [&] { written(name, rows); });
+        }
+    }
 }
 
 TEST_CASE("NPZ has arrays of numpy") {

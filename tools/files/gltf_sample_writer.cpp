@@ -14,17 +14,6 @@
 namespace geodisk::tools {
 namespace {
 
-/// The middle of the samples' bounding box.
-std::array<double, 3> middle_of(std::span<const SampleRow> rows) {
-    std::array<double, 3> middle{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto [least, most] = std::ranges::minmax_element(
-            rows, {}, [axis](const SampleRow& row) { return row.position[axis]; });
-        middle[axis] = least->position[axis] / 2 + most->position[axis] / 2;
-    }
-    return middle;
-}
-
 /// glTF allows attributes of its users no integers of 32 bits; a float holds these exactly.
 float exact_float(std::uint32_t index) {
     if (index > 1u << 24) {
@@ -114,11 +103,11 @@ void add_surface(Points& points, const SampleLayout& layout) {
 
 /// A node with all points.
 tinygltf::Node add_points(tinygltf::Model& model, std::span<const SampleRow> rows,
-                          const SampleLayout& layout) {
+                          const SampleTarget& target, const SampleLayout& layout) {
     tinygltf::Node node;
-    std::array<double, 3> origin{};
-    if (!float_is_enough(rows, 3)) {
-        origin = middle_of(rows);
+    const std::array<double, 3> origin = origin_for_float(rows, 3);
+    check_float_range(target, rows, origin);
+    if (origin != std::array<double, 3>{}) {
         node.translation.assign(origin.begin(), origin.end());
     }
     Points points(model, rows);
@@ -156,7 +145,7 @@ tinygltf::Value extras_of(const SampleHeader& header) {
 } // namespace
 
 void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-                bool is_binary, const SampleLayout& layout) {
+                const SampleTarget& target, const SampleLayout& layout) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "geodisk";
@@ -164,9 +153,10 @@ void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const Sa
     model.scenes.resize(1);
     model.defaultScene = 0;
     if (!rows.empty()) { // No accessor may be empty.
-        model.nodes.push_back(add_points(model, rows, layout));
+        model.nodes.push_back(add_points(model, rows, target, layout));
         model.scenes[0].nodes.push_back(0);
     }
+    const bool is_binary = target.format == SampleFormat::glb;
     std::ostringstream out;
     tinygltf::TinyGLTF writer;
     if (!writer.WriteGltfSceneToStream(&model, out, true, is_binary)) {

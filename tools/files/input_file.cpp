@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "files/open_file.hpp"
+#include "files/stream_path.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -19,9 +20,7 @@ struct FileCloser {
     fail_input(path, "cannot read: " + std::generic_category().message(error));
 }
 
-} // namespace
-
-std::string read_file(const Path& path) {
+void check_regular(const Path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::not_found) {
@@ -33,16 +32,31 @@ std::string read_file(const Path& path) {
     if (std::filesystem::is_directory(status)) {
         fail_input(path, "is a folder, not a file");
     }
-    // A device or pipe may never end.
     if (!std::filesystem::is_regular_file(status)) {
         fail_input(path, "is not a regular file");
     }
-    const std::unique_ptr<std::FILE, FileCloser> file(open_to_read(path));
+}
+
+} // namespace
+
+std::string read_file(const Path& path) {
+    const auto stream = input_stream(path);
+    if (!stream) {
+        check_regular(path);
+    }
+    const std::unique_ptr<std::FILE, FileCloser> file(stream ? open_stream_to_read(path, *stream)
+                                                             : open_to_read(path));
+    if (!file && errno == ENODEV) {
+        fail_input(path, "is a device, not a regular file");
+    }
     if (!file) {
         fail_with_errno(path, errno);
     }
+    std::error_code ignored;
     std::string bytes;
-    bytes.reserve(static_cast<std::size_t>(std::filesystem::file_size(path, error)));
+    if (!stream) {
+        bytes.reserve(static_cast<std::size_t>(std::filesystem::file_size(path, ignored)));
+    }
     char buffer[1 << 16];
     std::size_t count = 0;
     while ((count = std::fread(buffer, 1, sizeof buffer, file.get())) > 0) {

@@ -7,8 +7,8 @@
 
 namespace geodisk::tools {
 
-/// The bytes of the regular file `path`. Throws UserError(bad_input) when it is missing, a folder
-/// or unreadable.
+/// The bytes of the file or pipe `path`; "-" is standard input. Throws UserError(bad_input) when it
+/// is missing, a folder or unreadable, and for devices but terminals, which may never end.
 std::string read_file(const Path& path);
 
 /// `text` with the letters A to Z in lower case.

@@ -376,7 +376,8 @@ MeshFile read_mesh(const MeshSources& sources) {
         }
         return mesh;
     }
-    const std::string extension = lower_extension(path);
+    const std::string extension =
+        sources.format.empty() ? lower_extension(path) : '.' + sources.format;
     if (extension == ".obj") {
         check_no_attributes(sources);
         return to_triangles(sources, read_obj(path, sources.has_uvs, sources.progress));
@@ -399,8 +400,17 @@ MeshFile read_mesh(const MeshSources& sources) {
     if (extension == ".gltf" || extension == ".glb") {
         return to_triangles(sources, read_gltf(path));
     }
+    if (!sources.format.empty()) {
+        fail_usage("--mesh-format: " + in_quotes(sources.format) +
+                   " is none of gltf, glb, obj, off, "
+                   "ply and stl");
+    }
     fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
-                     "builtin:NAME");
+                     "builtin:NAME, or give --mesh-format");
+}
+
+std::vector<std::string> mesh_formats() {
+    return {"gltf", "glb", "obj", "off", "ply", "stl"};
 }
 
 MeshFile read_mesh(const std::string& path) {

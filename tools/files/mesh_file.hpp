@@ -17,6 +17,7 @@ namespace geodisk::tools {
 struct MeshSources {
     std::string mesh;         ///< `*.gltf`, `*.glb`, `*.obj`, `*.off`, `*.ply`, `*.stl` or
                               ///< `builtin:NAME[:RESOLUTION]`.
+    std::string format;       ///< "obj", or "" for that of the extension.
     std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
     std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
@@ -47,6 +48,9 @@ struct PolygonMesh;
 /// Makes a mesh of polygons that no file has, as read_mesh() does of those of a file. `sources.mesh`
 /// names them in messages.
 MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons);
+
+/// The names of all formats: "obj".
+std::vector<std::string> mesh_formats();
 
 /// Whether `path` is "builtin:NAME" rather than a file.
 bool is_builtin(const std::string& path);

@@ -1,6 +1,8 @@
+#include <array>
 #include <concepts>
 
 #include "files/sample_writers.hpp"
+#include "program/exact_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -14,7 +16,17 @@ std::string field_name(std::string_view column) {
 } // namespace
 
 void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               bool is_text, const SampleLayout& layout) {
+               const SampleTarget& target, const SampleLayout& exact) {
+    SampleLayout layout = exact;
+    layout.has_float_positions = true; // Doubles are read as something else.
+    layout.origin = origin_for_float(rows, layout.dimension);
+    check_float_range(target, rows, layout.origin);
+    SampleHeader all = header;
+    if (layout.origin != std::array<double, 3>{} && target.has_header) {
+        all.entries.emplace_back(kOrigin, exact_text(layout.origin[0]) + ' ' +
+                                              exact_text(layout.origin[1]) + ' ' +
+                                              exact_text(layout.origin[2]));
+    }
     std::string fields, sizes, types, counts;
     visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
         fields += ' ' + field_name(name);
@@ -24,11 +36,11 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     });
     const std::string count = std::to_string(rows.size());
     file.write("# .PCD v0.7 - Point Cloud Data file format\n");
-    write_entries(file, header, "# ");
+    write_entries(file, all, "# ");
     file.write("VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" +
                counts + "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
-               count + "\nDATA " + (is_text ? "ascii" : "binary") + '\n');
-    if (is_text) {
+               count + "\nDATA " + (target.is_text ? "ascii" : "binary") + '\n');
+    if (target.is_text) {
         write_text_rows(file, rows, layout, ' ');
     } else {
         write_binary_rows(file, rows, layout);

@@ -78,7 +78,10 @@ std::optional<std::size_t> PlyElement::find_list(std::string_view wanted) const 
 }
 
 PlyFile::PlyFile(const Path& path, ReadingProgress progress)
-    : path_(path), progress_(std::move(progress)), bytes_(read_text(path)) {
+    : PlyFile(path, read_text(path), std::move(progress)) {}
+
+PlyFile::PlyFile(const Path& path, std::string bytes, ReadingProgress progress)
+    : path_(path), progress_(std::move(progress)), bytes_(std::move(bytes)) {
     parse_header();
 }
 

@@ -54,6 +54,9 @@ class PlyFile {
     /// from 0).
     explicit PlyFile(const Path& path, ReadingProgress progress = {});
 
+    /// The same for bytes that are read already, from `path`.
+    PlyFile(const Path& path, std::string bytes, ReadingProgress progress = {});
+
     const Path& path() const noexcept { return path_; }
     const std::vector<PlyElement>& elements() const noexcept { return elements_; }
     const std::vector<std::string>& comments() const noexcept { return comments_; }
@@ -70,6 +73,11 @@ class PlyFile {
     /// Header lines that are no records, and ascii lines with more values than properties: ignored.
     const Found& unknown_lines() const noexcept { return unknown_lines_; }
     std::uint64_t surplus_lines() const noexcept { return surplus_lines_; }
+
+    /// Returns true if the last line of a file of text has no end.
+    bool ends_within_line() const {
+        return format_ == Format::ascii && !bytes_.ends_with('\n') && !bytes_.ends_with('\r');
+    }
 
     /// Once all elements are read: how many bytes of anything but blanks follow.
     std::size_t trailing_bytes() const;

@@ -31,4 +31,7 @@ inline constexpr std::array<std::string_view, 12> kSampleColumnNames{
 inline constexpr std::array<std::string_view, 8> kNumberedColumnNames{"x0", "x1", "x2", "x3",
                                                                       "x4", "x5", "x6", "x7"};
 
+/// Keys of header entries that a reader of samples goes by.
+inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin";
+
 } // namespace geodisk::tools

@@ -60,6 +60,7 @@ struct SampleFile {
     SampleHeader header;
     std::uint32_t dimension = 3;    ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
     std::vector<ExtraColumn> extra; ///< Those that part_columns() makes.
+    bool has_faces = true;          ///< Else rows have positions alone, as of other programs.
 };
 
 /// Writes `rows` in the format of `target`:
@@ -67,11 +68,13 @@ struct SampleFile {
 ///         face_index bary_u bary_v bary_w, radius as double where radii vary, and
 ///         polygon_index where polygons were split; the header as "comment KEY: VALUE". x y z are
 ///         float, or double where float would blur them: far from the origin for their extent.
-///   csv   a header row with the same names; the header before it as "# KEY: VALUE"
+///   csv   a header row with the same names; the header before it as "# KEY: VALUE", and last of
+///         it the number of samples
 ///   xyz   x y z per line and nothing else
 ///   obj   v and vn, and p for each, behind the header as "# KEY: VALUE"
 ///   pcd   version 0.7, binary or ascii: the columns of PLY, normals as normal_x normal_y normal_z;
-///         the header as "# KEY: VALUE"
+///         x y z always in float, relative to "# origin: X Y Z" where that would blur them; the
+///         header as "# KEY: VALUE"
 ///   npz   arrays of numpy: points normals face_index barycentric radius polygon_index, the scalars
 ///         min_distance and seed, and the header as an object of JSON
 ///   gltf, glb  points in float, relative to a node that bears what float would blur: NORMAL
@@ -99,15 +102,21 @@ void write_box_samples(AtomicFile& file, const SampleTarget& target, const Sampl
 /// UserError(usage) if the format cannot hold columns of these names.
 void check_columns(const SampleTarget& target, std::span<const std::string> columns);
 
+/// Returns what to tell the user of coordinates that the file holds otherwise than they are.
+std::optional<std::string> precision_note(const SampleTarget& target,
+                                          std::span<const SampleRow> rows, std::uint32_t dimension);
+
 /// UserError(usage) if the format cannot hold samples of so many coordinates.
 void check_dimension(const SampleTarget& target, std::uint32_t dimension);
 /// The same for samples in a box.
 void check_box_dimension(const SampleTarget& target, std::uint32_t dimension);
 
-/// Reads a sample file of either PLY format or CSV. Columns may come in any order and type;
-/// face_index bary_u bary_v bary_w must be there, and either x0 x1 ... or x y z or none of these;
-/// the others are 0 if absent, unknown ones are skipped. Throws UserError(bad_input) naming the
-/// file and the line or record.
+/// Reads a sample file: PLY, PCD, OBJ (points alone), and tables of text such as CSV and XYZ, with
+/// or without a row of names. Columns may come in any order and type. face_index bary_u bary_v
+/// bary_w must be there, or none of them; and either x0 x1 ... or x y z, which may lack where faces
+/// are. The others are 0 if absent, unknown ones are skipped. A format without an extension is told
+/// by how it begins. Throws UserError(bad_input) naming the file and the line or record, also for a
+/// file that is cut short.
 SampleFile read_samples(const Path& path);
 
 /// The same for samples in a box, which need have neither faces nor weights, and coordinates x0 x1

@@ -2,14 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "files/ply_file.hpp"
 #include "program/exact_text.hpp"
+#include "program/failure.hpp"
 #include "program/safe_text.hpp"
 
 namespace geodisk::tools {
+namespace {
+
+constexpr double kSmallestFloat = 1e-30; // Well above where float loses digits.
+
+} // namespace
+
 bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
     double largest = 0;
     double extent = 0;
@@ -22,10 +30,44 @@ bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
         largest = std::max({largest, std::abs(least), std::abs(most)});
         extent = std::max(extent, most - least);
     }
-    constexpr double kSmallestFloat = 1e-30; // Well above where float loses digits.
     constexpr double kLargestFloat = 1e38;
     const bool in_range = largest == 0 || (largest > kSmallestFloat && largest < kLargestFloat);
     return in_range && largest <= 16 * extent;
+}
+
+std::array<double, 3> middle_of(std::span<const SampleRow> rows) {
+    std::array<double, 3> middle{};
+    for (std::size_t axis = 0; axis < 3 && !rows.empty(); ++axis) {
+        const auto [least, most] = std::ranges::minmax_element(
+            rows, {}, [axis](const SampleRow& row) { return row.position[axis]; });
+        middle[axis] = least->position[axis] / 2 + most->position[axis] / 2;
+    }
+    return middle;
+}
+
+std::array<double, 3> origin_for_float(std::span<const SampleRow> rows, std::uint32_t dimension) {
+    return float_is_enough(rows, std::min(dimension, 3u)) ? std::array<double, 3>{}
+                                                          : middle_of(rows);
+}
+
+void check_float_range(const SampleTarget& target, std::span<const SampleRow> rows,
+                       const std::array<double, 3>& origin) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    double largest = 0, largest_radius = 0;
+    for (const SampleRow& row : rows) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            largest = std::max(largest, std::abs(row.position[axis] - origin[axis]));
+        }
+        largest_radius = std::max(largest_radius, row.radius);
+    }
+    const auto fits = [](double value) {
+        return value == 0 || (value >= kSmallestFloat && value <= kMost);
+    };
+    if (!fits(largest) || !fits(largest_radius)) {
+        fail_usage(target.path.string() + ": " + extension_of(target.format) +
+                   " holds floats, and these samples have coordinates up to " +
+                   exact_text(largest) + "; use .ply, .csv or .npz");
+    }
 }
 
 void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix) {

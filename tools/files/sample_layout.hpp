@@ -1,6 +1,7 @@
 // The columns of sample files and what else their formats share, for the writers.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,8 @@ struct SampleLayout {
     bool has_polygon = false;
     bool is_on_surface = true;
     std::span<const ExtraColumn> extra = {};
+    std::array<double, 3> origin{}; ///< What x, y and z are relative to.
+    bool has_float_numbered = has_float_positions;
 
     std::size_t numbered() const { return dimension > 3 ? dimension : 0; }
     bool has_normals() const { return is_on_surface && dimension == 3; }
@@ -31,20 +34,23 @@ struct SampleLayout {
 template <typename Visit>
 void visit_columns(const SampleRow& row, std::size_t index, const SampleLayout& layout,
                    const Visit& visit) {
-    const auto visit_position = [&](std::span<const std::string_view> names) {
-        for (std::size_t axis = 0; axis < names.size(); ++axis) {
-            if (layout.has_float_positions) {
-                visit(names[axis], static_cast<float>(row.position[axis]));
-            } else {
-                visit(names[axis], row.position[axis]);
-            }
+    const auto visit_position = [&](std::string_view name, double value, bool is_float) {
+        if (is_float) {
+            visit(name, static_cast<float>(value));
+        } else {
+            visit(name, value);
         }
     };
     const auto name_of = [](SampleColumn first, std::size_t offset = 0) {
         return kSampleColumnNames[static_cast<std::size_t>(first) + offset];
     };
-    visit_position(std::span(kSampleColumnNames).first(layout.named));
-    visit_position(std::span(kNumberedColumnNames).first(layout.numbered()));
+    for (std::size_t axis = 0; axis < layout.named; ++axis) {
+        visit_position(kSampleColumnNames[axis], row.position[axis] - layout.origin[axis],
+                       layout.has_float_positions);
+    }
+    for (std::size_t axis = 0; axis < layout.numbered(); ++axis) {
+        visit_position(kNumberedColumnNames[axis], row.position[axis], layout.has_float_numbered);
+    }
     for (std::size_t axis = 0; axis < 3 && layout.has_normals(); ++axis) {
         visit(name_of(SampleColumn::nx, axis), row.normal[axis]);
     }
@@ -68,6 +74,17 @@ void visit_columns(const SampleRow& row, std::size_t index, const SampleLayout& 
 
 /// Whether rounding to float moves no position by more than a millionth of the set's extent.
 bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension);
+
+/// The middle of the samples' bounding box, of x y z; 0 without samples.
+std::array<double, 3> middle_of(std::span<const SampleRow> rows);
+
+/// Where to put the origin of x y z in float: 0 unless float would blur them.
+std::array<double, 3> origin_for_float(std::span<const SampleRow> rows, std::uint32_t dimension);
+
+/// Throws UserError(usage) if x y z relative to `origin`, or the radii, are too large or too small
+/// for float.
+void check_float_range(const SampleTarget& target, std::span<const SampleRow> rows,
+                       const std::array<double, 3>& origin);
 
 /// A line "KEY: VALUE" behind `prefix` for each entry.
 void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix);

@@ -51,7 +51,7 @@ SampleFormat format_of(const Path& path, std::string_view name) {
 } // namespace
 
 SampleTarget sample_target(const Path& path, std::string_view format, bool is_text) {
-    SampleTarget target{path, format_of(path, format), is_text};
+    SampleTarget target{path, format_of(path, format), is_text, true};
 #ifndef GEODISK_GLTF
     if (target.format == SampleFormat::gltf || target.format == SampleFormat::glb) {
         fail_usage(path.string() + ": this geodisk was built without glTF");

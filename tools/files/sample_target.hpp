@@ -14,7 +14,8 @@ enum class SampleFormat { ply, csv, xyz, obj, pcd, npz, gltf, glb };
 struct SampleTarget {
     Path path;
     SampleFormat format = SampleFormat::ply;
-    bool is_text = false; ///< Of PLY and PCD, which may be binary.
+    bool is_text = false;   ///< Of PLY and PCD, which may be binary.
+    bool has_header = true; ///< Write the header's comments, where the format has comments.
 };
 
 /// The file `path` in the format of that name ("npz"), or in that of its extension for "". Throws

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
@@ -44,6 +45,9 @@ void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const Sam
 void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleLayout& layout) {
     write_entries(file, header, "# ");
+    if (!header.entries.empty()) {
+        file.write("# " + std::string(kSampleCount) + ": " + std::to_string(rows.size()) + "\n");
+    }
     std::string line;
     visit_columns({}, 0, layout, [&](std::string_view name, auto) {
         line += line.empty() ? "" : ",";
@@ -66,10 +70,18 @@ void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
     }
 }
 
+/// Whether the header is one of comments, which may be left out.
+bool has_comments(SampleFormat format) {
+    return format == SampleFormat::ply || format == SampleFormat::csv ||
+           format == SampleFormat::obj || format == SampleFormat::pcd;
+}
+
 /// Formats that viewers read have x y z in any case, those for programs what coordinates there are.
-void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
+void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& full_header,
            std::span<const SampleRow> rows, const SampleLayout& for_viewers,
            const SampleLayout& exact) {
+    const bool has_header = target.has_header || !has_comments(target.format);
+    const SampleHeader header = has_header ? full_header : SampleHeader{};
     switch (target.format) {
     case SampleFormat::ply:
         write_ply(file, header, rows, target.is_text, for_viewers);
@@ -84,7 +96,7 @@ void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& hea
         write_obj(file, header, rows, for_viewers);
         break;
     case SampleFormat::pcd:
-        write_pcd(file, header, rows, target.is_text, for_viewers);
+        write_pcd(file, header, rows, target, for_viewers);
         break;
     case SampleFormat::npz:
         write_npz(file, header, rows, exact);
@@ -92,7 +104,7 @@ void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& hea
     case SampleFormat::gltf:
     case SampleFormat::glb:
 #ifdef GEODISK_GLTF
-        write_gltf(file, header, rows, target.format == SampleFormat::glb, for_viewers);
+        write_gltf(file, header, rows, target, for_viewers);
 #endif
         break; // Else sample_target() has refused it.
     }
@@ -130,6 +142,21 @@ void write_box_samples(AtomicFile& file, const SampleTarget& target, const Sampl
     const SampleLayout for_viewers{dimension, 3, false, false, false, false};
     const SampleLayout exact{dimension, dimension > 3 ? 0 : dimension, false, false, false, false};
     write(file, target, header, rows, for_viewers, exact);
+}
+
+std::optional<std::string> precision_note(const SampleTarget& target,
+                                          std::span<const SampleRow> rows,
+                                          std::uint32_t dimension) {
+    if (target.format != SampleFormat::pcd || float_is_enough(rows, std::min(dimension, 3u))) {
+        return std::nullopt;
+    }
+    std::string text = "programs read x y z of PCD as floats, which would blur these: they are "
+                       "written relative to the point";
+    for (const double coordinate : middle_of(rows)) {
+        text += ' ' + exact_text(coordinate);
+    }
+    return text + (target.has_header ? ", which the header names as origin; " : "; ") +
+           ".ply, .csv and .npz hold them as they are";
 }
 
 const std::string* SampleHeader::find(std::string_view key) const {

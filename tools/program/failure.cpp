@@ -7,7 +7,8 @@ void fail_usage(const std::string& message) {
 }
 
 void fail_input(const Path& path, const std::string& message) {
-    throw UserError(ExitCode::bad_input, path.string() + ": " + message);
+    throw UserError(ExitCode::bad_input,
+                    (path == "-" ? "standard input" : path.string()) + ": " + message);
 }
 
 void fail_output(const std::string& message) {

@@ -40,7 +40,7 @@ class UserError : public std::runtime_error {
 /// Throws UserError(usage).
 [[noreturn]] void fail_usage(const std::string& message);
 
-/// Throws UserError(bad_input) with "PATH: MESSAGE".
+/// Throws UserError(bad_input) with "PATH: MESSAGE"; "-" is called standard input.
 [[noreturn]] void fail_input(const Path& path, const std::string& message);
 
 /// Throws UserError(bad_output).

@@ -140,6 +140,9 @@ class BatchRun {
         for (const MeshWarning& warning : result.warnings) {
             entry.warnings.push_back(warning.message);
         }
+        if (auto note = precision_note(job.out.target(), result.rows, mesh.dimension())) {
+            entry.warnings.push_back(std::move(*note));
+        }
         make_folder_of(job.out.output);
         AtomicFile file(job.out.output);
         write_sample_file(file, job, mesh, result, SampleReport(job, mesh, result));

@@ -18,15 +18,6 @@ std::string coordinates_text(std::uint32_t dimension) {
     return dimension == 0 ? "no coordinates" : std::to_string(dimension) + " coordinates";
 }
 
-void check_dimensions(const std::string& samples_path, const SampleFile& samples,
-                      const std::string& mesh_path, const MeshInput& mesh) {
-    if (samples.dimension != mesh.dimension()) {
-        fail_input(samples_path, "its samples have " + coordinates_text(samples.dimension) +
-                                     ", the vertices of " + mesh_path + " have " +
-                                     coordinates_text(mesh.dimension()));
-    }
-}
-
 /// Why there is no sample on the row's face, or "".
 std::string face_fault(const SampleRow& row, const std::string& mesh_path, const MeshInput& mesh) {
     const std::string face = "face " + std::to_string(row.face);
@@ -60,9 +51,17 @@ double header_distance(const std::string& samples_path, const SampleHeader& head
     return *distance;
 }
 
+void check_dimensions(const std::string& samples_path, const SampleFile& samples,
+                      const std::string& mesh_path, const MeshInput& mesh) {
+    if (samples.dimension != mesh.dimension()) {
+        fail_input(samples_path, "its samples have " + coordinates_text(samples.dimension) +
+                                     ", the vertices of " + mesh_path + " have " +
+                                     coordinates_text(mesh.dimension()));
+    }
+}
+
 void check_rows(const std::string& samples_path, const SampleFile& samples,
                 const std::string& mesh_path, const MeshInput& mesh) {
-    check_dimensions(samples_path, samples, mesh_path, mesh);
     constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         const SampleRow& row = samples.rows[i];
@@ -113,17 +112,6 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
         }
     }
     return strays;
-}
-
-void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
-                   const std::string& mesh_path, const MeshInput& mesh) {
-    check_rows(samples_path, samples, mesh_path, mesh);
-    const std::vector<StrayRow> strays = find_strays(samples, mesh);
-    if (!strays.empty()) {
-        fail_input(samples_path, "sample " + std::to_string(strays.front().row) + " is " +
-                                     offset_text(strays.front()) + " on " + mesh_path +
-                                     "; are these samples of another mesh?");
-    }
 }
 
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,

@@ -22,19 +22,19 @@ struct StrayRow {
 /// The minimum distance that the header tells. Throws UserError if it tells none, or nonsense.
 double header_distance(const std::string& samples_path, const SampleHeader& header);
 
-/// The rows must at least name points of the mesh, with as many coordinates as it has. Throws
-/// UserError(bad_input) naming the first that does not; the paths are those of the files.
+/// Throws UserError(bad_input) if the samples have not as many coordinates as the mesh; the paths
+/// are those of the files.
+void check_dimensions(const std::string& samples_path, const SampleFile& samples,
+                      const std::string& mesh_path, const MeshInput& mesh);
+
+/// The rows must at least name points of the mesh. Throws UserError(bad_input) naming the first
+/// that does not.
 void check_rows(const std::string& samples_path, const SampleFile& samples,
                 const std::string& mesh_path, const MeshInput& mesh);
 
 /// The samples whose positions differ from those of their faces and weights by more than a sample
 /// file rounds. The rows must have passed check_rows(); without coordinates there are none.
 std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh);
-
-/// The same as check_rows(), and that no sample is a stray: samples of another mesh would land
-/// anywhere.
-void check_on_mesh(const std::string& samples_path, const SampleFile& samples,
-                   const std::string& mesh_path, const MeshInput& mesh);
 
 /// Warns where the samples' header tells of another --lift, --weld or
 /// --keep-seams than `additions`, those of the

@@ -10,10 +10,12 @@
 #include "analysis/surface_statistics.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/distance_options.hpp"
+#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/analysis_report.hpp"
 #include "geodisk/set_analysis.hpp"
@@ -39,7 +41,7 @@ struct AnalyzeOptions {
     MeshOptions mesh;
     std::vector<std::string> samples;
     DistanceOptions distance;
-    std::string probes, seed = "0";
+    std::string probes, seed = "0", tolerance;
     OutputOptions out; ///< No samples.
 };
 
@@ -90,13 +92,12 @@ class RegionCounts {
 SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
                         const MeshInput& mesh, RegionCounts& regions,
                         std::vector<MeshWarning>& warnings, ProgressLine& progress) {
-    progress.begin_stage("reading the samples");
-    const SampleFile samples = read_samples(path);
-    check_on_mesh(path, samples, options.mesh.mesh, mesh);
+    const HeaderEntries additions = options.mesh.additions();
+    const SampleFile samples = read_samples_exactly_on(path, options.mesh.mesh, mesh, &additions,
+                                                       options.tolerance, warnings, progress);
     if (samples.rows.empty()) {
         fail_input(path, "has no samples to analyze");
     }
-    warn_of_other_surface(path, samples, options.mesh.additions(), warnings);
     const std::vector<SurfaceDisk> disks =
         sample_disks(path, samples, mesh, options.distance.parsed());
 
@@ -109,6 +110,7 @@ SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
 
 void run_analyze(const AnalyzeOptions& options) {
     options.distance.parsed(); // Before the files are read.
+    check_tolerance(options.tolerance);
     parse_seed("--seed", options.seed);
     probes_for(options.probes, 1);
     std::vector<NamedFile> read;
@@ -139,12 +141,14 @@ void add_analyze_command(Command app) {
     add_mesh_argument(command, options->mesh, "Mesh that the samples were made on");
     command
         .add_option("SAMPLES", options->samples, "",
-                    "Samples to analyze: *.ply or *.csv; several of other seeds\n"
+                    "Samples to analyze: *.ply, *.csv or *.pcd, or points of\n"
+                    "another program, also *.obj and *.xyz; several of other seeds\n"
                     "tell whether all places are as likely")
         .required();
     add_distance_options(command, options->distance);
     add_probes_option(command, options->probes);
     command.add_option("--seed", options->seed, "S", "Seed of these places").shows_default();
+    add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
     add_json_option(command, options->out);
     add_quiet_option(command, options->out, "No progress and no result");

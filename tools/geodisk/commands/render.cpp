@@ -5,6 +5,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
@@ -33,14 +34,15 @@ void render_samples(const RenderOptions& options) {
     options.mesh.add_files(read, "the mesh");
     check_outputs(options.out, "the picture", read, check_picture_path);
     const std::optional<Length> distance = options.distance.parsed();
+    check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
     check_visible(options.mesh.mesh, mesh);
-    progress.begin_stage("reading the samples");
-    const SampleFile samples = read_samples(options.samples);
-    check_on_mesh(options.samples, samples, options.mesh.mesh, mesh);
     std::vector<MeshWarning> warnings = mesh.warnings;
-    warn_of_other_surface(options.samples, samples, options.mesh.additions(), warnings);
+    const HeaderEntries additions = options.mesh.additions();
+    const SampleFile samples =
+        read_samples_exactly_on(options.samples, options.mesh.mesh, mesh, &additions,
+                                options.tolerance, warnings, progress);
     std::vector<SurfaceDisk> disks = sample_disks(options.samples, samples, mesh, distance);
     const Subject subject{options.samples,
                           mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),

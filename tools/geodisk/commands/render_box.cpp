@@ -28,7 +28,7 @@ constexpr double kPointPart = 0.3;
 /// A single file must be one of samples in a box, which has nothing of a surface.
 void check_options(const RenderOptions& options) {
     const std::string extension = lower_extension(options.mesh.mesh);
-    if (extension != ".ply" && extension != ".csv") {
+    if (extension != ".ply" && extension != ".csv" && options.mesh.mesh != "-") {
         fail_usage("SAMPLES is required, except for samples in a box, *.ply or *.csv, which are "
                    "shown without a mesh");
     }

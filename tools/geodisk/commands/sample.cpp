@@ -73,6 +73,8 @@ void sample_to_files(const SampleOptions& options, const NameOutputs& name_outpu
                                picture::write_png(file, result.picture->picture.pixels);
                            }});
     }
+    progress.clear();
+    print_precision_note(job.out, result.rows, mesh.dimension());
     const SampleReport report(job, mesh, result);
     const auto write = [&](AtomicFile& file) {
         write_sample_file(file, job, mesh, result, report);

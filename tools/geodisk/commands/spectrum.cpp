@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "files/ply_file.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
@@ -47,10 +50,11 @@ void check_surface_spectrum_path(const Path& path) {
     check_writable(path);
 }
 
-/// By extension, or what a PLY header says.
+/// By extension, or what a PLY header says. A pipe is not read for that.
 bool are_box_samples(const std::string& path) {
     const std::string extension = lower_extension(path);
-    if (extension != ".ply") {
+    std::error_code ignored;
+    if (extension != ".ply" || !std::filesystem::is_regular_file(Path(path), ignored)) {
         return extension == ".csv";
     }
     const PlyFile file(path);
@@ -68,13 +72,12 @@ SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     SurfaceSets result;
     for (const std::string& path : options.samples) {
-        progress.begin_stage("reading the samples");
-        const SampleFile file = read_samples(path);
-        check_on_mesh(path, file, options.mesh.mesh, mesh);
+        const HeaderEntries additions = options.mesh.additions();
+        const SampleFile file = read_samples_exactly_on(path, options.mesh.mesh, mesh, &additions,
+                                                        options.tolerance, warnings, progress);
         if (file.rows.empty()) {
             fail_input(path, "has no samples");
         }
-        warn_of_other_surface(path, file, options.mesh.additions(), warnings);
         PlacedSamples& places = result.sets.emplace_back();
         for (const SurfaceDisk& disk : sample_disks(path, file, mesh, options.distance.parsed())) {
             const double min_distance = 2 * disk.radius;
@@ -110,6 +113,7 @@ void spectrum_of_surface(const SpectrumOptions& options) {
         fail_usage("--reach is for samples in boxes; on a mesh --harmonics tells how far it goes");
     }
     parse_harmonics(options.harmonics); // Before the files are read.
+    check_tolerance(options.tolerance);
     options.distance.parsed();
     std::vector<NamedFile> read;
     for (const std::string& samples : options.samples) {
@@ -161,7 +165,7 @@ void add_spectrum_command(Command app) {
     add_spectrum_options(command, *options, *files);
     command.has_footer(help_footer(kExamples));
     command.calls([options, files] {
-        if (are_box_samples(files->front())) {
+        if ((files->size() == 1 && files->front() == "-") || are_box_samples(files->front())) {
             options->samples = *files;
             spectrum_of_boxes(*options);
             return;

@@ -11,11 +11,13 @@
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/json.hpp"
@@ -37,6 +39,7 @@ struct TransferOptions {
     std::string samples;
     MeshOptions from, to;
     OutputOptions out;
+    std::string tolerance;
 };
 
 void check_files(const TransferOptions& options) {
@@ -127,21 +130,20 @@ std::string summary_text(const TransferOptions& options, const MeshInput& from, 
 
 void run_transfer(const TransferOptions& options) {
     check_files(options);
+    check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);
-    const MeshInput from = load_mesh(options.from, progress);
+    MeshInput from = load_mesh(options.from, progress);
     const MeshInput to = load_mesh(options.to, progress);
     check_connectivity(options, from.file, to.file);
     check_dimension(options.out.target(), to.dimension());
-    progress.begin_stage("reading the samples");
-    SampleFile samples = read_samples(options.samples);
-    progress.clear();
-    check_on_mesh(options.samples, samples, options.from.mesh, from);
-
+    SampleFile samples = read_samples_exactly_on(options.samples, options.from.mesh, from, nullptr,
+                                                 options.tolerance, from.warnings, progress);
     for (SampleRow& row : samples.rows) {
         to.place(row);
         row.radius = 0; // That was one on the other mesh.
     }
     const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
+    print_precision_note(options.out, samples.rows, to.dimension());
     AtomicFile file(options.out.output);
     write_samples(file, options.out.target(), transferred_header(options, samples.header, closest),
                   samples.rows, to.dimension(), samples.extra);
@@ -157,16 +159,22 @@ void add_transfer_command(Command app) {
         "transfer", "Carry samples over to another pose of their mesh: the same faces,\n"
                     "elsewhere; tells their smallest distance there");
     const auto options = std::make_shared<TransferOptions>();
-    command.add_option("SAMPLES", options->samples, "", "Samples of MESH_A: *.ply or *.csv")
+    command
+        .add_option("SAMPLES", options->samples, "",
+                    "Samples of MESH_A: *.ply, *.csv or *.pcd, or points of\n"
+                    "another program, also *.obj and *.xyz")
         .required();
     add_mesh_argument(command, options->from, "Mesh they were made on", "MESH_A");
     add_mesh_argument(command, options->to, "Mesh of the same faces to put them on", "MESH_B");
     add_output_argument(command, options->out);
+    add_format_option(command, options->from, "-a");
+    add_format_option(command, options->to, "-b");
     add_sidecar_options(command, options->from, "MESH_A", "-a");
     add_sidecar_options(command, options->to, "MESH_B", "-b");
     add_lift_option(command, options->to, "-b");
     add_weld_options(command, options->from, "-a");
     add_weld_options(command, options->to, "-b");
+    add_tolerance_option(command, options->tolerance);
     add_output_options(command, options->out);
     command.has_footer(help_footer(kExamples));
     command.calls([options] { run_transfer(*options); });

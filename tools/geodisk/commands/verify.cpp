@@ -14,11 +14,13 @@
 #include "files/input_file.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/json.hpp"
@@ -42,7 +44,7 @@ constexpr std::size_t kNamedStrays = 10;
 struct VerifyOptions {
     MeshOptions mesh;
     DensityOptions density;
-    std::string samples, min_distance;
+    std::string samples, min_distance, tolerance;
     OutputOptions out; ///< No samples.
 
     /// What makes the surface and the radii on it, as the header of a sample file names it.
@@ -144,7 +146,10 @@ std::string result_text(const Check& check) {
     }
     for (std::size_t i = 0; i < std::min(strays.size(), kNamedStrays); ++i) {
         out << "              "
-            << "sample " << strays[i].row << ": " << offset_text(strays[i]) << '\n';
+            << "sample " << strays[i].row << ": "
+            << (check.samples.has_faces ? offset_text(strays[i])
+                                        : rounded(strays[i].offset, 3) + " away from the surface")
+            << '\n';
     }
     return out.str();
 }
@@ -189,7 +194,13 @@ void fail_on_violations(const Check& check) {
             message += (message.empty() ? "" : ", and ") + counted(count, one, many) + what;
         }
     };
-    add(check.strays.size(), "position does", "positions do", " not agree with face and weights");
+    if (check.samples.has_faces) {
+        add(check.strays.size(), "position does", "positions do",
+            " not agree with face and weights");
+    } else {
+        add(check.strays.size(), "point lies", "points lie",
+            " farther off the mesh than --tolerance allows");
+    }
     add(spacing.wrong, "radius is", "radii are", " not what the density options give");
     if (!message.empty()) {
         throw UserError(ExitCode::violation, check.options.samples + ": " + message);
@@ -200,7 +211,10 @@ void fail_on_violations(const Check& check) {
 void check_box(const VerifyOptions& options) {
     const std::string extension = lower_extension(options.mesh.mesh);
     constexpr std::string_view kOfSamples = ".ply .csv .xyz .npz .pcd "; // And of no mesh alone.
-    if (extension.empty() || kOfSamples.find(extension + ' ') == std::string_view::npos) {
+    const bool is_known =
+        options.mesh.mesh == "-" ||
+        (!extension.empty() && kOfSamples.find(extension + ' ') != std::string_view::npos);
+    if (!is_known) {
         fail_usage("SAMPLES is required, except for samples in a box, which "
                    "are verified without a mesh");
     }
@@ -214,6 +228,7 @@ void run_verify(const VerifyOptions& options) {
     if (!options.min_distance.empty()) {
         parse_length("--min-distance", options.min_distance); // Before the files are read.
     }
+    check_tolerance(options.tolerance);
     if (options.samples.empty()) {
         check_box(options);
         verify_box(options.mesh.mesh, options.min_distance, options.out);
@@ -222,14 +237,11 @@ void run_verify(const VerifyOptions& options) {
     check_files(options);
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress, options.density);
-    progress.begin_stage("reading the samples");
-    const SampleFile samples = read_samples(options.samples);
-    progress.clear();
-    check_rows(options.samples, samples, options.mesh.mesh, mesh);
     std::vector<MeshWarning> warnings = mesh.warnings;
-    warn_of_other_surface(options.samples, samples, options.mesh.additions(), warnings);
+    const HeaderEntries additions = options.mesh.additions();
+    auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
+                                             options.tolerance, warnings, progress);
     Spacing spacing = spacing_of(options, samples, mesh);
-    std::vector<StrayRow> strays = find_strays(samples, mesh);
     SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);
     const Check check{
         options,           samples,          mesh, std::move(warnings), std::move(spacing),
@@ -246,13 +258,15 @@ void add_verify_command(Command app) {
     const auto options = std::make_shared<VerifyOptions>();
     add_mesh_argument(command, options->mesh, "Mesh they were made on");
     command.add_option("SAMPLES", options->samples, "",
-                       "Samples to check: *.ply or *.csv; those of geodisk box\n"
-                       "stand alone, without a mesh");
+                       "Samples to check: *.ply, *.csv or *.pcd, or points of another\n"
+                       "program, also *.obj and *.xyz; those of geodisk box stand\n"
+                       "alone, without a mesh");
     command.add_option("-d,--min-distance", options->min_distance, "D",
                        "Least distance along the surface, in mesh units,\n"
                        "or with % of the bounding-box diagonal;\n"
                        "without it, the radii of the file where it has them,\n"
                        "else the distance of its header");
+    add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
     add_density_options(command, options->density);
     add_json_option(command, options->out);

@@ -47,9 +47,14 @@ PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<co
 MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
                        const std::optional<DensitySource>& density) {
     using Kind = DensitySource::Kind;
-    MeshSources sources{
-        options.mesh,           options.coordinates,     options.edge_lengths,
-        lift_attributes(lifts), options.weld_distance(), density && density->kind == Kind::map};
+    MeshSources sources;
+    sources.mesh = options.mesh;
+    sources.format = options.format;
+    sources.coordinates = options.coordinates;
+    sources.edge_lengths = options.edge_lengths;
+    sources.attributes = lift_attributes(lifts);
+    sources.weld = options.weld_distance();
+    sources.has_uvs = density && density->kind == Kind::map;
     sources.keep_seams = options.keep_seams;
     if (density && density->kind == Kind::attribute) {
         sources.attributes.push_back(density->name);

@@ -19,7 +19,7 @@ void add_line_options(Command command, LineOptions& line) {
     add_mesh_argument(command, line.sample.mesh, "Mesh to sample");
     command.add_option("-o,--output", line.name, "NAME", "File to write, in the folder");
     add_subject_options(command, line.sample);
-    add_ascii_option(command, line.sample.out);
+    add_text_options(command, line.sample.out);
     add_columns_option(command, line.sample.out);
 }
 
@@ -117,7 +117,7 @@ void add_batch_options(Command command, BatchOptions& options) {
     add_validate_option(command, options.sample.run.device);
     add_limit_options(command, options.sample.run);
     add_json_option(command, options.sample.out);
-    add_ascii_option(command, options.sample.out);
+    add_text_options(command, options.sample.out);
     add_columns_option(command, options.sample.out);
     add_quiet_option(command, options.sample.out);
 }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "files/mesh_file.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "shapes/builtin_shapes.hpp"
@@ -42,7 +43,8 @@ std::optional<Length> MeshOptions::weld_distance() const {
 }
 
 void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
-    for (const std::string& path : {mesh, coordinates, edge_lengths}) {
+    read.push_back({what, mesh, format});
+    for (const std::string& path : {coordinates, edge_lengths}) {
         if (!path.empty()) {
             read.push_back({what, path});
         }
@@ -51,6 +53,9 @@ void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& wha
 
 HeaderEntries MeshOptions::additions() const {
     HeaderEntries result;
+    if (!format.empty()) {
+        result.emplace_back("mesh_format", format);
+    }
     if (!coordinates.empty()) {
         result.emplace_back("coordinates", coordinates);
     }
@@ -95,6 +100,15 @@ void add_sidecar_options(Command command, MeshOptions& options, const std::strin
                        kSurfaceGroup);
 }
 
+void add_format_option(Command command, MeshOptions& options, const std::string& suffix) {
+    command
+        .add_option("--mesh-format" + suffix, options.format, "NAME",
+                    "Read the mesh as gltf, glb, obj, off, ply or stl, whatever its\n"
+                    "extension; with it, - is standard input",
+                    kSurfaceGroup)
+        .offers(mesh_formats());
+}
+
 void add_lift_option(Command command, MeshOptions& options, const std::string& suffix) {
     command
         .add_option("--lift" + suffix, options.lifts, "LIFT",
@@ -119,6 +133,7 @@ void add_weld_options(Command command, MeshOptions& options, const std::string& 
 }
 
 void add_mesh_options(Command command, MeshOptions& options) {
+    add_format_option(command, options);
     add_weld_options(command, options);
     add_sidecar_options(command, options, "MESH");
     add_lift_option(command, options);

@@ -15,6 +15,7 @@ namespace geodisk::tools {
 /// As given on the command line.
 struct MeshOptions {
     std::string mesh, coordinates, edge_lengths;
+    std::string format; ///< Of the mesh; "" for that of its extension.
     std::vector<std::string> lifts;
     std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
     bool keep_seams = false;
@@ -42,6 +43,9 @@ void add_mesh_arguments(Command command, std::vector<std::string>& meshes,
 /// Adds the files beside the mesh `mesh_name`; `suffix` ends the options' names.
 void add_sidecar_options(Command command, MeshOptions& options, const std::string& mesh_name,
                          const std::string& suffix = "");
+
+/// Adds --mesh-format, with `suffix`.
+void add_format_option(Command command, MeshOptions& options, const std::string& suffix = "");
 
 /// Adds --lift, with `suffix`.
 void add_lift_option(Command command, MeshOptions& options, const std::string& suffix = "");

@@ -25,7 +25,10 @@ void add_render_options(Command command, RenderOptions& options) {
     add_mesh_argument(command, options.mesh,
                       "Mesh that the samples were made on; or, alone, the samples\n"
                       "of geodisk box, of 2 or 3 dimensions");
-    command.add_option("SAMPLES", options.samples, "", "Samples to show: *.ply or *.csv");
+    command.add_option("SAMPLES", options.samples, "",
+                       "Samples to show: *.ply, *.csv or *.pcd, or points of another\nprogram, "
+                       "also *.obj and *.xyz");
+    add_tolerance_option(command, options.tolerance);
     add_output_argument(command, options.out, "Picture to write: *.png");
     command.add_option("--size", options.size, "WxH", "Pixels of the picture").shows_default();
     command

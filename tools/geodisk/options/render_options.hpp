@@ -7,6 +7,7 @@
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
+#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/options/up_option.hpp"
 #include "picture/picture.hpp"
 
@@ -15,7 +16,7 @@ namespace geodisk::tools {
 /// As given on the command line.
 struct RenderOptions {
     MeshOptions mesh; ///< Or the samples in a box, where there are no others.
-    std::string samples;
+    std::string samples, tolerance;
     OutputOptions out;
     DeviceOptions device;
     std::string size = "1920x1080", style = "disks", background = "white";

@@ -7,6 +7,12 @@
 
 namespace geodisk::tools {
 
+SampleTarget OutputOptions::target() const {
+    SampleTarget result = sample_target(output, format, ascii);
+    result.has_header = !no_header;
+    return result;
+}
+
 void add_output_argument(Command command, OutputOptions& options, const std::string& summary) {
     command.add_option("-o,--output", options.output, "OUT", summary).required();
 }
@@ -33,8 +39,11 @@ void add_quiet_option(Command command, OutputOptions& options, const std::string
     command.add_flag("-q,--quiet", options.quiet, summary);
 }
 
-void add_ascii_option(Command command, OutputOptions& options) {
+void add_text_options(Command command, OutputOptions& options) {
     command.add_flag("--ascii", options.ascii, "Write PLY or PCD as text");
+    command.add_flag("--no-header", options.no_header,
+                     "Write no comments on mesh, seed and so on, for programs that\n"
+                     "read plain CSV; geodisk verify then needs --min-distance");
 }
 
 void add_columns_option(Command command, OutputOptions& options) {
@@ -50,7 +59,7 @@ void add_output_options(Command command, OutputOptions& options) {
                     "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, whatever\n"
                     "the extension of OUT")
         .offers(sample_formats());
-    add_ascii_option(command, options);
+    add_text_options(command, options);
     add_quiet_option(command, options);
 }
 

@@ -20,9 +20,10 @@ struct OutputOptions {
     std::string format;  ///< Of the samples; "" for that of their extension.
     std::string columns; ///< Names of part_columns() with commas, or "".
     bool ascii = false, quiet = false, is_dry_run = false;
+    bool no_header = false; ///< Write samples without comments.
 
     /// Where and how to write the samples. Throws UserError(usage).
-    SampleTarget target() const { return sample_target(output, format, ascii); }
+    SampleTarget target() const;
 
     /// Whether to print the results for people.
     bool has_summary() const { return !quiet && !is_standard_output(json); }
@@ -48,13 +49,13 @@ void add_json_option(Command command, OutputOptions& options);
 void add_quiet_option(Command command, OutputOptions& options,
                       const std::string& summary = "No progress and no summary");
 
-/// Adds --ascii.
-void add_ascii_option(Command command, OutputOptions& options);
+/// Adds --ascii and --no-header.
+void add_text_options(Command command, OutputOptions& options);
 
 /// Adds --columns.
 void add_columns_option(Command command, OutputOptions& options);
 
-/// Adds --json, --format, --ascii and --quiet.
+/// Adds --json, --format, --ascii, --no-header and --quiet.
 void add_output_options(Command command, OutputOptions& options);
 
 /// Which device to work on, as given on the command line.

@@ -37,6 +37,7 @@ void add_mesh(ArgumentList& list, const MeshOptions& mesh) {
         }
     }
     list.add_flag("--keep-seams", mesh.keep_seams);
+    list.add("--mesh-format", mesh.format);
     list.add("--coordinates", mesh.coordinates);
     list.add("--edge-lengths", mesh.edge_lengths);
     for (const std::string& lift : mesh.lifts) {
@@ -73,6 +74,7 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--seed", options.run.seed, usual.run.seed);
     list.add_flag("--ascii", options.out.ascii);
     list.add("--columns", options.out.columns);
+    list.add_flag("--no-header", options.out.no_header);
     return command_text("geodisk", list.words());
 }
 

@@ -27,7 +27,8 @@ void check_metric(const SampleOptions& options) {
                    " takes no radii that vary, so neither --density nor --radius-factor");
     }
     for (const auto& [name, value] : options.mesh.additions()) {
-        if (options.metric != "geodesic" && name != "weld" && name != "keep_seams") {
+        const bool is_kept = name == "weld" || name == "keep_seams" || name == "mesh_format";
+        if (options.metric != "geodesic" && !is_kept) {
             fail_usage("--metric " + options.metric +
                        " goes by the coordinates of the mesh file, so it takes no --" + name);
         }

@@ -8,8 +8,9 @@ void add_spectrum_options(Command command, SpectrumOptions& options,
                           std::vector<std::string>& files) {
     command
         .add_option("MESH SAMPLES", files, "",
-                    "Samples, *.ply or *.csv, of one mesh, and before them the mesh;\n"
-                    "or of boxes. Of several the mean is taken")
+                    "Samples of one mesh, *.ply, *.csv or *.pcd, or points of another\n"
+                    "program, and before them the mesh; or samples of boxes. Of\n"
+                    "several the mean is taken")
         .required();
     command.add_option("-o,--output", options.out.output, "OUT",
                        "Spectrum to write: *.csv, radial mean and anisotropy, or of\n"
@@ -19,6 +20,7 @@ void add_spectrum_options(Command command, SpectrumOptions& options,
     command.add_option("--reach", options.reach, "F",
                        "Highest frequency in boxes, in waves per minimum distance (4)");
     add_distance_options(command, options.distance);
+    add_tolerance_option(command, options.tolerance);
     add_mesh_options(command, options.mesh);
     add_json_option(command, options.out);
     add_quiet_option(command, options.out, "No progress and no result");

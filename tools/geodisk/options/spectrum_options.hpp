@@ -7,6 +7,7 @@
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
+#include "geodisk/options/tolerance_option.hpp"
 
 namespace geodisk::tools {
 
@@ -15,6 +16,7 @@ struct SpectrumOptions {
     MeshOptions mesh; ///< Its file is "" for samples in boxes.
     std::vector<std::string> samples;
     DistanceOptions distance;
+    std::string tolerance;
     std::string reach, harmonics; ///< Of boxes, of surfaces; or "".
     OutputOptions out;            ///< A picture or a table.
 };

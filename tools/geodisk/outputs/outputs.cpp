@@ -92,6 +92,13 @@ void publish(const OutputOptions& options, const std::string& report, const std:
     bring_out(options, {}, report, result, "the result");
 }
 
+void print_precision_note(const OutputOptions& options, std::span<const SampleRow> rows,
+                          std::uint32_t dimension) {
+    if (const auto note = precision_note(options.target(), rows, dimension)) {
+        print_warning(options.output + ": " + *note);
+    }
+}
+
 void flush_or_fail(const std::string& what) {
     std::cout.flush();
     if (!std::cout) {

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,10 @@ void write_outputs(const OutputOptions& options, std::string_view what, Progress
     }
     publish(options, written, report.json(seconds), report.summary(seconds));
 }
+
+/// Warns of samples that their file holds otherwise than they are.
+void print_precision_note(const OutputOptions& options, std::span<const SampleRow> rows,
+                          std::uint32_t dimension);
 
 /// Throws UserError(bad_output) if `what` did not get through to standard output.
 void flush_or_fail(const std::string& what);

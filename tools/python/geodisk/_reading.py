@@ -156,6 +156,9 @@ def _from_csv(file: BinaryIO) -> Samples:
     if not lines:
         raise ValueError("has no names of columns")
     names = [name.strip() for name in lines[0].split(",")]
+    count = header.pop("samples", None)
+    if count is not None and count != str(len(lines) - 1):
+        raise ValueError(f"has {len(lines) - 1} samples, but its header says {count}")
     return _of_columns(_text_columns(lines[1:], names, ","), header)
 
 

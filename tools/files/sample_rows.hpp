@@ -1,0 +1,115 @@
+// Rows of sample files from columns that stand anywhere, for the readers.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "files/part_columns.hpp"
+#include "files/sample_columns.hpp"
+#include "files/sample_file.hpp"
+
+namespace geodisk::tools {
+
+/// Where each column of a sample stands in the file.
+struct ColumnPlaces {
+    std::array<std::optional<std::size_t>, kSampleColumnNames.size()> named;
+    std::vector<std::size_t> coordinates;
+    bool is_numbered = false; ///< The coordinates are x0 x1 ... rather than x y z.
+    bool has_faces = false;   ///< Faces and weights are there.
+
+    std::uint32_t dimension() const { return static_cast<std::uint32_t>(coordinates.size()); }
+};
+
+/// What samples lie in, and so what columns must be there.
+enum class SampleDomain { surface, box };
+
+/// Where the column of a name stands, if the file has it.
+using PlaceOf = std::function<std::optional<std::size_t>(std::string_view name)>;
+
+/// Throws UserError(bad_input) for a column that is missing.
+ColumnPlaces find_places(const Path& path, SampleDomain domain, const PlaceOf& place_of);
+
+/// Returns false if `value` is no index.
+bool set_index(std::uint32_t& index, double value);
+
+/// Returns false if `value` makes no sense in that column, which is no coordinate.
+bool set_value(SampleRow& row, SampleColumn column, double value);
+
+/// Returns the row whose column i has the value `value_at(place)`; `fail(message)` must not return.
+template <typename ValueAt, typename Fail>
+SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fail& fail) {
+    SampleRow row;
+    for (std::size_t axis = 0; axis < places.coordinates.size(); ++axis) {
+        row.position[axis] = value_at(places.coordinates[axis]);
+        if (!std::isfinite(row.position[axis])) {
+            fail(std::string(places.is_numbered ? kNumberedColumnNames[axis]
+                                                : kSampleColumnNames[axis]) +
+                 " is out of range");
+        }
+    }
+    for (std::size_t i = 0; i < places.named.size(); ++i) {
+        if (places.named[i] && !set_value(row, SampleColumn{i}, value_at(*places.named[i]))) {
+            fail(std::string(kSampleColumnNames[i]) + " is out of range");
+        }
+    }
+    return row;
+}
+
+/// Keeps the columns that part_columns() makes, where a file has them and they hold whole numbers.
+class ExtraReader {
+  public:
+    explicit ExtraReader(const PlaceOf& place_of) {
+        for (const std::string& name : part_column_names()) {
+            if (const std::optional<std::size_t> place = place_of(name)) {
+                places_.push_back(*place);
+                columns_.push_back({name, {}});
+            }
+        }
+    }
+
+    /// `value_at(place)` may be nothing, which is no number.
+    template <typename ValueAt>
+    void add_row(const ValueAt& value_at) {
+        for (std::size_t i = 0; i < places_.size();) {
+            const std::optional<double> value = value_at(places_[i]);
+            std::uint32_t index = 0;
+            if (value && set_index(index, *value)) {
+                columns_[i++].values.push_back(index);
+            } else { // A column of that name from some other program.
+                places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));
+                columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+        }
+    }
+
+    std::vector<ExtraColumn> columns() && { return std::move(columns_); }
+
+  private:
+    std::vector<std::size_t> places_;
+    std::vector<ExtraColumn> columns_;
+};
+
+/// Adds "KEY: VALUE" of a comment; other comments are ignored.
+void add_entry(SampleHeader& header, std::string_view comment);
+
+/// Takes the number of samples out of the header. Throws UserError(bad_input) if there are more or
+/// fewer.
+void check_sample_count(const Path& path, SampleFile& samples);
+
+/// Throws UserError(bad_input) if the last line of a text of samples has no end, so that the file
+/// may be cut short.
+void check_last_line(const Path& path, std::string_view text);
+
+/// The readers of single formats.
+SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDomain domain);
+SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain);
+SampleFile read_obj_points(const Path& path, std::string_view bytes);
+
+} // namespace geodisk::tools

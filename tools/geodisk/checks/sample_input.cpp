@@ -1,0 +1,109 @@
+#include "geodisk/checks/sample_input.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geometry/nearest_face.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+void put_on(SampleRow& row, const SurfacePoint& place, const MeshInput& mesh) {
+    row.face = place.face;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        row.bary[corner] = static_cast<float>(place.weights[corner]);
+    }
+    mesh.place(row);
+}
+
+void warn_of_moves(const std::string& path, const std::string& mesh_path, std::size_t count,
+                   double farthest, double tolerance, std::vector<MeshWarning>& warnings) {
+    warnings.push_back({"points_moved", count, "",
+                        counted(count, "point", "points") + " without faces put on the nearest " +
+                            "face of " + mesh_path + ", from up to " + rounded(farthest, 3) +
+                            " away (tolerance " + rounded(tolerance, 3) + ")",
+                        path});
+    print_warning(path + ": " + warnings.back().message);
+}
+
+/// Gives each point the nearest face. Returns those that are too far away.
+std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& mesh_path,
+                                   const MeshInput& mesh, const std::string& given,
+                                   SampleFile& samples, std::vector<MeshWarning>& warnings,
+                                   ProgressLine& progress) {
+    progress.begin_stage("putting the points on the mesh");
+    const NearestFace faces(mesh.file);
+    const double tolerance = tolerance_on(given, faces.diagonal());
+    std::vector<StrayRow> strays;
+    double farthest = 0;
+    for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
+        if (i % 1024 == 0) {
+            check_interrupted();
+            progress.update(i / static_cast<double>(samples.rows.size()), "");
+        }
+        SampleRow& row = samples.rows[i];
+        const SurfacePoint place = faces.find(std::span(row.position).first(mesh.dimension()));
+        if (place.distance <= tolerance) {
+            farthest = std::max(farthest, place.distance);
+        } else {
+            strays.push_back({i, place.distance});
+        }
+        put_on(row, place, mesh);
+    }
+    progress.clear();
+    const std::size_t moved = samples.rows.size() - strays.size();
+    if (moved > 0) {
+        warn_of_moves(path, mesh_path, moved, farthest, tolerance, warnings);
+    }
+    return strays;
+}
+
+} // namespace
+
+SampleInput read_samples_on(const std::string& path, const std::string& mesh_path,
+                            const MeshInput& mesh, const HeaderEntries* additions,
+                            const std::string& tolerance, std::vector<MeshWarning>& warnings,
+                            ProgressLine& progress) {
+    progress.begin_stage("reading the samples");
+    SampleInput input{read_samples(path), {}};
+    progress.clear();
+    check_dimensions(path, input.file, mesh_path, mesh);
+    if (!input.file.has_faces) {
+        input.strays =
+            put_on_faces(path, mesh_path, mesh, tolerance, input.file, warnings, progress);
+        return input;
+    }
+    check_rows(path, input.file, mesh_path, mesh);
+    if (additions != nullptr && !input.file.header.entries.empty()) {
+        warn_of_other_surface(path, input.file, *additions, warnings);
+    }
+    input.strays = find_strays(input.file, mesh);
+    return input;
+}
+
+SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
+                                   const MeshInput& mesh, const HeaderEntries* additions,
+                                   const std::string& tolerance, std::vector<MeshWarning>& warnings,
+                                   ProgressLine& progress) {
+    SampleInput input =
+        read_samples_on(path, mesh_path, mesh, additions, tolerance, warnings, progress);
+    if (input.strays.empty()) {
+        return std::move(input.file);
+    }
+    const StrayRow& first = input.strays.front();
+    const std::string sample = "sample " + std::to_string(first.row) + " is ";
+    if (input.file.has_faces) {
+        fail_input(path, sample + offset_text(first) + " on " + mesh_path +
+                             "; are these samples of another mesh?");
+    }
+    fail_input(path, counted(input.strays.size(), "point lies", "points lie") + " farther off " +
+                         mesh_path + " than --tolerance allows; " + sample +
+                         rounded(first.offset, 3) + " away");
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,37 @@
+// The samples of a command, read and put on their mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files/sample_file.hpp"
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+
+namespace geodisk::tools {
+
+/// Samples on a mesh.
+struct SampleInput {
+    SampleFile file;
+    std::vector<StrayRow> strays; ///< Not where they should be.
+};
+
+/// Reads the samples in the file `path` of the mesh in the file `mesh_path`. Points without faces
+/// are put on the nearest face, with a warning that says how far they lay away; those farther than
+/// `tolerance`, "" for a thousandth of the diagonal, are strays. Samples with faces are strays if
+/// their positions are elsewhere. Warns of samples of another surface than `additions` make, unless
+/// null. Throws UserError for rows that are not on the mesh at all.
+SampleInput read_samples_on(const std::string& path, const std::string& mesh_path,
+                            const MeshInput& mesh, const HeaderEntries* additions,
+                            const std::string& tolerance, std::vector<MeshWarning>& warnings,
+                            ProgressLine& progress);
+
+/// The same, and throws UserError(bad_input) for strays: samples of another mesh would land
+/// anywhere.
+SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
+                                   const MeshInput& mesh, const HeaderEntries* additions,
+                                   const std::string& tolerance, std::vector<MeshWarning>& warnings,
+                                   ProgressLine& progress);
+
+} // namespace geodisk::tools
