@@ -165,7 +165,7 @@ TEST_CASE("the report counts parts without a sample, which are too small for a c
     CHECK(report["mesh"]["components"] == 4);
     CHECK(report["mesh"]["components_without_samples"] == 2);
     CHECK(report["warnings"].back()["kind"] == "single_samples");
-    CHECK(contains(outcome.error, "no part has more than one sample: the minimum distance of 3"));
+    CHECK(contains(outcome.err, "no part has more than one sample: the minimum distance of 3"));
     outcome = sample("0.05");
     REQUIRE(outcome.status == 0);
     report = Json::parse(bytes_of(folder / "a.json"));
@@ -188,7 +188,7 @@ TEST_CASE("a count that parts cannot give, and parts without samples, are warnin
         std::vector<std::string> found;
         for (const Json& warning : Json::parse(bytes_of(folder / "a.json"))["warnings"]) {
             found.push_back(warning["kind"]);
-            CHECK(contains(outcome.error, warning["message"].get<std::string>()));
+            CHECK(contains(outcome.err, warning["message"].get<std::string>()));
         }
         return found;
     };

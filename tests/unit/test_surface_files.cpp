@@ -152,7 +152,7 @@ TEST_CASE("a sidecar file gives the coordinates of an OBJ file, with or without 
                 [] { mesh_of("a.obj", kBareObj, "0 0 0\n1 0 0\n1 1 0\n", ""); });
     check_fails(ExitCode::usage, "contradict", [] { mesh_of("a.obj", kObj, kLines4, kLengths); });
     check_fails(ExitCode::usage, "builtin:cube is complete", [] {
-        read_mesh({"builtin:cube", "a.txt", "", {}});
+        read_mesh({"builtin:cube", "", "a.txt", "", {}});
     });
 }
 
