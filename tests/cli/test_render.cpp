@@ -116,6 +116,19 @@ TEST_CASE("a disk is along the surface: not on the other side of a thin plate") 
     CHECK(std::min(top, bottom) == 0);
 }
 
+TEST_CASE("the style is disks where these are wide enough to tell apart, else points") {
+    const TemporaryFolder folder;
+    make_samples(folder);
+    const auto check = [&](const char* size, const char* style) {
+        const Arguments drawn = {kMesh, "a.ply", "--size", size};
+        const PngImage chosen = picture(folder, joined(drawn, {"--json", "p.json"}));
+        CHECK(nlohmann::json::parse(bytes_of(folder / "p.json"))["style"] == style);
+        CHECK(chosen.pixels == picture(folder, joined(drawn, {"--style", style})).pixels);
+    };
+    check("160x120", "points");
+    check("900x675", "disks");
+}
+
 TEST_CASE("each style draws another picture, and each run the same") {
     const TemporaryFolder folder;
     make_samples(folder);

@@ -221,7 +221,7 @@ def test_render(tmp_path):
         (lambda: geodisk.transfer(SAMPLES, VERTICES, VERTICES + 1, FACES), ValueError, "away"),
         (lambda: geodisk.transfer(geodisk.sample_box(count=9), VERTICES), ValueError, "box"),
         (lambda: geodisk.render(SAMPLES, VERTICES * 2, FACES), ValueError, "another mesh"),
-        (lambda: geodisk.render(SAMPLES, style="oil"), ValueError, "style takes disks"),
+        (lambda: geodisk.render(SAMPLES, style="oil"), ValueError, "is none of auto"),
         (lambda: geodisk.render(SAMPLES, view="above"), ValueError, "view takes"),
         (lambda: geodisk.render(SAMPLES, size=(0, 1)), ValueError, "size takes"),
         (lambda: geodisk.render(SAMPLES, device="nowhere"), geodisk.NoDevice, "nowhere"),

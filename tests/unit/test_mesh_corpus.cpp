@@ -237,6 +237,28 @@ TEST_CASE("cut and altered files are read or refused") {
     }
 }
 
+TEST_CASE("glTF files with altered data are read or refused") {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const TemporaryFolder folder;
+    std::uint32_t random = 7;
+    const auto next_random = [&random] { return (random = random * 1664525u + 1013904223u) >> 8; };
+    for (const char* const name : {"meshopt_cube.gltf", "meshopt_exponential.gltf",
+                                   "draco_cube.gltf", "draco_sequential.gltf"}) {
+        CAPTURE(name);
+        const std::string bytes = bytes_of(case_file(name));
+        const std::size_t begin = bytes.find("base64,") + 7;
+        const std::size_t size = bytes.find('"', begin) - begin;
+        for (int round = 0; round < 200; ++round) {
+            std::string altered = bytes;
+            for (int i = 0; i < 2; ++i) {
+                altered[begin + next_random() % size] = kDigits[next_random() % kDigits.size()];
+            }
+            check_survives(folder, ".gltf", altered);
+        }
+    }
+}
+
 TEST_CASE("the meshes have the documented numbers of vertices and triangles") {
     struct Size {
         const char* name;

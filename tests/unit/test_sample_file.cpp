@@ -57,6 +57,21 @@ void check_refused(std::string_view name, std::string_view bytes, std::string_vi
 
 } // namespace
 
+TEST_CASE("sample files may begin with a byte order mark, but not be UTF-16") {
+    const TemporaryFolder folder;
+    const std::string text = csv_with("1,2,3,4,1,0,0");
+    CHECK(read_samples(folder.write("a.csv", "\xEF\xBB\xBF" + text)).rows.size() == 1);
+    std::string wide = "\xff\xfe";
+    for (const char c : text) {
+        wide += c;
+        wide += '\0';
+    }
+    check_refused("a.csv", wide, "is UTF-16; save it as UTF-8");
+    write_samples(folder / "a.ply", {}, some_rows(0), true);
+    const std::string ply = "\xEF\xBB\xBF" + bytes_of(folder / "a.ply");
+    CHECK(read_samples(folder.write("b.ply", ply)).rows.size() == 100);
+}
+
 TEST_CASE("columns of parts are written last and kept") {
     const TemporaryFolder folder;
     const std::vector<SampleRow> rows = some_rows(0);

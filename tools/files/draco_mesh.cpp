@@ -1,6 +1,7 @@
 #include "files/draco_mesh.hpp"
 
 #include <array>
+#include <exception>
 #include <utility>
 
 #include <draco/compression/decode.h>
@@ -16,9 +17,7 @@ DracoMesh failed(std::string why) {
     return result;
 }
 
-} // namespace
-
-DracoMesh draco_decoded(std::string_view bytes, const std::vector<std::uint32_t>& ids) {
+DracoMesh decode(std::string_view bytes, const std::vector<std::uint32_t>& ids) {
     draco::DecoderBuffer buffer;
     buffer.Init(bytes.data(), bytes.size());
     draco::Decoder decoder;
@@ -62,6 +61,16 @@ DracoMesh draco_decoded(std::string_view bytes, const std::vector<std::uint32_t>
         result.attributes.push_back(std::move(values));
     }
     return result;
+}
+
+} // namespace
+
+DracoMesh draco_decoded(std::string_view bytes, const std::vector<std::uint32_t>& ids) {
+    try {
+        return decode(bytes, ids);
+    } catch (const std::exception&) { // Damaged data may promise more than memory holds.
+        return failed("its data cannot be decoded");
+    }
 }
 
 } // namespace geodisk::tools

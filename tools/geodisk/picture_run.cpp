@@ -36,7 +36,7 @@ class RenderReport {
                          {"output", options_.out.output},
                          {"width", drawn_.picture.pixels.width},
                          {"height", drawn_.picture.pixels.height},
-                         {"style", options_.style},
+                         {"style", picture::to_string(drawn_.picture.style)},
                          {"up", up_name()},
                          {"views", views},
                          {"windows", drawn_.windows},
@@ -52,8 +52,8 @@ class RenderReport {
         std::ostringstream out;
         out << subject_.lines << "samples       " << grouped(drawn_.samples) << " in "
             << one_line(subject_.samples_file) << '\n'
-            << "picture       " << options_.style << ", " << drawn_.picture.pixels.width << " x "
-            << drawn_.picture.pixels.height << '\n';
+            << "picture       " << picture::to_string(drawn_.picture.style) << ", "
+            << drawn_.picture.pixels.width << " x " << drawn_.picture.pixels.height << '\n';
         for (const picture::View& view : drawn_.picture.views) {
             out << "view          " << rounded(view.azimuth, 4) << ',' << rounded(view.elevation, 4)
                 << ", " << up_name() << " up\n";

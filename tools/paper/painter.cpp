@@ -73,6 +73,7 @@ std::vector<SurfaceDisk> disks_of(const std::vector<ref::FacePoint<double>>& sam
 PictureParams square_panel(const PanelSize& size) {
     PictureParams panel;
     panel.width = panel.height = size.pixels();
+    panel.style = tools::picture::Style::disks;
     return panel;
 }
 

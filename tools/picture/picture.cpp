@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "program/failure.hpp"
@@ -23,10 +24,17 @@ constexpr std::uint32_t kTrial = 96;
 /// Points are no smaller than this, in pixels, if their disks are not.
 constexpr double kPointRadius = 1.4;
 constexpr double kPointPart = 0.3;
+/// Disks of fewer pixels merge into a pattern, so that points show more.
+constexpr double kLegibleRadius = 7;
 /// What disks that are thrown until hardly one fits cover.
 constexpr double kCoverage = 0.53;
 /// The end of the scale of densities, in those of the smallest disks.
 constexpr double kDensest = 1.5;
+
+using NamedStyle = std::pair<std::string_view, Style>;
+constexpr NamedStyle kStyles[] = {{"auto", Style::automatic},    {"disks", Style::disks},
+                                  {"points", Style::points},     {"voronoi", Style::voronoi},
+                                  {"distance", Style::distance}, {"density", Style::density}};
 
 /// By what sRGB makes of it, the amount of light.
 const std::array<float, 256>& light_of_srgb() {
@@ -170,13 +178,25 @@ std::uint32_t kind_of(Style style) {
     }
 }
 
-/// `covered()` pixels show the surface, on which half the samples are in sight.
-DrawKind kind_with_scale(Style style, std::span<const SampleRec> samples,
+/// Pixels that a disk is wide, halved, where `covered` of them show the surface: half the samples
+/// are in sight.
+double disk_radius(std::size_t samples, double covered) {
+    const double disk = kCoverage * covered / (0.5 * static_cast<double>(samples));
+    return std::sqrt(std::max(1.0, disk) / std::numbers::pi);
+}
+
+/// `covered()` as above. Chooses a style where that is left open.
+DrawKind kind_with_scale(Style& style, std::span<const SampleRec> samples,
                          const std::function<double()>& covered) {
+    double radius = 0;
+    if (style == Style::automatic || style == Style::points) {
+        radius = disk_radius(samples.size(), covered());
+    }
+    if (style == Style::automatic) {
+        style = radius < kLegibleRadius ? Style::points : Style::disks;
+    }
     DrawKind what{kind_of(style)};
     if (style == Style::points) {
-        const double disk = kCoverage * covered() / (0.5 * static_cast<double>(samples.size()));
-        const double radius = std::sqrt(std::max(1.0, disk) / std::numbers::pi);
         what.high = static_cast<float>(std::clamp(kPointRadius / radius, kPointPart, 1.0));
     } else if (style == Style::density) {
         const auto least =
@@ -217,22 +237,20 @@ void draw_pane(Renderer& renderer, const Camera& camera, const DrawKind& what, c
 
 } // namespace
 
+const char* to_string(Style style) {
+    return std::ranges::find(kStyles, style, &NamedStyle::second)->first.data();
+}
+
 Style parse_style(const std::string& option, const std::string& text) {
-    constexpr std::pair<const char*, Style> kNames[] = {{"disks", Style::disks},
-                                                        {"points", Style::points},
-                                                        {"voronoi", Style::voronoi},
-                                                        {"distance", Style::distance},
-                                                        {"density", Style::density}};
-    for (const auto& [name, style] : kNames) {
-        if (text == name) {
-            return style;
+    const auto* const found = std::ranges::find(kStyles, text, &NamedStyle::first);
+    if (found == std::ranges::end(kStyles)) {
+        std::vector<std::string> known;
+        for (const auto& [name, style] : kStyles) {
+            known.emplace_back(name);
         }
+        fail_choice(option, text, known);
     }
-    std::vector<std::string> known;
-    for (const auto& [name, style] : kNames) {
-        known.emplace_back(name);
-    }
-    fail_choice(option, text, known);
+    return found->second;
 }
 
 double reach_of(Style style) {
@@ -312,9 +330,11 @@ Picture draw_picture(const Gpu& gpu, const Content& content, const PictureParams
             const double side = std::min(pane.width, pane.height);
             return try_view(renderer, scene, view, picture.up).covered * side * side;
         };
+        Style style = params.style;
         const DrawKind what = content.balls.empty()
-                                  ? kind_with_scale(params.style, content.samples, covered)
+                                  ? kind_with_scale(style, content.samples, covered)
                                   : DrawKind{kDrawFrame, 1, params.cuts};
+        picture.style = i == 0 ? style : picture.style;
         draw_pane(renderer, camera, what, pane, params.background, picture.pixels, tell_tile);
     }
     return picture;

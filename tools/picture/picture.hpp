@@ -16,15 +16,19 @@ namespace geodisk::tools::picture {
 
 /// What is shown of the samples, all by exact geodesic distance.
 enum class Style {
-    disks,    ///< The disk of each sample's radius; where two overlap, in another colour.
-    points,   ///< The samples.
-    voronoi,  ///< To which sample each place is nearest, in radii of the sample.
-    distance, ///< How far, with lines at each half radius.
-    density,  ///< Samples per length, the root of those per area, by the kernel
-              ///< 1 - (distance / 5 radii)^2.
+    automatic, ///< Disks, or points where disks would be too small to tell apart.
+    disks,     ///< The disk of each sample's radius; where two overlap, in another colour.
+    points,    ///< The samples.
+    voronoi,   ///< To which sample each place is nearest, in radii of the sample.
+    distance,  ///< How far, with lines at each half radius.
+    density,   ///< Samples per length, the root of those per area, by the kernel
+               ///< 1 - (distance / 5 radii)^2.
 };
 
-/// "disks" and so on. Throws UserError(usage) naming `option`.
+/// Name of a style as the command line has it: "auto", "disks" and so on.
+const char* to_string(Style style);
+
+/// The style of this name. Throws UserError(usage) naming `option`.
 Style parse_style(const std::string& option, const std::string& text);
 
 /// How far around a sample a style looks, in radii of the sample.
@@ -48,7 +52,7 @@ struct PictureParams {
     static constexpr std::uint32_t kFewestPixels = 16;
 
     std::uint32_t width = 1920, height = 1080;
-    Style style = Style::disks;
+    Style style = Style::automatic;
     std::vector<std::optional<View>> views{std::nullopt}; ///< None is a good one, see choose_view.
     std::optional<Up> up;                                 ///< Else likely_up().
     Background background;
@@ -58,7 +62,8 @@ struct PictureParams {
 /// A picture and what it shows.
 struct Picture {
     Pixels pixels;
-    std::vector<View> views; ///< As shown.
+    std::vector<View> views;    ///< As shown.
+    Style style = Style::disks; ///< As drawn, of the first view.
     Up up = Up::y;
 };
 

@@ -67,7 +67,8 @@ void render_flat(const RenderOptions& options, const PictureParams& params, cons
 
 void render_balls(const RenderOptions& options, const PictureParams& params, const Subject& subject,
                   const BoxParams& box, const SampleFile& samples, ProgressLine& progress) {
-    if (params.style != Style::disks && params.style != Style::points) {
+    if (params.style != Style::automatic && params.style != Style::disks &&
+        params.style != Style::points) {
         fail_usage("--style " + options.style +
                    " is of surfaces; samples in a box of 3 dimensions are shown as disks, which "
                    "are balls there, or as points");

@@ -33,6 +33,8 @@ void add_render_options(Command command, RenderOptions& options) {
     command.add_option("--size", options.size, "WxH", "Pixels of the picture").shows_default();
     command
         .add_option("--style", options.style, "STYLE",
+                    "auto      disks, or points where disks would be less than\n"
+                    "          14 pixels wide\n"
                     "disks     the geodesic disk of each sample, of its radius;\n"
                     "          where two overlap, orange\n"
                     "points    the samples\n"
@@ -40,7 +42,7 @@ void add_render_options(Command command, RenderOptions& options) {
                     "distance  how far the nearest sample is; where another one\n"
                     "          would have room, orange\n"
                     "density   how dense they are, dark for few, light for many")
-        .offers({"disks", "points", "voronoi", "distance", "density"})
+        .offers({"auto", "disks", "points", "voronoi", "distance", "density"})
         .shows_default();
     command
         .add_option("--view", options.views, "VIEW",

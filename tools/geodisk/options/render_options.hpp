@@ -19,7 +19,7 @@ struct RenderOptions {
     std::string samples, tolerance;
     OutputOptions out;
     DeviceOptions device;
-    std::string size = "1920x1080", style = "disks", background = "white";
+    std::string size = "1920x1080", style = "auto", background = "white";
     UpOption up;
     DistanceOptions distance;
     std::vector<std::string> views;

@@ -54,7 +54,7 @@ def render(
     faces: Faces | None = None,
     *,
     size: tuple[int, int] = (960, 540),
-    style: str = "disks",
+    style: str = "auto",
     view: str | tuple[float, float] | Sequence[str | tuple[float, float]] = "auto",
     up: str | None = None,
     background: str = "white",
@@ -75,14 +75,14 @@ def render(
         for samples that were read from a file.
     size : (int, int)
         Width and height in pixels.
-    style : {"disks", "points", "voronoi", "distance", "density"}
+    style : {"auto", "disks", "points", "voronoi", "distance", "density"}
         Geodesic disks, exact in each pixel; or points, cells, how far the nearest sample is, or how
-        dense they are.
+        dense they are. "auto" draws disks, or points where disks would be too small to tell apart.
     view : str, (float, float), or several of them
         ``"front"``, ``"back"``, ``"left"``, ``"right"``, ``"top"``, ``"bottom"``, azimuth and
         elevation in degrees, or ``"auto"`` for where most is seen from. Several make a sheet.
     up : {"x", "y", "z"}, optional
-        The axis that points up.
+        The axis that points up. Guessed from what the surface stands on unless given.
     background : str
         ``"white"``, ``"black"``, ``"transparent"`` or ``"RRGGBB"``.
     cut : bool
