@@ -144,7 +144,8 @@ TEST_CASE("box: verify explains what is no file of samples in a box") {
     folder.write("a.csv", "# box: 1 x 1\n# sides: open\n# min_distance: 1\n" + rows);
     check_fails(folder, 2, "options of surfaces", {"verify", "a.csv", "--lift", "normals:1"});
     check_fails(folder, 2, "a.csv", {"verify", "a.csv", "--json", "a.csv"});
-    check_fails(folder, 3, "does not tell of its box", {"verify", "a.xyz"});
+    folder.write("a.xyz", "0.5 0.5 0\n");
+    check_fails(folder, 3, "tells of no box", {"verify", "a.xyz"});
 }
 
 TEST_CASE("box: all formats hold the same samples") {

@@ -74,7 +74,10 @@ std::optional<TestMesh> shared_mesh(const std::string& name) {
     if (!path) {
         return std::nullopt;
     }
-    tools::MeshFile file = tools::read_mesh(path->string());
+    tools::MeshSources sources;
+    sources.mesh = path->string();
+    sources.keep_seams = true; // As the file connects its faces.
+    tools::MeshFile file = tools::read_mesh(sources);
     return TestMesh{std::move(file.positions), std::move(file.triangles), file.dimension};
 }
 

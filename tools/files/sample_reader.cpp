@@ -57,18 +57,23 @@ SampleFile read_ply_samples(PlyFile file, SampleDomain domain) {
     return samples;
 }
 
+/// Refuses formats that are written alone, whatever the file holds.
+void check_read_back(const Path& path) {
+    const std::string extension = lower_extension(path);
+    for (const char* const written : {".npz", ".gltf", ".glb"}) {
+        if (extension == written) {
+            fail_input(path, "geodisk writes samples as " + extension +
+                                 " but does not read them back; use .ply, .csv or .pcd");
+        }
+    }
+}
+
 /// The format by its extension, else by how it begins.
 std::string format_of(const Path& path, std::string_view bytes) {
     const std::string extension = lower_extension(path);
     for (const char* const known : {".ply", ".csv", ".pcd", ".obj"}) {
         if (extension == known) {
             return extension.substr(1);
-        }
-    }
-    for (const char* const written : {".npz", ".gltf", ".glb"}) {
-        if (extension == written) {
-            fail_input(path, "geodisk writes samples as " + extension +
-                                 " but does not read them back; use .ply, .csv or .pcd");
         }
     }
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
@@ -81,6 +86,7 @@ std::string format_of(const Path& path, std::string_view bytes) {
 }
 
 SampleFile read_in(const Path& path, SampleDomain domain) {
+    check_read_back(path);
     std::string bytes = read_text(path);
     const std::string format = format_of(path, bytes);
     if (format == "ply") {

@@ -25,11 +25,17 @@ std::string driver_fault();
 /// install a driver.
 std::string with_driver_fault(const std::string& message);
 
-/// The same as take(), for calls that look for devices.
+/// Does the same as take(), for calls that look for devices. Loaders answer a file that is no
+/// driver file with a lack of memory.
 template <class T>
 T take_device(Result<T>&& result, const std::string& prefix = {}) {
-    if (!result && result.error().status == Status::no_device) {
+    const auto is_of_drivers = [](Status status) {
+        return status == Status::no_device ||
+               (status == Status::out_of_host_memory && !driver_fault().empty());
+    };
+    if (!result && is_of_drivers(result.error().status)) {
         Error error = result.error();
+        error.status = Status::no_device;
         error.message = with_driver_fault(error.message);
         return take(Result<T>(std::move(error)), prefix);
     }

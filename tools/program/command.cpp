@@ -162,17 +162,17 @@ void Command::calls(std::function<void()> run) const {
     app_->callback(std::move(run));
 }
 
-CommandFacts Command::facts() const {
+CommandFacts Command::facts(bool with_hidden) const {
     CommandFacts facts{app_->get_name(), app_->get_description(), app_->get_footer(), {}, {}};
     const CLI::App& app = *app_;
     for (const CLI::Option* option : app.get_options()) {
-        if (!option->get_group().empty()) { // Else it is hidden.
+        if (with_hidden || !option->get_group().empty()) {
             facts.options.push_back(facts_of(*option, *offers_));
         }
     }
     for (CLI::App* command : app_->get_subcommands(std::function<bool(CLI::App*)>())) {
         if (!command->get_group().empty()) {
-            facts.commands.push_back(Command(*command, *offers_).facts());
+            facts.commands.push_back(Command(*command, *offers_).facts(with_hidden));
         }
     }
     return facts;

@@ -105,7 +105,8 @@ class Command {
     /// Does its work, once all is parsed.
     void calls(std::function<void()> run) const;
 
-    CommandFacts facts() const;
+    /// Describes the command; with `with_hidden`, also options that help does not show.
+    CommandFacts facts(bool with_hidden = false) const;
 
   private:
     CLI::App* app_;

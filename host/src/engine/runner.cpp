@@ -270,6 +270,8 @@ Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience
             set = std::move(*ended);
         }
         if (goes_on && impl_->on_progress && !impl_->on_progress(impl_->progress)) {
+            impl_->cancel();
+            impl_->release(); // Also where the run was over.
             return Error{Status::cancelled, "cancelled"};
         }
         return set;

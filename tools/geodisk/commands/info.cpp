@@ -149,8 +149,7 @@ void run_info(bool as_json) {
     if (!std::cout)
         fail_output("the list of devices cannot be written");
     if (!listed) {
-        const Error& error = listed.error();
-        throw UserError(exit_code_of(error.status), with_driver_fault(error.message));
+        take_device(Result<std::size_t>(listed.error()));
     }
     if (!chosen && !device.empty()) {
         take(Result<std::size_t>(chosen), kDeviceVariable);

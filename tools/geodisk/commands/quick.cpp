@@ -228,7 +228,7 @@ void check_mesh(Command app, const std::string& word) {
 
 /// What may stand where a mesh alone is sampled: options of `quick` and of the program.
 CommandFacts quick_facts(Command app) {
-    CommandFacts facts = app.find_command("quick")->facts();
+    CommandFacts facts = app.find_command("quick")->facts(true);
     const CommandFacts program = app.facts();
     facts.options.insert(facts.options.end(), program.options.begin(), program.options.end());
     return facts;

@@ -50,7 +50,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.density = options.density;
     job.out = options.out;
     job.columns = parse_part_columns(options.out.columns);
-    if (!job.out.output.empty()) {
+    if (!job.columns.empty() && !job.out.output.empty()) {
         check_columns(job.out.target(), job.columns);
     }
     job.run = options.run;

@@ -76,7 +76,7 @@ def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
 
 def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
     columns = columns_of(samples, as_box=samples.extents is not None)
-    entries = {**header, "samples": len(samples)}
+    entries = {**header, "samples": str(len(samples))}
     lines = [f"# {key}: {value}\n" for key, value in entries.items()]
     file.write(("".join(lines) + ",".join(columns) + "\n").encode())
     formats = ["%.17g" if column.dtype.kind == "f" else "%d" for column in columns.values()]
