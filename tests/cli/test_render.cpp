@@ -216,10 +216,11 @@ TEST_CASE("radii that vary are those of the file") {
     REQUIRE(run(folder, {"sample", "builtin:showpiece:60", "--density", "curvature", "-n", "300",
                          "-o", "a.ply"})
                 .status == 0);
-    const PngImage image = picture(folder, {"builtin:showpiece:60", "a.ply", "--size", "240x240"});
+    const Arguments drawn = {
+        "builtin:showpiece:60", "a.ply", "--size", "240x240", "--style", "disks"};
+    const PngImage image = picture(folder, drawn);
     CHECK(count_if(image, is_orange) == 0);
-    const PngImage wrong =
-        picture(folder, {"builtin:showpiece:60", "a.ply", "--size", "240x240", "--radius", "5%"});
+    const PngImage wrong = picture(folder, joined(drawn, {"--radius", "5%"}));
     CHECK(count_if(wrong, is_orange) > 100);
 }
 

@@ -205,7 +205,8 @@ TEST_CASE("-- ends the options, and values that look like options go behind =") 
     CHECK(run(folder, {"verify", "-q", "--", "--count.obj", "a.csv"}).status == 0);
     CHECK(run(folder, {"-n20", "--output=-b.csv", "-q", "--", "-q.obj"}).status == 0);
     CHECK(run(folder, {"verify", "-q", "--", "-q.obj", "-b.csv"}).status == 0);
-    CHECK(run(folder, {"sample", "-n=20", "-o=c.csv", "-q", "--mesh-format=obj", "./--"}).status == 0);
+    CHECK(run(folder, {"sample", "-n=20", "-o=c.csv", "-q", "--mesh-format=obj", "./--"}).status ==
+          0);
     CHECK(bytes_of(folder / "a.csv").size() > 100);
     CHECK(files_in(folder) ==
           std::vector<std::string>{"-", "--", "--count.obj", "-b.csv", "-q.obj", "a.csv", "c.csv"});

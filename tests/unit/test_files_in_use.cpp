@@ -60,14 +60,17 @@ TEST_CASE("no file that is read or written otherwise is written") {
     files.add_read({"the mesh", (folder / "mesh.ply").string()});
     files.add_written({"the samples", (folder / "a.ply").string()});
     files.add_written({"the report", ""});
-    check_fails(ExitCode::usage, "mesh.ply: the report would replace the mesh",
-                [&] { files.add_written({"the report", (folder / "./mesh.ply").string()}); });
-    check_fails(ExitCode::usage, "a.ply: the report would replace the samples",
-                [&] { files.add_written({"the report", (folder / "a.ply").string()}); });
+    check_fails(ExitCode::usage, "mesh.ply: the report would replace the mesh", [&] {
+        files.add_written({"the report", (folder / "./mesh.ply").string()});
+    });
+    check_fails(ExitCode::usage, "a.ply: the report would replace the samples", [&] {
+        files.add_written({"the report", (folder / "a.ply").string()});
+    });
 #ifndef _WIN32
     files.add_read({"the mesh", "-"});
-    check_fails(ExitCode::usage, "a stream is read once, but the mesh and the samples",
-                [&] { files.add_read({"the samples", "/dev/stdin"}); });
+    check_fails(ExitCode::usage, "a stream is read once, but the mesh and the samples", [&] {
+        files.add_read({"the samples", "/dev/stdin"});
+    });
     files.add_written({"the samples", "/dev/null"});
     files.add_written({"the report", "/dev/null"});
 #endif
@@ -100,6 +103,7 @@ TEST_CASE("files that a mesh names are read") {
     FilesInUse files;
     files.add_read({"the mesh", (folder / "mesh.obj").string()});
     files.add_written({"the samples", (folder / "new.png").string()});
-    check_fails(ExitCode::usage, "my wood.png: the picture would replace a file that ",
-                [&] { files.add_written({"the picture", (folder / "my wood.png").string()}); });
+    check_fails(ExitCode::usage, "my wood.png: the picture would replace a file that ", [&] {
+        files.add_written({"the picture", (folder / "my wood.png").string()});
+    });
 }

@@ -52,8 +52,7 @@ std::string number_of(const std::filesystem::path& path) {
 std::string identity_of_stream(const std::filesystem::path& path, const StreamPath& stream) {
     struct stat status {};
     const bool is_open = stream.descriptor >= 0;
-    const int found =
-        is_open ? fstat(stream.descriptor, &status) : stat(path.c_str(), &status);
+    const int found = is_open ? fstat(stream.descriptor, &status) : stat(path.c_str(), &status);
     if (found == 0 && (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode))) {
         return number_of(status);
     }

@@ -47,10 +47,10 @@ void FilesInUse::add_appended(const NamedFile& file) {
     }
     const auto check = [&](const std::map<std::string, NamedFile>& files) {
         if (const auto other = files.find(identity); other != files.end()) {
-            fail_usage((file.path == "-" ? "standard output" : file.path) + ": " + file.what +
-                       (output_stream(file.path) ? " would go to the same place as "
-                                                 : " would replace ") +
-                       other->second.what);
+            fail_usage(
+                (file.path == "-" ? "standard output" : file.path) + ": " + file.what +
+                (output_stream(file.path) ? " would go to the same place as " : " would replace ") +
+                other->second.what);
         }
     };
     check(read_);

@@ -45,8 +45,8 @@ MeshFile read_mesh(const MeshSources& sources);
 
 struct PolygonMesh;
 
-/// Makes a mesh of polygons that no file has, as read_mesh() does of those of a file. `sources.mesh`
-/// names them in messages.
+/// Makes a mesh of polygons that no file has, as read_mesh() does of those of a file.
+/// `sources.mesh` names them in messages.
 MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons);
 
 /// The names of all formats: "obj".

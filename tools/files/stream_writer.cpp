@@ -29,8 +29,7 @@ int copy_of(int descriptor) {
 }
 std::ptrdiff_t write_some(int descriptor, std::string_view bytes) {
     constexpr std::size_t kMost = 1 << 20; // Less than an int.
-    return _write(descriptor, bytes.data(),
-                  static_cast<unsigned>(std::min(bytes.size(), kMost)));
+    return _write(descriptor, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), kMost)));
 }
 int close_stream(int descriptor) {
     return _close(descriptor);
@@ -75,8 +74,7 @@ int write_stream(const std::filesystem::path& path, const StreamPath& stream,
                  std::string_view bytes) {
     std::cout.flush();
     std::cerr.flush();
-    const int descriptor =
-        stream.descriptor >= 0 ? copy_of(stream.descriptor) : open_stream(path);
+    const int descriptor = stream.descriptor >= 0 ? copy_of(stream.descriptor) : open_stream(path);
     if (descriptor < 0) {
         return errno;
     }

@@ -81,9 +81,9 @@ std::vector<std::string> understood(Command program, const std::string& command,
         arguments.erase(arguments.begin());
     }
     const Command chosen = command.empty() ? program : *program.find_command(command);
-    const std::vector<std::string> rest = asks_for_help(arguments)
-                                              ? std::vector<std::string>{"--help"}
-                                              : words_of(sorted_words(chosen.facts(true), arguments));
+    const std::vector<std::string> rest =
+        asks_for_help(arguments) ? std::vector<std::string>{"--help"}
+                                 : words_of(sorted_words(chosen.facts(true), arguments));
     words.insert(words.end(), rest.begin(), rest.end());
     std::reverse(words.begin(), words.end());
     return words;

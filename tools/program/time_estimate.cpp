@@ -3,7 +3,8 @@
 namespace geodisk::tools {
 namespace {
 
-// Seconds of work at first that say little of the rest, as memory for disks grows; and those that do.
+// Seconds of work at first that say little of the rest, as memory for disks grows; and those that
+// do.
 constexpr double kWarmUp = 1;
 constexpr double kTrial = 2;
 

@@ -140,7 +140,9 @@ class EdgeGrid {
     /// Bounds the time where very many edges share a cell.
     static constexpr int kMostCandidates = 256;
 
-    double length_of(std::uint32_t i) const { return distance(mesh_, edges_[i].from, edges_[i].to); }
+    double length_of(std::uint32_t i) const {
+        return distance(mesh_, edges_[i].from, edges_[i].to);
+    }
     static int level_of(double length) { return std::ilogb(length); }
 
     Place midpoint(std::uint32_t i) const {
@@ -257,7 +259,7 @@ Result<NearSeams> find_near_seams(const MeshView& mesh) noexcept {
         }
         // As many triangles as edges: then the surface itself is that narrow.
         return seams.degenerate_faces < std::max<std::uint64_t>(seams.edges, 1) ? seams
-                                                                               : NearSeams{};
+                                                                                : NearSeams{};
     });
 }
 
