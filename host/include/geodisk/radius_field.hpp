@@ -34,7 +34,7 @@ class RadiusField {
 
     /// Takes how dense samples are to be at every vertex, in any unit: samples per area come out in
     /// proportion, more where it is more, and none where it is 0. It is linear in each triangle.
-    /// What unused vertices have does not matter. Linear in the mesh.
+    /// Values of unused vertices are ignored. Linear in the mesh.
     ///
     /// Radii differ by a factor of up to 32, and by up to 4 within a triangle. Where the density
     /// asks for larger ones, samples are spread by chance instead, at the same density.
