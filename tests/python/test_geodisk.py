@@ -146,8 +146,10 @@ def test_a_count_with_a_stop_is_searched_for_without_it():
     first = geodisk.sample(VERTICES, FACES, count=200, stop_count=20, seed=3)
     assert first.min_distance == all_samples.min_distance
     assert np.array_equal(first.face_index, all_samples.face_index[:20])
+    assert first.report["missing"] == 0
     with pytest.warns(geodisk.GeodiskWarning, match="only .* of 1000000 samples found room"):
-        geodisk.sample(VERTICES, FACES, min_distance=0.5, stop_count=10**6)
+        short = geodisk.sample(VERTICES, FACES, min_distance=0.4, stop_count=10**6)
+    assert short.report["missing"] == 10**6 - len(short)
     with pytest.warns(geodisk.GeodiskWarning, match="only .* of 999 samples found room"):
         geodisk.sample_box([1, 1], min_distance=0.2, stop_count=999)
     with pytest.raises(ValueError, match="throws"):
@@ -360,16 +362,3 @@ def test_driver_files_that_are_missing_are_named(variable):
         [sys.executable, "-c", code], env=environment, timeout=60, capture_output=True, text=True
     ).stdout
     assert variable in told and "/nowhere/driver.json, which does not exist" in told
-
-
-def test_a_count_with_a_stop_is_searched_for_without_it():
-    all_samples = geodisk.sample(VERTICES, FACES, count=200, seed=3)
-    first = geodisk.sample(VERTICES, FACES, count=200, stop_count=20, seed=3)
-    assert first.min_distance == all_samples.min_distance
-    assert np.array_equal(first.face_index, all_samples.face_index[:20])
-    assert first.report["missing"] == 0
-    with pytest.warns(geodisk.GeodiskWarning, match="only"):
-        short = geodisk.sample(VERTICES, FACES, min_distance=0.4, stop_count=10**6)
-    assert short.report["missing"] == 10**6 - len(short)
-    with pytest.raises(ValueError, match="throws"):
-        geodisk.sample(VERTICES, FACES, count=200, throws=100)

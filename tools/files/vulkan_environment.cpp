@@ -140,9 +140,7 @@ std::string with_driver_fault(const std::string& message) {
     if (fault.empty()) {
         return message;
     }
-    // The library's own words on such variables, from what the loader reports, tell less.
-    const std::size_t end = std::min(message.find("; install"), message.find(": VK_"));
-    return message.substr(0, end) + "; " + fault;
+    return message.substr(0, message.find("; install")) + "; " + fault;
 }
 
 } // namespace geodisk::tools

@@ -104,35 +104,35 @@ Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
     if (is_uploaded && calls - first_call >= lag) {
         control = now->control(static_cast<std::uint32_t>((calls - lag) % options.frames));
     }
-    auto advice = now->job().advance(control);
-    if (!advice && advice.error().status == Status::workspace_too_small) {
-        options.pool_bytes *= 2;
-        auto plan = sampler->plan_run(domain, options.pool_bytes);
-        if (!plan) {
-            return plan.error();
-        }
-        if (plan->pool_bytes() <= now->plan().pool_bytes()) { // The device binds no more.
-            return advice.error();
-        }
-        if (auto replaced = replace(*plan); !replaced) {
-            return replaced.error();
-        }
-        return now->job().advance({});
-    }
+    const auto advice = now->job().advance(control);
+    const RunPlan& before = now->plan();
+    RunPlan plan = before;
     if (!advice) {
-        return advice;
-    }
-    ready = advice->ready;
-    if (advice->next == Next::larger_samples || advice->next == Next::start_over) {
-        RunPlan plan = now->plan();
+        if (advice.error().status != Status::workspace_too_small) {
+            return advice;
+        }
+        options.pool_bytes *= 2;
+        const auto larger = sampler->plan_run(domain, options.pool_bytes);
+        if (!larger) {
+            return larger.error();
+        }
+        if (larger->pool_bytes() <= before.pool_bytes()) { // The device binds no more.
+            return advice;
+        }
+        plan = *larger;
+        plan.error_bound = std::max(plan.error_bound, before.error_bound);
+        plan.sample_capacity = std::max(plan.sample_capacity, before.sample_capacity);
+    } else if (advice->next == Next::larger_samples || advice->next == Next::start_over) {
         plan.error_bound = advice->plan.error_bound;
         plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
-        if (auto replaced = replace(plan); !replaced) {
-            return replaced.error();
-        }
-        return now->job().advance({});
+    } else {
+        ready = advice->ready;
+        return advice;
     }
-    return advice;
+    if (auto replaced = replace(plan); !replaced) {
+        return replaced.error();
+    }
+    return now->job().advance({});
 }
 
 Result<Done> FrameSampler::Impl::record_work(VkCommandBuffer commands, const Advice& advice) {
