@@ -64,42 +64,44 @@ void check_error(const Error& error, const char* function, VkResult result) {
     CHECK(error.message.find(to_string(result)) != std::string::npos);
 }
 
-/// Fails every call that Runner::create makes of `function`, one after the other.
-std::uint32_t sweep_create(Bench& bench, const char* function, VkResult result) {
+/// Fails every call that Runner::create makes of `function`, one after the other; returns the runner
+/// that is created once none fails.
+Runner sweep_create(Bench& bench, const char* function, VkResult result, std::uint32_t& faults) {
     for (std::uint32_t number = 0;; ++number) {
         CAPTURE(number);
         bench.spy.fail(function, number, result);
         Result<Runner> runner = bench.create();
         if (!bench.spy.end_of_fault()) {
-            REQUIRE(runner);
-            bench.check_run(*runner);
-            return number;
+            return expect(std::move(runner));
         }
         REQUIRE_FALSE(runner);
         check_error(runner.error(), function, result);
         CHECK(bench.spy.alive() == "");
         CHECK(bench.spy.strangers() == 0);
+        ++faults;
     }
 }
 
-/// Fails every call that compiling for a domain makes of `function`; nothing is left of the
-/// pipelines before it, and the next try works.
-std::uint32_t sweep_prepare(Bench& bench, const char* function, VkResult result) {
+/// Fails every call of `function` that compiling for a domain makes, with `runner` and others like
+/// it: nothing is left of the pipelines before it, and the next try works. Leaves `runner` ready.
+void sweep_prepare(Bench& bench, Runner& runner, const char* function, VkResult result,
+                   std::uint32_t& faults) {
     for (std::uint32_t number = 0;; ++number) {
         CAPTURE(number);
-        Runner runner = expect(bench.create());
         const std::string own = bench.spy.alive();
         bench.spy.fail(function, number, result);
         const Result<Done> done = bench.prepare(runner);
         if (!bench.spy.end_of_fault()) {
             CHECK(done);
-            return number;
+            return;
         }
         REQUIRE_FALSE(done);
         check_error(done.error(), function, result);
         CHECK(bench.spy.alive() == own);
         CHECK(bench.spy.strangers() == 0);
         bench.check_run(runner);
+        runner = expect(bench.create());
+        ++faults;
     }
 }
 
@@ -109,10 +111,10 @@ bool makes_buffers(std::string_view function) {
            function == "vkBindBufferMemory" || function == "vkMapMemory";
 }
 
-/// Fails every call that a run makes of `function`; the runner works again after each.
-std::uint32_t sweep_run(Bench& bench, const char* function, VkResult result,
-                        const RunnerOptions& options = {}) {
-    Runner runner = bench.prepared_runner(options);
+/// Fails every call of `function` that a run by a prepared runner makes, and returns how many there
+/// are; the runner works again after each.
+std::uint32_t sweep_run(Bench& bench, Runner& runner, const char* function, VkResult result) {
+    runner.release_memory();
     const std::string own = bench.spy.alive();
     for (std::uint32_t number = 0;; ++number) {
         CAPTURE(number);
@@ -144,9 +146,12 @@ void sweep(Bench& bench, const char* function, VkResult result) {
     }
     CAPTURE(std::string(function));
     CAPTURE(to_string(result));
-    const std::uint32_t faults = sweep_create(bench, function, result) +
-                                 sweep_prepare(bench, function, result) +
-                                 sweep_run(bench, function, result);
+    std::uint32_t faults = 0;
+    {
+        Runner runner = sweep_create(bench, function, result, faults);
+        sweep_prepare(bench, runner, function, result, faults);
+        faults += sweep_run(bench, runner, function, result);
+    }
     CHECK(faults > 0);
     CHECK(bench.spy.alive() == "");
     CHECK(bench.spy.strangers() == 0);
@@ -199,13 +204,18 @@ TEST_SUITE("faults") {
         for (const auto& domain : domains) {
             Bench bench;
             bench.other = domain;
-            for (const Fallible& fallible : kFallible) {
-                const VkResult result = fallible.results.back();
-                CAPTURE(std::string(fallible.function));
-                sweep_run(bench, fallible.function, result);
-                CHECK(bench.spy.alive() == "");
-                CHECK(bench.spy.strangers() == 0);
+            std::uint32_t faults = 0;
+            {
+                Runner runner = bench.prepared_runner();
+                for (const Fallible& fallible : kFallible) {
+                    CAPTURE(std::string(fallible.function));
+                    faults +=
+                        sweep_run(bench, runner, fallible.function, fallible.results.back());
+                }
             }
+            CHECK(faults > 0);
+            CHECK(bench.spy.alive() == "");
+            CHECK(bench.spy.strangers() == 0);
         }
     }
 
@@ -215,41 +225,43 @@ TEST_SUITE("faults") {
         params.min_distance = 1;
         Bench bench;
         bench.other = [&] { return Domain::surface(tube, params); };
-        for (const auto& [function, result] :
-             {std::pair{"vkCreateComputePipelines", kNoDeviceMemory},
-              {"vkAllocateMemory", VK_ERROR_TOO_MANY_OBJECTS}}) {
-            const auto& shown = function; // Before Clang 16 lambdas capture no bindings.
-            CAPTURE(shown);
-            bool fired = true;
-            std::uint32_t number = 0;
-            for (; fired; ++number) {
-                CAPTURE(number);
-                Runner runner = bench.prepared_runner();
-                bench.spy.fail(function, number, result);
-                const Result<SampleSet> set = bench.sample(runner);
-                fired = bench.spy.end_of_fault();
-                if (fired) {
-                    REQUIRE_FALSE(set);
-                    check_error(set.error(), function, result);
-                }
-                bench.check_run(runner);
+        std::uint32_t compiled = 0;
+        for (bool fired = true; fired; ++compiled) {
+            CAPTURE(compiled);
+            Runner runner = bench.prepared_runner();
+            bench.spy.fail("vkCreateComputePipelines", compiled, kNoDeviceMemory);
+            const Result<SampleSet> set = bench.sample(runner);
+            fired = bench.spy.end_of_fault();
+            if (fired) {
+                REQUIRE_FALSE(set);
+                check_error(set.error(), "vkCreateComputePipelines", kNoDeviceMemory);
             }
-            CHECK(number > 1);
-            CHECK(bench.spy.alive() == "");
-            CHECK(bench.spy.strangers() == 0);
+            bench.check_run(runner);
         }
+        CHECK(compiled > 1);
+        {
+            Runner runner = bench.prepared_runner();
+            bench.check_run(runner); // Leaves it with the kernels that trim.
+            CHECK(sweep_run(bench, runner, "vkAllocateMemory", VK_ERROR_TOO_MANY_OBJECTS) > 1);
+        }
+        CHECK(bench.spy.alive() == "");
+        CHECK(bench.spy.strangers() == 0);
     }
 
     TEST_CASE("nor does one between chunks") {
         Bench bench;
-        for (const char* function :
-             {"vkCreateBuffer", "vkAllocateMemory", "vkBindBufferMemory", "vkQueueSubmit"}) {
-            CAPTURE(function);
-            CHECK(sweep_run(bench, function, kNoDeviceMemory, growing()) >
-                  sweep_run(bench, function, kNoDeviceMemory));
-            CHECK(bench.spy.alive() == "");
-            CHECK(bench.spy.strangers() == 0);
+        {
+            Runner in_chunks = bench.prepared_runner(growing());
+            Runner at_once = bench.prepared_runner();
+            for (const char* function :
+                 {"vkCreateBuffer", "vkAllocateMemory", "vkBindBufferMemory", "vkQueueSubmit"}) {
+                CAPTURE(function);
+                CHECK(sweep_run(bench, in_chunks, function, kNoDeviceMemory) >
+                      sweep_run(bench, at_once, function, kNoDeviceMemory));
+            }
         }
+        CHECK(bench.spy.alive() == "");
+        CHECK(bench.spy.strangers() == 0);
     }
 
     TEST_CASE("a wait that fails for want of memory goes on waiting") {
