@@ -59,3 +59,41 @@ def test_no_other_driver(stand_in):
     before, after = ask(stand_in, before="_cpu.c.list_devices = lambda: []; ")
     assert before == dict.fromkeys(before)
     assert after["VK_DRIVER_FILES"] == after["VK_ICD_FILENAMES"] == "/no/driver.json"
+
+
+ASK_FOR_DEVICES = """
+import geodisk
+from geodisk import _library
+
+def none():
+    raise geodisk.NoDevice("no driver", "no_device")
+
+_library.list_devices = none
+try:
+    geodisk.devices()
+except geodisk.NoDevice as error:
+    print(error, error.status)
+"""
+
+
+def told_without_devices(folder, **variables):
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("VK_")}
+    environment["PYTHONPATH"] = os.pathsep.join([str(folder), os.environ["PYTHONPATH"]])
+    return subprocess.run(
+        [sys.executable, "-c", ASK_FOR_DEVICES],
+        env={**environment, **variables},
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout.strip()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the package is for Linux")
+def test_the_package_is_named_where_it_would_help(tmp_path):
+    expected = "no driver; pip install 'geodisk[cpu]' brings a driver for the CPU no_device"
+    assert told_without_devices(tmp_path) == expected
+    assert told_without_devices(tmp_path, VK_DRIVER_FILES="/mine.json") == "no driver no_device"
+
+
+def test_the_package_is_not_named_where_it_is(stand_in):
+    assert told_without_devices(stand_in) == "no driver no_device"

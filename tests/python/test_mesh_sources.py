@@ -1,6 +1,8 @@
 """Meshes from files and polygons: those of the program."""
 
+import base64
 import copy
+import json
 import os
 import pathlib
 import pickle
@@ -100,8 +102,69 @@ def test_what_a_file_has(tmp_path):
             geodisk.Mesh(path)
     with pytest.raises(geodisk.MeshRejected, match="nosuch"):
         geodisk.Mesh(CASES / "mask01.ply", attributes=["nosuch"])
-    with pytest.raises(TypeError, match="files"):
-        geodisk.Mesh(VERTICES, FACES, attributes=["mask"])
+    for arguments in ({"attributes": "mask"}, {"columns": "mesh"}, {"mesh_format": "obj"}):
+        with pytest.raises(TypeError, match="files"):
+            geodisk.Mesh(VERTICES, FACES, **arguments)
+
+
+def test_the_format_is_told(tmp_path):
+    write_obj(tmp_path / "cube.txt", CUBE, SIDES)
+    expected = geodisk.sample(CUBE, SIDES, min_distance=0.3)
+    assert same(geodisk.sample(tmp_path / "cube.txt", mesh_format="obj", min_distance=0.3), expected)
+    with pytest.raises(geodisk.MeshRejected, match="or give mesh_format"):
+        geodisk.Mesh(tmp_path / "cube.txt")
+    with pytest.raises(geodisk.InvalidArgument, match="mesh_format: 'doc' is none of"):
+        geodisk.Mesh(tmp_path / "cube.txt", mesh_format="doc")
+
+
+def write_gltf(path):
+    """Two triangles by one primitive each, the second one placed by two nodes."""
+    points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "<f4").tobytes()
+    uri = "data:application/octet-stream;base64," + base64.b64encode(points).decode()
+    document = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(points), "uri": uri}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(points)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}] * 2,
+        "nodes": [{"mesh": 0}, {"mesh": 1, "translation": [3, 0, 0]}, {"mesh": 1, "translation": [6, 0, 0]}],
+    }
+    path.write_text(json.dumps(document))
+
+
+@pytest.mark.filterwarnings("ignore::geodisk.MeshWarning")
+def test_columns_of_triangles(tmp_path):
+    path = tmp_path / "three.gltf"
+    write_gltf(path)
+    names = ["mesh", "node", "primitive"]
+    mesh = geodisk.Mesh(path, columns=names)
+    assert {name: column.tolist() for name, column in mesh.columns.items()} == {
+        "mesh": [0, 1, 1],
+        "node": [0, 1, 2],
+        "primitive": [0, 0, 0],
+    }
+    samples = geodisk.sample(path, columns=names, min_distance=0.3)
+    assert samples.columns["node"].tolist() == samples.face_index.tolist()
+    assert set(geodisk.sample(path, columns="mesh,node", min_distance=1).columns) == {"mesh", "node"}
+    assert samples[3].columns["node"] == samples.face_index[3]
+    assert samples[::2].columns["node"].tolist() == samples.face_index[::2].tolist()
+    assert pickle.loads(pickle.dumps(mesh)).columns["mesh"].tolist() == [0, 1, 1]
+    for name in ("a.npz", "a.csv", "a.ply"):
+        samples.save(tmp_path / name)
+        again = geodisk.read(tmp_path / name).columns
+        assert set(again) == set(names) and all((again[n] == samples.columns[n]).all() for n in names)
+    for asked, kind, text in [
+        (["mesh", "meshes"], geodisk.InvalidArgument, "columns: 'meshes' is none of"),
+        (["mesh", "mesh"], geodisk.InvalidArgument, "columns: mesh is given twice"),
+    ]:
+        with pytest.raises(kind, match=text):
+            geodisk.Mesh(path, columns=asked)
+    with pytest.raises(geodisk.MeshRejected, match="does not tell the mesh of a face"):
+        geodisk.Mesh(CASES / "sphere.stl", columns=["mesh"])
+    with pytest.raises(TypeError, match="give columns and mesh_format to it"):
+        geodisk.sample(mesh, columns=["mesh"], min_distance=1)
+    with pytest.raises(geodisk.InvalidArgument, match="'x' is none of"):
+        geodisk.Samples(np.zeros((2, 3)), columns={"x": [1, 2]})
 
 
 def test_polygons_are_split_as_those_of_files(tmp_path):

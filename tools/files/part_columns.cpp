@@ -28,6 +28,10 @@ const PartColumn* find_column(std::string_view name) {
     return found == kPartColumns.end() ? nullptr : &*found;
 }
 
+std::uint32_t value_of(const MeshFile& mesh, const PartColumn& column, std::size_t triangle) {
+    return *column.value(mesh.parts[mesh.part_of_triangle[triangle]]);
+}
+
 } // namespace
 
 std::vector<std::string> part_column_names() {
@@ -77,12 +81,19 @@ std::vector<ExtraColumn> part_columns(const MeshFile& mesh, const std::vector<st
         ExtraColumn values{name, {}};
         values.values.reserve(rows.size());
         for (const SampleRow& row : rows) {
-            const MeshPart& part = mesh.parts[mesh.part_of_triangle[row.face]];
-            values.values.push_back(*find_column(name)->value(part));
+            values.values.push_back(value_of(mesh, *find_column(name), row.face));
         }
         columns.push_back(std::move(values));
     }
     return columns;
+}
+
+std::vector<std::uint32_t> part_column_of_triangles(const MeshFile& mesh, const std::string& name) {
+    std::vector<std::uint32_t> values(mesh.triangle_count());
+    for (std::size_t triangle = 0; triangle < values.size(); ++triangle) {
+        values[triangle] = value_of(mesh, *find_column(name), triangle);
+    }
+    return values;
 }
 
 } // namespace geodisk::tools

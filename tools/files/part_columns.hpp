@@ -1,6 +1,7 @@
 // Columns of samples that tell what part of the mesh file a sample lies in.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,5 +26,8 @@ void check_parts(const std::string& path, const MeshFile& mesh,
 /// Returns the columns of these names, which check_parts() has let pass, for `rows` on `mesh`.
 std::vector<ExtraColumn> part_columns(const MeshFile& mesh, const std::vector<std::string>& names,
                                       std::span<const SampleRow> rows);
+
+/// Returns the values of one of them for all triangles of `mesh`.
+std::vector<std::uint32_t> part_column_of_triangles(const MeshFile& mesh, const std::string& name);
 
 } // namespace geodisk::tools

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import functools
 import importlib
 import os
+import sys
 from types import ModuleType
+from typing import Iterator
 
 from . import _library as c
 from ._errors import NoDevice
@@ -29,6 +32,10 @@ def _is_there(library: str) -> bool:
     except OSError:
         return False
     return True
+
+
+def _user_chose() -> bool:
+    return any(name in os.environ for name in _CHOICES)
 
 
 def _a_device_is_usable() -> bool:
@@ -58,10 +65,22 @@ def provide() -> None:
     if package is None:
         return
     _library_folder()
-    if any(name in os.environ for name in _CHOICES) or _a_device_is_usable():
+    if _user_chose() or _a_device_is_usable():
         return
     for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):  # Older loaders know the second alone.
         os.environ[name] = package.DRIVER
+
+
+@contextlib.contextmanager
+def advice() -> Iterator[None]:
+    """Lets a NoDevice name the package, where that would bring a device."""
+    try:
+        yield
+    except NoDevice as error:
+        if sys.platform != "linux" or _package() is not None or _user_chose() or _a_device_is_usable():
+            raise
+        hint = "; pip install 'geodisk[cpu]' brings a driver for the CPU"
+        raise NoDevice(f"{error}{hint}", error.status) from None
 
 
 def environment() -> dict[str, str]:

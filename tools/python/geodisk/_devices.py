@@ -59,6 +59,8 @@ def devices() -> list[Device]:
     global _uses_drivers
     _uses_drivers = True
     _cpu.provide()
+    with _cpu.advice():
+        found = c.list_devices()
     return [
         Device(
             index=i,
@@ -70,7 +72,7 @@ def devices() -> list[Device]:
             memory=info.memory_bytes,
             uuid=bytes(info.uuid).hex(),
         )
-        for i, info in enumerate(c.list_devices())
+        for i, info in enumerate(found)
     ]
 
 
@@ -107,7 +109,8 @@ def _open(name: str) -> c.Handle:
             _cpu.provide()
             options = s.DeviceOptions(device=name.encode())
             try:
-                _opened[name] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
+                with _cpu.advice():
+                    _opened[name] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
             except e.NoDevice as error:
                 if name and name == os.environ.get("GEODISK_DEVICE"):
                     raise e.NoDevice(f"{error} (GEODISK_DEVICE is {name})", error.status) from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+
 class Error(Exception):
     """A call of geodisk failed.
 
@@ -88,3 +89,8 @@ class MeshWarning(GeodiskWarning):
         super().__init__(message)
         self.kind = kind
         self.count = count
+
+
+# Tracebacks show the names that users know.
+for _kind in (Error, *Error.__subclasses__(), GeodiskWarning, MeshWarning):
+    _kind.__module__ = "geodisk"

@@ -27,6 +27,7 @@ from ._structs import (
     SurfaceParams,
     SurfacePart,
 )
+from ._wording import in_python
 
 # Name, types of the arguments before the error, and whether it returns a status.
 _HANDLE = POINTER(c_void_p)
@@ -63,6 +64,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_source_read": [POINTER(SourceParams), _HANDLE],
     "geodisk_source_describe": [c_void_p, POINTER(SourceArrays)],
     "geodisk_source_attribute": [c_void_p, c_size_t, POINTER(POINTER(c_double))],
+    "geodisk_source_column": [c_void_p, c_size_t, POINTER(POINTER(c_uint32))],
     "geodisk_warnings_list": [c_void_p, c_void_p, _HANDLE],
     "geodisk_warnings_get": [c_void_p, c_size_t, POINTER(Oddity)],
 }
@@ -142,7 +144,7 @@ def call(name: str, *arguments: Any) -> None:
             text = ctypes.create_string_buffer(2048)
             call("geodisk_explain_no_device", error.message, text, len(text))
             message = text.value.decode("utf-8", "replace")
-        raise BY_STATUS.get(status, Error)(message, kind, element)
+        raise BY_STATUS.get(status, Error)(in_python(message), kind, element)
 
 
 def cancel(sampler: c_void_p) -> None:

@@ -42,7 +42,12 @@ class Mesh:
         Keep border edges apart that coincide exactly with others. They are joined otherwise, as
         along seams of texture coordinates; ``info["joined_edges"]`` counts them.
     attributes : sequence of str
-        Names of vertex attributes to read from a file.
+        Names of vertex attributes to read from a PLY file.
+    columns : sequence of str
+        What to read for each triangle of a glTF file: ``"mesh"``, ``"primitive"`` and ``"node"``,
+        the numbers of those that it lies in. Samples have them as well.
+    mesh_format : str, optional
+        Read the file as gltf, glb, obj, off, ply or stl, whatever its extension.
 
     Attributes
     ----------
@@ -53,6 +58,7 @@ class Mesh:
         The face, as given, that each triangle is part of. None if all faces are triangles, so that
         the numbers are the same.
     attributes : dict of ndarray, shape (v,)
+    columns : dict of ndarray of uint32, shape (f,)
     warnings : tuple of MeshWarning
         Everything odd about the mesh. They are also shown, once, when the mesh is made.
 
@@ -69,7 +75,7 @@ class Mesh:
     Warns
     -----
     MeshWarning
-        For open seams and whatever else is odd, in the words of the program.
+        For open seams and whatever else is odd.
 
     Notes
     -----
@@ -99,18 +105,30 @@ class Mesh:
         edge_lengths: ArrayLike | None = None,
         weld: bool | float = False,
         keep_seams: bool = False,
-        attributes: Sequence[str] = (),
+        attributes: str | Sequence[str] = (),
+        columns: str | Sequence[str] = (),
+        mesh_format: str | None = None,
     ) -> None:
         source: Source | None = None
         if faces is None and isinstance(vertices, (str, os.PathLike)):
             if edge_lengths is not None:
                 raise TypeError("edge_lengths are of faces that are given as well, not of a file")
-            path, names = vertices, tuple(attributes)
-            source = interruptible(lambda stop: read_file(path, weld, keep_seams, names, stop))
+            path = vertices
+            source = interruptible(
+                lambda stop: read_file(
+                    path,
+                    stop,
+                    weld=weld,
+                    keep_seams=keep_seams,
+                    attributes=_names(attributes),
+                    columns=_names(columns),
+                    mesh_format=mesh_format,
+                )
+            )
             surface = _surface_of(source, source.vertices, keep_seams)
         else:
-            if attributes:
-                raise TypeError("attributes are read from files")
+            if attributes or columns or mesh_format is not None:
+                raise TypeError("attributes, columns and mesh_format are for meshes of files")
             if faces is None:
                 vertices, faces = arrays_of(vertices)
             given = faces_of(faces)
@@ -154,6 +172,11 @@ class Mesh:
     def attributes(self) -> dict[str, NDArray[np.float64]]:
         """Vertex attributes that were read, by name."""
         return dict(self._surface.attributes)
+
+    @property
+    def columns(self) -> dict[str, NDArray[np.uint32]]:
+        """Values of the triangles that were read, by name."""
+        return dict(self._surface.columns)
 
     @property
     def area(self) -> float:
@@ -203,7 +226,12 @@ def _surface_of(source: Source, vertices: Any, keep_seams: bool) -> Surface:
         polygons=source.polygons,
         attributes=source.attributes,
         joined=source.joined,
+        columns=source.columns,
     )
+
+
+def _names(given: str | Sequence[str]) -> tuple[str, ...]:
+    return (given,) if isinstance(given, str) else tuple(given)
 
 
 def _created(surface: Surface) -> c.Handle:
@@ -243,14 +271,24 @@ def mesh_of(
     edge_lengths: ArrayLike | None,
     weld: bool | float,
     keep_seams: bool = False,
+    columns: str | Sequence[str] = (),
+    mesh_format: str | None = None,
 ) -> Mesh:
     """Returns the mesh that the arguments of a function name."""
     if not isinstance(vertices, Mesh):
         return Mesh(
-            vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams
+            vertices,
+            faces,
+            edge_lengths=edge_lengths,
+            weld=weld,
+            keep_seams=keep_seams,
+            columns=columns,
+            mesh_format=mesh_format,
         )
     if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
         raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
+    if columns or mesh_format is not None:
+        raise TypeError("a geodisk.Mesh has its columns already; give columns and mesh_format to it")
     return vertices
 
 

@@ -11,6 +11,7 @@ from typing import Sequence
 from . import _library as c
 from . import _structs as s
 from ._errors import GeodiskWarning, MeshWarning
+from ._wording import in_python
 
 _PACKAGE = os.path.dirname(os.path.abspath(__file__))
 
@@ -24,7 +25,7 @@ def oddities_of(mesh: c.Handle, source: c.Handle | None) -> tuple[MeshWarning, .
     for index in range(c.warnings_count(found.value)):
         one = s.Oddity()
         c.call("geodisk_warnings_get", found.value, index, ctypes.byref(one))
-        message = one.message.decode("utf-8", "replace")
+        message = in_python(one.message.decode("utf-8", "replace"))
         result.append(MeshWarning(message, one.kind.decode(), one.count))
     return tuple(result)
 

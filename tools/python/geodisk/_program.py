@@ -17,6 +17,7 @@ from typing import Iterator, Sequence
 from . import _cpu, _place
 from . import _errors as e
 from . import _library as c
+from ._wording import in_python
 
 _NAME = "geodisk.exe" if sys.platform == "win32" else "geodisk"
 _HOW_TO_GET_IT = (
@@ -107,14 +108,13 @@ def run(folder: pathlib.Path, arguments: Sequence[str], accepted: Sequence[int] 
     if ended.returncode in accepted:
         return
     kind, status = _FAILURES.get(ended.returncode, (e.Error, "internal"))
-    told = _in_python(ended.stderr)
-    raise kind(told or f"{program} ended with status {ended.returncode}", status)
+    told = _message(ended.stderr)
+    with _cpu.advice():
+        raise kind(told or f"{program} ended with status {ended.returncode}", status)
 
 
-def _in_python(told: str) -> str:
-    """The message of the program in words of this package."""
+def _message(told: str) -> str:
+    """Returns the error that the program printed, in words of this package."""
     lines = [line for line in told.splitlines() if not line.startswith("geodisk: warning:")]
-    message = " ".join(lines).replace("geodisk: ", "", 1)
-    message = re.sub(r" \(see geodisk \w+ --help\)", "", message)
-    message = re.sub(r"--([a-z-]+)", lambda option: option[1].replace("-", "_"), message)
+    message = in_python(" ".join(lines).replace("geodisk: ", "", 1))
     return re.sub(r"\.(ply|txt)\b", "", message)  # Files are called after what they hold.

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _errors as e
 from ._samples import Samples
-from ._writing import Header
+from ._writing import PART_COLUMNS, Header
 
 Columns = dict[str, NDArray[Any]]
 
@@ -87,11 +87,12 @@ def _from_npz(file: BinaryIO) -> Samples:
         header = json.loads(str(archive["header"])) if "header" in archive else {}
         header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
         arrays = {name: archive[name] for name in names if name in archive}
-    return _samples(header, **arrays)
+        columns = {name: archive[name] for name in PART_COLUMNS if name in archive}
+    return _samples(header, columns=columns, **arrays)
 
 
 def _whole(columns: Columns, name: str) -> NDArray[Any] | None:
-    """Returns a column of integers, which text has as floats."""
+    """Returns a column of integers, which text has as floats; None if there is none."""
     numbers = columns.get(name)
     if numbers is None or numbers.dtype.kind != "f":
         return numbers
@@ -120,6 +121,7 @@ def _of_columns(columns: Columns, header: Header) -> Samples:
         polygon_index=_whole(columns, "polygon_index"),
         barycentric=table("bary_u", "bary_v", "bary_w"),
         radius=columns.get("radius"),
+        columns={name: _whole(columns, name) for name in PART_COLUMNS if name in columns},
     )
 
 

@@ -25,7 +25,7 @@ def _copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any
     return array
 
 
-def polygons_of(surface: Surface | None, faces: NDArray[np.uint32]) -> NDArray[np.uint32] | None:
+def _polygons_of(surface: Surface | None, faces: NDArray[np.uint32]) -> NDArray[np.uint32] | None:
     """Returns the faces, as given, of triangles; None if the numbers are the same."""
     if surface is None or surface.polygons is None:
         return None
@@ -113,7 +113,8 @@ def _made(
         min_distance=distance,
         seed=seed,
         report=report,
-        polygon_index=None if faces is None else polygons_of(surface, faces),
+        polygon_index=None if faces is None else _polygons_of(surface, faces),
+        columns={} if surface is None else {k: x[faces] for k, x in surface.columns.items()},
         _surface=surface,
         **columns,
         **box,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ class Sample:
     face_index, polygon_index : int or None
     radius : float
     order : int
+    columns : dict of int
     """
 
     point: NDArray[np.float64] | None
@@ -27,3 +28,4 @@ class Sample:
     polygon_index: int | None
     radius: float
     order: int
+    columns: dict[str, int] = field(default_factory=dict)

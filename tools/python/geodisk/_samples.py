@@ -17,7 +17,7 @@ from ._arrays import indices, real
 from ._files import complete
 from ._sample import Sample
 from ._surface import Surface
-from ._writing import columns_of, header_of, write_csv, write_npz, write_ply
+from ._writing import PART_COLUMNS, columns_of, header_of, write_csv, write_npz, write_ply
 
 if TYPE_CHECKING:
     import pandas
@@ -41,6 +41,16 @@ def _table(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.f
     if not np.isfinite(array).all():
         place = np.argwhere(~np.isfinite(array))[0]
         raise e.invalid(f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}")
+    return array
+
+
+def _column(values: ArrayLike, name: str, n: int) -> NDArray[np.uint32]:
+    """As uint32, one for each of n samples."""
+    if name not in PART_COLUMNS:
+        raise e.invalid(f"columns: {name!r} is none of {', '.join(PART_COLUMNS)}")
+    array = indices(values, name).astype(np.uint32, copy=False)
+    if array.shape != (n,):
+        raise e.invalid(f"{name} has the shape {array.shape}, not {(n,)}")
     return array
 
 
@@ -77,6 +87,9 @@ class Samples:
         How the run went: candidates, disks, windows, rho, bytes and seconds.
     polygon_index : ndarray of uint32, shape (n,) or None
         Faces as they were given, where polygons were split into triangles.
+    columns : dict of ndarray of uint32, shape (n,)
+        What was read for triangles: ``"mesh"``, ``"primitive"`` and ``"node"`` of a glTF file, as
+        far as :class:`Mesh` was asked for them.
 
     Raises
     ------
@@ -115,6 +128,7 @@ class Samples:
     periodic: bool = False
     report: dict[str, Any] = field(default_factory=dict)
     polygon_index: NDArray[np.uint32] | None = None
+    columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
     _surface: Surface | None = None
 
     def __post_init__(self) -> None:
@@ -143,6 +157,7 @@ class Samples:
                     raise e.invalid(f"polygon_index has the shape {polygons.shape}, not {(n,)}")
                 keep("polygon_index", polygons.astype(np.uint32, copy=False))
             keep("barycentric", _table(self.barycentric, "barycentric", (n, 3)))
+        keep("columns", {name: _column(x, name, n) for name, x in self.columns.items()})
         distance = float(self.min_distance)
         if distance < 0 or math.isinf(distance):
             raise e.invalid(f"the minimum distance is {distance}, not positive")
@@ -184,6 +199,7 @@ class Samples:
             key = key if key.size > 0 else key.astype(np.int64)
         columns = {name: getattr(self, name) for name in _COLUMNS}
         chosen = {name: None if x is None else x[key] for name, x in columns.items()}
+        chosen["columns"] = {name: x[key] for name, x in self.columns.items()}
         return dataclasses.replace(self, **chosen)
 
     def __iter__(self) -> Iterator[Sample]:
@@ -204,6 +220,7 @@ class Samples:
             polygon_index=number(self.polygon_index),
             radius=float(self.radius[i]),
             order=int(self.order[i]),
+            columns={name: int(x[i]) for name, x in self.columns.items()},
         )
 
     def __getstate__(self) -> dict[str, Any]:
@@ -227,8 +244,8 @@ class Samples:
         -------
         pandas.DataFrame
             x, y, z (or x0, x1 ... in more dimensions), nx, ny, nz, face_index, bary_u, bary_v,
-            bary_w, polygon_index, radius and order, as far as there are any. ``attrs`` has the
-            minimum distance, the seed and the like.
+            bary_w, polygon_index, those of ``columns``, radius and order, as far as there are any.
+            ``attrs`` has the minimum distance, the seed and the like.
 
         Raises
         ------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_double
+from typing import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -40,6 +41,8 @@ def sample(
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
+    columns: str | Sequence[str] = (),
+    mesh_format: str | None = None,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
@@ -74,7 +77,7 @@ def sample(
         same key has the same candidates in every mesh.
     metric : {"geodesic", "euclidean", "approximate"}
         The latter two are for comparison.
-    edge_lengths, weld, keep_seams
+    edge_lengths, weld, keep_seams, columns, mesh_format
         As :class:`Mesh` has them.
     device : Device, int or str, optional
         One of :func:`devices`, its index, its UUID or a part of its name. Without it, the device
@@ -125,7 +128,7 @@ def sample(
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
-    mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams)
+    mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format)
     radii = radii_of(mesh, density, radius_factor)
     part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)

@@ -34,6 +34,7 @@ class Source:
     joined : ndarray of uint32, shape (v,), or None
         The lowest vertex that each one is joined with, where any are.
     joined_edges : int
+    columns : dict of ndarray of uint32, shape (f,)
     """
 
     vertices: NDArray[np.float64]
@@ -43,14 +44,18 @@ class Source:
     handle: c.Handle
     joined: NDArray[np.uint32] | None
     joined_edges: int
+    columns: dict[str, NDArray[np.uint32]]
 
 
 def read_file(
     path: str | os.PathLike[str],
+    stop: ctypes.c_int32,
+    *,
     weld: bool | float,
     keep_seams: bool,
-    names: Sequence[str],
-    stop: ctypes.c_int32,
+    attributes: Sequence[str],
+    columns: Sequence[str],
+    mesh_format: str | None,
 ) -> Source:
     """Reads a mesh file with the readers of the program.
 
@@ -66,11 +71,16 @@ def read_file(
         os.stat(name)  # Raises Python's own errors.
         if not os.access(name, os.R_OK):
             raise PermissionError(13, "Permission denied", name)
-    encoded = (ctypes.c_char_p * len(names))(*(attribute.encode() for attribute in names))
+    joined = ",".join(columns)  # Which the library splits, and checks each name.
+    encoded = (ctypes.c_char_p * len(attributes))(*(one.encode() for one in attributes))
     params = s.SourceParams(
-        path=os.fsencode(name), attributes=encoded, attribute_count=len(names)
+        path=os.fsencode(name),
+        attributes=encoded,
+        attribute_count=len(attributes),
+        columns=joined.encode(),
+        mesh_format=None if mesh_format is None else mesh_format.encode(),
     )
-    return _read(params, weld, keep_seams, names, stop)
+    return _read(params, stop, weld, keep_seams, attributes, joined.split(",") if joined else ())
 
 
 def split(
@@ -91,15 +101,16 @@ def split(
         face_ends=polygons.ends.ctypes.data,
         face_count=len(polygons.ends),
     )
-    return _read(params, weld, keep_seams, (), stop)
+    return _read(params, stop, weld, keep_seams)
 
 
 def _read(
     params: s.SourceParams,
+    stop: ctypes.c_int32,
     weld: bool | float,
     keep_seams: bool,
-    names: Sequence[str],
-    stop: ctypes.c_int32,
+    attributes: Sequence[str] = (),
+    columns: Sequence[str] = (),
 ) -> Source:
     params.stop = ctypes.pointer(stop)
     params.keep_seams = keep_seams
@@ -109,21 +120,26 @@ def _read(
     handle = c.Handle("source", "geodisk_source_read", ctypes.byref(params))
     arrays = s.SourceArrays()
     c.call("geodisk_source_describe", handle.value, ctypes.byref(arrays))
-    attributes = {}
-    for index, name in enumerate(names):
-        values = ctypes.POINTER(ctypes.c_double)()
-        c.call("geodisk_source_attribute", handle.value, index, ctypes.byref(values))
-        attributes[name] = _view(values, (arrays.vertex_count,), handle)
+
+    def named(what: str, kind: Any, names: Sequence[str], count: int) -> dict[str, NDArray[Any]]:
+        views = {}
+        for index, name in enumerate(names):
+            values = ctypes.POINTER(kind)()
+            c.call(f"geodisk_source_{what}", handle.value, index, ctypes.byref(values))
+            views[name] = _view(values, (count,), handle)
+        return views
+
     return Source(
         vertices=_view(arrays.positions, (arrays.vertex_count, arrays.dimension), handle),
         triangles=_view(arrays.triangles, (arrays.triangle_count, 3), handle),
         polygons=_view(arrays.polygons, (arrays.triangle_count,), handle)
         if arrays.polygons
         else None,
-        attributes=attributes,
+        attributes=named("attribute", ctypes.c_double, attributes, arrays.vertex_count),
         handle=handle,
         joined=_view(arrays.joined, (arrays.vertex_count,), handle) if arrays.joined else None,
         joined_edges=arrays.joined_edges,
+        columns=named("column", ctypes.c_uint32, columns, arrays.triangle_count),
     )
 
 

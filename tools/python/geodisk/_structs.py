@@ -201,6 +201,8 @@ class SourceParams(_Sized):
         ("attribute_count", c_size_t),
         ("stop", POINTER(c_int32)),
         ("keep_seams", c_int32),
+        ("mesh_format", c_char_p),
+        ("columns", c_char_p),
     ]
 
 

@@ -37,6 +37,8 @@ class Surface:
         The caller's face of each triangle, where the numbers differ.
     attributes : dict of ndarray of float64, shape (v,)
         Read from a file.
+    columns : dict of ndarray of uint32, shape (f,)
+        Read from a file.
     joined : ndarray of uint32, shape (v,), optional
         The lowest vertex that each one was joined with as the mesh was read.
     """
@@ -49,6 +51,7 @@ class Surface:
     polygons: NDArray[np.uint32] | None = None
     attributes: dict[str, NDArray[np.float64]] = field(default_factory=dict)
     joined: NDArray[np.uint32] | None = None
+    columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""

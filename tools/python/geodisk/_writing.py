@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 Header = dict[str, str]
 
+#: Names of the columns that tell what part of its file a triangle lies in.
+PART_COLUMNS = ("mesh", "primitive", "node")
+
 
 def header_of(samples: Samples) -> Header:
     """What files say besides the columns, by key."""
@@ -56,6 +59,7 @@ def columns_of(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
         columns["radius"] = samples.radius
     if samples.polygon_index is not None:
         columns["polygon_index"] = samples.polygon_index
+    columns.update(samples.columns)
     return columns
 
 
@@ -67,6 +71,7 @@ def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
         "barycentric": samples.barycentric,
         "radius": samples.radius,
         "polygon_index": samples.polygon_index,
+        **samples.columns,
         "min_distance": np.float64(samples.min_distance),
         "seed": None if samples.seed is None else np.uint64(samples.seed),
         "header": np.array(json.dumps(header)),

@@ -33,6 +33,8 @@ typedef struct geodisk_source_params {
     /* Reading ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
     const volatile int32_t *stop;
     int32_t keep_seams;        /* As in geodisk_mesh_params. */
+    const char *mesh_format;   /* "obj" and so on, or NULL for that of the extension. */
+    const char *columns;       /* Columns of triangles to read: "mesh,primitive". May be NULL. */
 } geodisk_source_params;
 
 /* Reads a mesh. Fails with GEODISK_MESH_REJECTED for a file that cannot be read or used. */
@@ -60,6 +62,10 @@ GEODISK_C_API geodisk_status geodisk_source_describe(const geodisk_source *sourc
 /* Writes to `values` where those of an attribute are, one for each vertex. */
 GEODISK_C_API geodisk_status geodisk_source_attribute(const geodisk_source *source, size_t index,
                                                       const double **values, geodisk_error *error);
+
+/* Writes to `values` where those of a column are, one for each triangle. */
+GEODISK_C_API geodisk_status geodisk_source_column(const geodisk_source *source, size_t index,
+                                                   const uint32_t **values, geodisk_error *error);
 
 GEODISK_C_API void geodisk_source_release(geodisk_source *source);
 

@@ -1,11 +1,13 @@
 #include "source.hpp"
 
+#include <memory>
 #include <span>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "c/call.hpp"
 #include "files/mesh_file.hpp"
+#include "files/part_columns.hpp"
 #include "files/polygon_mesh.hpp"
 #include "program/failure.hpp"
 
@@ -31,6 +33,10 @@ Status status_of(ExitCode code) {
     }
 }
 
+std::string text_of(const char* text) {
+    return text == nullptr ? "" : text;
+}
+
 PolygonMesh polygons_of(const geodisk_source_params& params) {
     PolygonMesh polygons;
     polygons.dimension = params.dimension;
@@ -53,6 +59,7 @@ MeshFile mesh_of(const geodisk_source_params& params) {
         return split_into_triangles(sources, polygons_of(params));
     }
     sources.mesh = params.path;
+    sources.format = text_of(params.mesh_format);
     for (const char* const name : std::span(params.attributes, params.attribute_count)) {
         sources.attributes.emplace_back(name);
     }
@@ -64,9 +71,20 @@ MeshFile mesh_of(const geodisk_source_params& params) {
     return read_mesh(sources);
 }
 
-Result<MeshFile> read(const geodisk_source_params& params) {
+std::unique_ptr<geodisk_source> source_of(const geodisk_source_params& params) {
+    const std::vector<std::string> names = parse_part_columns(text_of(params.columns));
+    auto source = std::make_unique<geodisk_source>();
+    source->mesh = mesh_of(params);
+    check_parts(text_of(params.path), source->mesh, names);
+    for (const std::string& name : names) {
+        source->columns.push_back(part_column_of_triangles(source->mesh, name));
+    }
+    return source;
+}
+
+Result<std::unique_ptr<geodisk_source>> read(const geodisk_source_params& params) {
     try {
-        return mesh_of(params);
+        return source_of(params);
     } catch (const UserError& error) {
         return Error{status_of(error.code()), error.what()};
     } catch (const Stopped&) {
@@ -88,11 +106,11 @@ geodisk_status geodisk_source_read(const geodisk_source_params* params, geodisk_
         if (!given) {
             return given.error();
         }
-        auto mesh = read(*given);
-        if (!mesh) {
-            return mesh.error();
+        auto made = read(*given);
+        if (!made) {
+            return made.error();
         }
-        *source = new geodisk_source{std::move(*mesh)};
+        *source = made->release();
         return Done{};
     });
 }
@@ -128,6 +146,20 @@ geodisk_status geodisk_source_attribute(const geodisk_source* source, size_t ind
             return wrong("there is no attribute " + std::to_string(index));
         }
         *values = source->mesh.attributes[index].data();
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_source_column(const geodisk_source* source, size_t index,
+                                     const uint32_t** values, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (source == nullptr || values == nullptr) {
+            return wrong("source or values is NULL");
+        }
+        if (index >= source->columns.size()) {
+            return wrong("there is no column " + std::to_string(index));
+        }
+        *values = source->columns[index].data();
         return Done{};
     });
 }

@@ -1,9 +1,13 @@
 // The sources of meshes of the Python package.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "geodisk_python.h"
 #include "geometry/mesh.hpp"
 
 struct geodisk_source {
     geodisk::tools::MeshFile mesh;
+    std::vector<std::vector<std::uint32_t>> columns; ///< A value for each triangle.
 };
