@@ -65,6 +65,15 @@ TEST_CASE("a mesh is sampled and drawn at once") {
     CHECK(bytes_of(folder / "b.png") == bytes_of(folder / "a.png"));
 
     const Arguments good = {"sample", kMesh, "-n", "400", "-o", "c.ply", "--picture"};
+    REQUIRE(run(folder, joined(good, {"c.png", "--legend"})).status == 0);
+    REQUIRE(run(folder, {"render", kMesh, "a.ply", "-o", "a.png", "--legend"}).status == 0);
+    CHECK(bytes_of(folder / "c.png") == bytes_of(folder / "a.png"));
+    CHECK(bytes_of(folder / "c.png") != bytes_of(folder / "b.png"));
+    check_fails(folder, 2, "--picture FILE",
+                {"sample", kMesh, "-n", "400", "-o", "c.ply", "--legend"});
+    check_fails(folder, 2, "--legend has no room in a view of 40 x 40 pixels",
+                {"render", kMesh, "a.ply", "-o", "small.png", "--size", "40x40", "--legend"});
+    CHECK_FALSE(std::filesystem::exists(folder / "small.png"));
     check_fails(folder, 2, "*.png", joined(good, {"c.jpg"}));
     check_fails(folder, 2, "the picture would replace the samples", joined(good, {"c.ply"}));
     check_fails(folder, 4, "nowhere", joined(good, {"nowhere/c.png"}));

@@ -176,6 +176,8 @@ def test_render(tmp_path):
     assert (tmp_path / "a.png").read_bytes() == picture.png
     with pytest.raises(ValueError, match="png"):
         picture.save(tmp_path / "a.jpg")
+    legend = geodisk.render(SAMPLES, size=(200, 150), legend=True)
+    assert legend.png != geodisk.render(SAMPLES, size=(200, 150)).png
     sheet = geodisk.render(SAMPLES, size=(64, 48), view=["front", (1, 2)], up="z", style="points")
     assert sheet.png != picture.png
     box = geodisk.sample_box([1, 1, 1], min_distance=0.4)
@@ -224,6 +226,7 @@ def test_render(tmp_path):
         (lambda: geodisk.render(SAMPLES, style="oil"), ValueError, "is none of auto"),
         (lambda: geodisk.render(SAMPLES, view="above"), ValueError, "view takes"),
         (lambda: geodisk.render(SAMPLES, size=(0, 1)), ValueError, "size takes"),
+        (lambda: geodisk.render(SAMPLES, size=(20, 20), legend=True), ValueError, "no room"),
         (lambda: geodisk.render(SAMPLES, device="nowhere"), geodisk.NoDevice, "nowhere"),
     ],
 )

@@ -241,9 +241,9 @@ TEST_CASE("a page is made of texts that are there, and ends no script too early"
         return;
     }
     for (const char* const name :
-         {"three.js", "orbit.js", "records.h", "colors.glsl", "nearest.glsl", "data.js", "texts.js",
-          "charts.js", "view.js", "page.js", "surface.vert", "surface.frag", "point.vert",
-          "point.frag"}) {
+         {"three.js", "orbit.js", "records.h", "colors.glsl", "scale_knots.h", "nearest.glsl",
+          "data.js", "texts.js", "charts.js", "view.js", "page.js", "surface.vert", "surface.frag",
+          "point.vert", "point.frag"}) {
         std::string text;
         for (const std::string_view piece : report::front_end_text(name)) {
             text += piece;

@@ -123,6 +123,15 @@ void check_visible(const std::string& path, const MeshInput& mesh) {
     }
 }
 
+picture::Scene make_scene(const MeshOptions& options, const MeshInput& mesh) {
+    picture::Scene scene =
+        picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);
+    if (!options.lifts.empty() || !mesh.file.lengths.empty()) {
+        scene.scale = 0; // Lengths on the surface are others than those in space.
+    }
+    return scene;
+}
+
 DrawnPicture draw_surface(const Context& context, const picture::PictureParams& params,
                           const PreparedMesh& mesh, const picture::Scene& scene,
                           std::vector<SurfaceDisk> disks, ProgressLine& progress) {

@@ -12,6 +12,7 @@
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/json.hpp"
 #include "picture/picture.hpp"
+#include "picture/scene.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -36,6 +37,9 @@ void check_picture_path(const Path& path);
 
 /// Throws UserError(bad_input) for a mesh of edge lengths alone, read from `path`.
 void check_visible(const std::string& path, const MeshInput& mesh);
+
+/// Returns what is drawn of the surface of `mesh`, read by `options`.
+picture::Scene make_scene(const MeshOptions& options, const MeshInput& mesh);
 
 /// Draws a surface with a disk for each sample, at least one, each as large as its radius in mesh
 /// units, on a device that can draw. Throws UserError.

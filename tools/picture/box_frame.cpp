@@ -51,15 +51,7 @@ BoxFrame::BoxFrame(const BoxParams& box, double radius) {
         }
     }
     scene_ = make_scene(positions, 3, triangles);
-    // As make_scene scales: corners at most 1 from the middle.
-    const glm::dvec3 corner = scene_.corner(0);
-    double from_middle = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        from_middle = std::hypot(from_middle,
-                                 positions[std::size_t{3} * triangles[0] + axis] - middle_[axis]);
-    }
-    scale_ = std::hypot(std::hypot(corner.x, corner.y), corner.z) / from_middle;
-    scene_.around = radius * scale_;
+    scene_.around = radius * scene_.scale;
     const auto faces = static_cast<std::uint32_t>(triangles.size() / 3);
     for (std::uint32_t face = 0; face < faces; ++face) {
         table_.faces.push_back({1, 0, 1, 0, 1, 1, 1, face});
@@ -69,9 +61,9 @@ BoxFrame::BoxFrame(const BoxParams& box, double radius) {
 
 BallRec BoxFrame::ball(const std::array<double, 3>& at, double radius, std::uint32_t color) const {
     const auto place = [&](std::size_t axis) {
-        return static_cast<float>((at[axis] - middle_[axis]) * scale_);
+        return static_cast<float>((at[axis] - middle_[axis]) * scene_.scale);
     };
-    return {place(0), place(1), place(2), static_cast<float>(radius * scale_), color};
+    return {place(0), place(1), place(2), static_cast<float>(radius * scene_.scale), color};
 }
 
 } // namespace geodisk::tools::picture

@@ -26,7 +26,6 @@ class BoxFrame {
 
   private:
     std::array<double, 3> middle_;
-    double scale_; ///< From the box to the scene.
     Scene scene_;
     WindowTable table_;
 };

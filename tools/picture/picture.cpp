@@ -9,6 +9,11 @@
 #include <string_view>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "picture/legend.hpp"
+#include "picture/srgb.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/suggestion.hpp"
@@ -28,45 +33,14 @@ constexpr double kPointPart = 0.3;
 constexpr double kLegibleRadius = 7;
 /// What disks that are thrown until hardly one fits cover.
 constexpr double kCoverage = 0.53;
-/// The end of the scale of densities, in those of the smallest disks.
+/// The end of the scale of densities, in those of disks that few samples have smaller.
 constexpr double kDensest = 1.5;
+constexpr std::size_t kFew = 8; // One of so many.
 
 using NamedStyle = std::pair<std::string_view, Style>;
 constexpr NamedStyle kStyles[] = {{"auto", Style::automatic},    {"disks", Style::disks},
                                   {"points", Style::points},     {"voronoi", Style::voronoi},
                                   {"distance", Style::distance}, {"density", Style::density}};
-
-/// By what sRGB makes of it, the amount of light.
-const std::array<float, 256>& light_of_srgb() {
-    static const std::array<float, 256> kTable = [] {
-        std::array<float, 256> light{};
-        for (std::size_t i = 0; i < light.size(); ++i) {
-            const double c = static_cast<double>(i) / 255;
-            light[i] =
-                static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-        }
-        return light;
-    }();
-    return kTable;
-}
-
-/// What sRGB makes of an amount of light, in steps finer than its own.
-std::uint8_t to_srgb(float light) {
-    constexpr std::size_t kSteps = std::size_t{1} << 16;
-    static const std::vector<std::uint8_t> kTable = [] {
-        std::vector<std::uint8_t> codes;
-        codes.reserve(kSteps);
-        for (std::size_t i = 0; i < kSteps; ++i) {
-            const double amount = static_cast<double>(i) / (kSteps - 1);
-            const double c =
-                amount <= 0.0031308 ? 12.92 * amount : 1.055 * std::pow(amount, 1 / 2.4) - 0.055;
-            codes.push_back(static_cast<std::uint8_t>(std::lround(c * 255)));
-        }
-        return codes;
-    }();
-    return kTable[static_cast<std::size_t>(
-        std::lround(std::clamp(light, 0.0f, 1.0f) * (kSteps - 1)))];
-}
 
 /// Mean of a square of drawn pixels, in front of the background.
 void average(std::span<const std::uint8_t> drawn, std::size_t width, std::size_t x, std::size_t y,
@@ -185,6 +159,17 @@ double disk_radius(std::size_t samples, double covered) {
     return std::sqrt(std::max(1.0, disk) / std::numbers::pi);
 }
 
+/// A few outliers would make the whole scale dark.
+float small_radius(std::span<const SampleRec> samples) {
+    std::vector<float> radii;
+    for (const SampleRec& sample : samples) {
+        radii.push_back(sample.radius);
+    }
+    const auto few = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / kFew);
+    std::ranges::nth_element(radii, few);
+    return *few;
+}
+
 /// `covered()` as above. Chooses a style where that is left open.
 DrawKind kind_with_scale(Style& style, std::span<const SampleRec> samples,
                          const std::function<double()>& covered) {
@@ -199,13 +184,58 @@ DrawKind kind_with_scale(Style& style, std::span<const SampleRec> samples,
     if (style == Style::points) {
         what.high = static_cast<float>(std::clamp(kPointRadius / radius, kPointPart, 1.0));
     } else if (style == Style::density) {
-        const auto least =
-            std::min_element(samples.begin(), samples.end(),
-                             [](const auto& a, const auto& b) { return a.radius < b.radius; });
-        what.high = static_cast<float>(kDensest * kCoverage / std::numbers::pi) /
-                    (least->radius * least->radius);
+        const float small = small_radius(samples);
+        what.high = static_cast<float>(kDensest * kCoverage / std::numbers::pi) / (small * small);
     }
     return what;
+}
+
+void fill_background(const Background& color, Pixels& pixels) {
+    const std::array<std::uint8_t, 4> one{color.red, color.green, color.blue, color.alpha};
+    pixels.rgba.reserve(one.size() * pixels.width * pixels.height);
+    for (std::size_t i = 0; i < std::size_t{pixels.width} * pixels.height; ++i) {
+        pixels.rgba.insert(pixels.rgba.end(), one.begin(), one.end());
+    }
+}
+
+LegendFacts legend_facts(const Content& content, Style style) {
+    LegendFacts facts{content.samples.size() + content.balls.size(), content.ball_distance,
+                      content.ball_distance, style, content.scene.scale > 0};
+    if (!content.samples.empty()) {
+        const auto [smallest, largest] =
+            std::ranges::minmax(content.samples, {}, &SampleRec::radius);
+        facts.smallest_distance = 2 * content.table.unit * static_cast<double>(smallest.radius);
+        facts.largest_distance = 2 * content.table.unit * static_cast<double>(largest.radius);
+    }
+    return facts;
+}
+
+/// Where each view is drawn, and the legend below it if there are any.
+struct Layout {
+    std::vector<Pane> panes;
+    std::vector<Legend> legends;
+};
+
+Layout lay_out(const Content& content, const PictureParams& params) {
+    Layout layout{
+        lay_out(params.width, params.height, static_cast<std::uint32_t>(params.views.size())), {}};
+    if (params.legend) {
+        const LegendFacts facts = legend_facts(content, params.style);
+        for (Pane& pane : layout.panes) {
+            layout.legends.emplace_back(facts, pane.width, pane.height);
+            pane.height -= layout.legends.back().height();
+        }
+    }
+    return layout;
+}
+
+Legend::Scale legend_scale(const Content& content, const Camera& camera, const DrawKind& what,
+                           const Pane& pane) {
+    const glm::vec4 middle = camera.to_clip[3];
+    const glm::vec3 right(camera.to_clip[0].x, camera.to_clip[1].x, camera.to_clip[2].x);
+    const double in_scene = static_cast<double>(glm::length(right) / middle.w) * pane.width / 2;
+    return {in_scene * content.scene.scale,
+            static_cast<double>(what.high) / (content.table.unit * content.table.unit)};
 }
 
 /// Draws a view into its pane, part by part.
@@ -298,12 +328,11 @@ Picture draw_picture(const Gpu& gpu, const Content& content, const PictureParams
     const Scene& scene = content.scene;
     Picture picture;
     picture.pixels = {params.width, params.height, {}};
-    picture.pixels.rgba.resize(std::size_t{4} * params.width * params.height);
     picture.up = params.up.value_or(likely_up(scene));
+    const auto [panes, legends] = lay_out(content, params);
+    fill_background(params.background, picture.pixels);
     Renderer renderer(gpu, content);
 
-    const auto panes =
-        lay_out(params.width, params.height, static_cast<std::uint32_t>(params.views.size()));
     const auto tiles = [](std::uint32_t pixels) { return (pixels + kTile - 1) / kTile; };
     std::uint32_t all = 0;
     for (const Pane& pane : panes) {
@@ -336,6 +365,10 @@ Picture draw_picture(const Gpu& gpu, const Content& content, const PictureParams
                                   : DrawKind{kDrawFrame, 1, params.cuts};
         picture.style = i == 0 ? style : picture.style;
         draw_pane(renderer, camera, what, pane, params.background, picture.pixels, tell_tile);
+        if (params.legend) {
+            legends[i].draw(picture.pixels, params.background, pane.x, pane.y + pane.height,
+                            legend_scale(content, camera, what, pane));
+        }
     }
     return picture;
 }

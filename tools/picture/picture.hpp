@@ -56,7 +56,8 @@ struct PictureParams {
     std::vector<std::optional<View>> views{std::nullopt}; ///< None is a good one, see choose_view.
     std::optional<Up> up;                                 ///< Else likely_up().
     Background background;
-    bool cuts = false; ///< Cuts away the eighth of a box nearest to the eye.
+    bool cuts = false;   ///< Cuts away the eighth of a box nearest to the eye.
+    bool legend = false; ///< Below each view, see Legend.
 };
 
 /// A picture and what it shows.

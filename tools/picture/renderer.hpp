@@ -31,6 +31,7 @@ struct Content {
     const WindowTable& table;
     std::span<const SampleRec> samples;
     std::span<const BallRec> balls = {};
+    double ball_distance = 0; ///< Minimum distance of the samples that are balls, in mesh units.
 };
 
 /// Holds a scene on the device. All members throw UserError.

@@ -15,9 +15,10 @@ constexpr double kEye = 1.5;
 /// At a vertex of more faces nothing is smoothed: it is a tip, and each face would ask all others.
 constexpr std::size_t kMostSmoothed = 64;
 
-/// Moves the middle of the bounding box to the origin, and scales to at most 1 from there.
-void normalize_points(std::vector<double>& points, std::uint32_t dimension,
-                      std::span<const std::uint32_t> used) {
+/// Moves the middle of the bounding box to the origin, and scales to at most 1 from there. Returns
+/// the factor.
+double normalize_points(std::vector<double>& points, std::uint32_t dimension,
+                        std::span<const std::uint32_t> used) {
     std::vector<double> low(dimension, std::numeric_limits<double>::infinity());
     std::vector<double> high(dimension, -std::numeric_limits<double>::infinity());
     for (const std::uint32_t v : used) {
@@ -45,11 +46,13 @@ void normalize_points(std::vector<double>& points, std::uint32_t dimension,
         }
         farthest = std::max(farthest, square);
     }
-    if (farthest > 0) {
-        const double rest = 1 / std::sqrt(farthest);
-        std::transform(points.begin(), points.end(), points.begin(),
-                       [rest](double x) { return x * rest; });
+    if (!(farthest > 0)) {
+        return scale;
     }
+    const double rest = 1 / std::sqrt(farthest);
+    std::transform(points.begin(), points.end(), points.begin(),
+                   [rest](double x) { return x * rest; });
+    return scale * rest;
 }
 
 /// Drops the last coordinate in perspective.
@@ -141,8 +144,10 @@ glm::dvec3 corner_normal(std::size_t corner, std::span<const std::uint32_t> arou
 Scene make_scene(std::span<const double> positions, std::uint32_t dimension,
                  std::span<const std::uint32_t> triangles) {
     std::vector<double> coordinates(positions.begin(), positions.end());
-    normalize_points(coordinates, dimension, triangles);
+    Scene scene;
+    scene.scale = normalize_points(coordinates, dimension, triangles);
     while (dimension > 3) {
+        scene.scale = 0;
         coordinates = project(coordinates, dimension);
         --dimension;
         normalize_points(coordinates, dimension, triangles);
@@ -155,7 +160,6 @@ Scene make_scene(std::span<const double> positions, std::uint32_t dimension,
     }
     const Normals normals = face_normals(points, triangles);
     const VertexCorners vertices(triangles, points.size());
-    Scene scene;
     scene.corners.reserve(triangles.size());
     for (std::size_t corner = 0; corner < triangles.size(); ++corner) {
         const std::uint32_t v = triangles[corner];

@@ -17,6 +17,8 @@ struct Scene {
     std::vector<CornerRec> corners;
     /// What is drawn sticks out from the corners by no more than this.
     double around = 0;
+    /// Lengths here per length of the mesh; 0 where they are not in proportion.
+    double scale = 0;
 
     glm::dvec3 corner(std::size_t index) const {
         return {corners[index].x, corners[index].y, corners[index].z};

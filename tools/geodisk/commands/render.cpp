@@ -49,8 +49,7 @@ void render_samples(const RenderOptions& options) {
                           {{"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},
                            {"warnings", warnings_json(warnings)}}};
     progress.begin_stage("preparing the scene");
-    const picture::Scene scene =
-        picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);
+    const picture::Scene scene = make_scene(options.mesh, mesh);
     render_surface(options, params, subject, mesh.prepared, scene, std::move(disks), progress);
 }
 

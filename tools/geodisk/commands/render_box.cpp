@@ -83,7 +83,8 @@ void render_balls(const RenderOptions& options, const PictureParams& params, con
         const std::array<double, 3> at{row.position[0], row.position[1], row.position[2]};
         balls.push_back(frame.ball(at, radius, picture::color_of(balls.size())));
     }
-    render_content(options, params, subject, {frame.scene(), frame.table(), {}, balls}, progress);
+    render_content(options, params, subject,
+                   {frame.scene(), frame.table(), {}, balls, box.min_distance}, progress);
 }
 
 } // namespace

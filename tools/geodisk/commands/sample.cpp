@@ -13,7 +13,6 @@
 #include "geodisk/reports/sample_report.hpp"
 #include "geodisk/sample_run.hpp"
 #include "picture/png.hpp"
-#include "picture/scene.hpp"
 #include "program/command.hpp"
 
 namespace geodisk::tools {
@@ -27,14 +26,15 @@ constexpr const char* kExamples[] = {
 };
 
 /// On the device that they were made on.
-void draw_samples(const MeshInput& mesh, SampleResult& result, RunDevice& device,
-                  ProgressLine& progress) {
+void draw_samples(const SampleJob& job, const MeshInput& mesh, SampleResult& result,
+                  RunDevice& device, ProgressLine& progress) {
     device.release_memory();
     progress.begin_stage("preparing the scene");
-    const picture::Scene scene =
-        picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);
+    const picture::Scene scene = make_scene(job.mesh, mesh);
+    picture::PictureParams params;
+    params.legend = job.legend;
     result.picture = draw_surface(
-        device.context(), {}, mesh.prepared, scene,
+        device.context(), params, mesh.prepared, scene,
         disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2),
         progress);
     check_validation(device.context());
@@ -68,7 +68,7 @@ void sample_to_files(const SampleOptions& options, const NameOutputs& name_outpu
     SampleResult result = sample_mesh(job, mesh, device, progress);
     print_warnings(result.warnings);
     if (!job.picture.empty()) {
-        draw_samples(mesh, result, device, progress);
+        draw_samples(job, mesh, result, device, progress);
         further.push_back({picture, [&](AtomicFile& file) {
                                picture::write_png(file, result.picture->picture.pixels);
                            }});

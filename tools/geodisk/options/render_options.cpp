@@ -41,7 +41,9 @@ void add_render_options(Command command, RenderOptions& options) {
                     "voronoi   the places that are nearest to each sample\n"
                     "distance  how far the nearest sample is; where another one\n"
                     "          would have room, orange\n"
-                    "density   how dense they are, dark for few, light for many")
+                    "density   how dense they are, dark blue for few, yellow for\n"
+                    "          many: cividis, whose lightness grows evenly and\n"
+                    "          which colour-blind people see alike")
         .offers({"auto", "disks", "points", "voronoi", "distance", "density"})
         .shows_default();
     command
@@ -57,6 +59,9 @@ void add_render_options(Command command, RenderOptions& options) {
                     "white, black, transparent or RRGGBB")
         .offers({"white", "black", "transparent"})
         .shows_default();
+    command.add_flag("--legend", options.legend,
+                     "Add a legend below each view: samples, distance, scale bar,\n"
+                     "and a colour bar for --style distance and density");
     command.add_flag("--cut", options.cuts,
                      "Of a box of 3 dimensions, cut away the eighth nearest to\n"
                      "the eye, and show sections of balls");
@@ -76,6 +81,7 @@ picture::PictureParams parse_picture(const RenderOptions& options) {
     params.style = picture::parse_style("--style", options.style);
     params.background = picture::parse_background("--background", options.background);
     params.cuts = options.cuts;
+    params.legend = options.legend;
     params.up = options.up.parsed();
     if (!options.views.empty()) {
         params.views.clear();

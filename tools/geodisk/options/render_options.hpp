@@ -23,7 +23,7 @@ struct RenderOptions {
     UpOption up;
     DistanceOptions distance;
     std::vector<std::string> views;
-    bool cuts = false;
+    bool cuts = false, legend = false;
 };
 
 /// Adds all options of the command; `options` must outlive the parsing.

@@ -56,6 +56,10 @@ SampleJob parse_job(const SampleOptions& options) {
     job.run = options.run;
     job.metric = options.metric;
     job.picture = options.picture;
+    job.legend = options.legend;
+    if (job.legend && job.picture.empty()) {
+        fail_usage("--legend is for pictures; add --picture FILE");
+    }
     job.method = parse_method(options.method, options.count);
     if (!options.min_distance.empty()) {
         job.min_distance = parse_length("--min-distance", options.min_distance);
@@ -84,6 +88,8 @@ void add_sample_options(Command command, SampleOptions& options) {
     command.add_option("--picture", options.picture, "FILE",
                        "Draw the samples and their disks as well: *.png; geodisk render\n"
                        "has other styles and views");
+    command.add_flag("--legend", options.legend,
+                     "Add a legend to the picture: samples, distance, scale bar");
     add_output_options(command, options.out);
     add_columns_option(command, options.out);
     add_verbose_option(command, options.run.device);

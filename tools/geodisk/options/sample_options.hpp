@@ -25,6 +25,7 @@ struct SampleOptions {
     std::string min_distance, radius, count;
     std::string metric = "geodesic";
     std::string picture;
+    bool legend = false;
 };
 
 /// Adds all options of the command but the mesh; `options` must outlive the parsing.
@@ -51,6 +52,7 @@ struct SampleJob {
     SampleParams params;                ///< All but the distance, the radii and the throws.
     RunnerOptions runner;
     std::string picture; ///< File for one, or empty.
+    bool legend = false; ///< On the picture.
 
     bool is_geodesic() const { return metric == "geodesic"; }
 

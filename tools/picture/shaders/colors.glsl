@@ -30,12 +30,11 @@ vec3 cell_color(uint number) {
     return mix(kinds[number % 7u], vec3(0.9), light);
 }
 
-// From 0, dark, to 1, light: cividis (Nunez, Anderton and Renslow 2018), a polynomial through it.
+// From 0, dark, to 1, light.
 vec3 scale_color(float t) {
-    const vec3 knots[7] = vec3[](vec3(0.000, 0.135, 0.305), vec3(0.139, 0.228, 0.421),
-                                 vec3(0.338, 0.360, 0.427), vec3(0.486, 0.482, 0.471),
-                                 vec3(0.654, 0.615, 0.436), vec3(0.835, 0.760, 0.346),
-                                 vec3(0.995, 0.910, 0.218));
+    const vec3 knots[7] = vec3[](
+#include "scale_knots.h"
+    );
     float at = clamp(t, 0.0, 1.0) * 6.0;
     uint i = min(uint(at), 5u);
     return from_srgb(mix(knots[i], knots[i + 1u], at - float(i)));

@@ -78,5 +78,7 @@ void main() {
     float density;
     const Nearest nearest = look_up(face_index, in_face, density);
     const vec3 matte = surface_color(nearest, density);
-    color = vec4(shade(matte, up, to_eye, vec3(light_x, light_y, light_z)), 1);
+    const vec3 lit = shade(matte, up, to_eye, vec3(light_x, light_y, light_z));
+    // Where a colour is an amount, light and shadow leave most of it.
+    color = vec4(mix(lit, matte, kDraw == kDrawDensity ? 0.6 : 0.0), 1);
 }

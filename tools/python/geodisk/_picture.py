@@ -59,6 +59,7 @@ def render(
     up: str | None = None,
     background: str = "white",
     cut: bool = False,
+    legend: bool = False,
     min_distance: float | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -87,6 +88,9 @@ def render(
         ``"white"``, ``"black"``, ``"transparent"`` or ``"RRGGBB"``.
     cut : bool
         Of a box of three dimensions, cut away the eighth nearest to the eye.
+    legend : bool
+        Add a legend below each view: samples, distance, a scale bar in the unit of the vertices,
+        and a colour bar where ``style`` is "distance" or "density".
     min_distance : float, optional
         For disks of half of it, in the unit of the vertices, instead of the samples' radii.
     device : Device, int or str, optional
@@ -120,6 +124,8 @@ def render(
         options += ["--up", up]
     if cut:
         options.append("--cut")
+    if legend:
+        options.append("--legend")
     if min_distance is not None:
         options += ["--min-distance", repr(float(min_distance))]
     if name_of(device):
