@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import geodisk
-from meshes import FACES, TETRAHEDRON, VERTICES, same
+from meshes import FACES, LENGTHS, TETRAHEDRON, VERTICES, same
 
 
 def test_samples_are_complete_and_apart():
@@ -147,13 +147,40 @@ def test_a_count_with_a_stop_is_searched_for_without_it():
     assert first.min_distance == all_samples.min_distance
     assert np.array_equal(first.face_index, all_samples.face_index[:20])
     assert first.report["missing"] == 0
-    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 1000000 samples found room"):
+    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 1,000,000 samples found room"):
         short = geodisk.sample(VERTICES, FACES, min_distance=0.4, stop_count=10**6)
     assert short.report["missing"] == 10**6 - len(short)
     with pytest.warns(geodisk.GeodiskWarning, match="only .* of 999 samples found room"):
         geodisk.sample_box([1, 1], min_distance=0.2, stop_count=999)
     with pytest.raises(ValueError, match="throws"):
         geodisk.sample(VERTICES, FACES, count=200, throws=100)
+
+
+def told(call, *arguments, **options):
+    """Kinds of the warnings about samples."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        call(*arguments, **options)
+    own = [one for one in caught if not isinstance(one.message, geodisk.MeshWarning)]
+    assert all(issubclass(one.category, geodisk.GeodiskWarning) for one in own)
+    assert all(one.filename == __file__ and "--" not in str(one.message) for one in own)
+    return [one.message.kind for one in own]
+
+
+def test_sets_are_warned_of_as_the_program_does():
+    apart = np.concatenate([VERTICES[FACES[:9]] + 9 * i for i in range(3)])
+    loose = (apart.reshape(-1, 3), np.arange(3 * len(apart)).reshape(-1, 3))
+    assert told(geodisk.sample, VERTICES, FACES, count=200) == []
+    assert told(geodisk.sample, *loose, count=2) == ["count_missed"]
+    assert told(geodisk.sample, *loose, min_distance=9) == ["single_samples"]
+    few = geodisk.Mesh(*loose)
+    assert told(geodisk.sample, few, min_distance=0.05, stop_count=2) == ["bare_parts"]
+    assert told(geodisk.sample, VERTICES, FACES, min_distance=99) == ["single_samples"]
+    lengths = {"edge_lengths": LENGTHS, "radius": 99}
+    assert told(geodisk.sample, len(VERTICES), FACES, **lengths) == ["single_samples"]
+    assert told(geodisk.sample_box, [1, 1], min_distance=9) == ["single_samples"]
+    with pytest.warns(geodisk.GeodiskWarning, match="mesh 1: there is a single sample"):
+        geodisk.sample_many([(VERTICES, FACES), TETRAHEDRON], min_distance=[0.5, 99])
 
 
 def test_density():

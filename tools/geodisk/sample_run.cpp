@@ -9,7 +9,6 @@
 
 #include "files/part_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
-#include "geodisk/reports/mesh_parts.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -93,7 +92,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         for (const SampleRow& row : result.rows) {
             faces.push_back(row.face);
         }
-        result.bare = parts_without(mesh.prepared, mesh.file.triangles, faces);
+        result.bare = parts_without(mesh.prepared, faces);
     }
     result.warnings = run_warnings(job, mesh, result);
     return result;

@@ -1,4 +1,4 @@
-// What users should know about a set of samples besides what they asked for.
+// What users should know about the samples of a job besides what they asked for.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,11 @@
 
 namespace geodisk::tools {
 
-/// Returns warnings about the samples of a job: a count that was missed, parts of the area without
-/// samples, a distance that leaves one sample to each part.
+/// Returns the warnings of set_warnings() about the samples of a job.
 std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mesh,
                                       const SampleResult& result);
 
-/// Returns what to say where darts ran out before there were as many samples as asked for; else "".
+/// The same shortfall() for a box.
 std::string shortfall(const Method& method, std::uint64_t samples);
 
 /// Prints the warnings.

@@ -12,8 +12,8 @@
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/json.hpp"
-#include "geodisk/reports/mesh_parts.hpp"
 #include "geodisk/reports/run_report.hpp"
+#include "geometry/mesh_parts.hpp"
 
 namespace geodisk::tools {
 

@@ -71,16 +71,12 @@ def invalid(message: str) -> InvalidArgument:
 
 
 class GeodiskWarning(UserWarning):
-    """Base class of the warnings of geodisk."""
-
-
-class MeshWarning(GeodiskWarning):
-    """Something is odd about a mesh. The samples are right, but perhaps not what you expect.
+    """Base class of the warnings of geodisk. Itself, it is about samples.
 
     Attributes
     ----------
     kind : str
-        ``"unwelded"``, ``"components"``, ``"nonmanifold_edges"``, ``"duplicate_faces"`` ...
+        ``"count_missed"``, ``"bare_parts"``, ``"single_samples"``; or what a mesh has.
     count : int
         Number of elements concerned.
     """
@@ -89,6 +85,14 @@ class MeshWarning(GeodiskWarning):
         super().__init__(message)
         self.kind = kind
         self.count = count
+
+
+class MeshWarning(GeodiskWarning):
+    """Something is odd about a mesh. The samples are right, but perhaps not what you expect.
+
+    Its ``kind`` is ``"unwelded"``, ``"components"``, ``"nonmanifold_edges"``, ``"duplicate_faces"``
+    or another one.
+    """
 
 
 # Tracebacks show the names that users know.

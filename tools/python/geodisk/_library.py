@@ -21,6 +21,7 @@ from ._structs import (
     Oddity,
     Progress,
     Report,
+    SampledSet,
     SamplerOptions,
     SourceArrays,
     SourceParams,
@@ -66,6 +67,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_source_attribute": [c_void_p, c_size_t, POINTER(POINTER(c_double))],
     "geodisk_source_column": [c_void_p, c_size_t, POINTER(POINTER(c_uint32))],
     "geodisk_warnings_list": [c_void_p, c_void_p, _HANDLE],
+    "geodisk_warnings_of_set": [POINTER(SampledSet), _HANDLE],
     "geodisk_warnings_get": [c_void_p, c_size_t, POINTER(Oddity)],
 }
 _RELEASES = [
@@ -96,6 +98,9 @@ def _load() -> ctypes.CDLL:
         raise ImportError(f"geodisk's library cannot be loaded: {error}{hint}") from None
     if not hasattr(library, "geodisk_source_read"):
         raise ImportError(f"{path} is not {name}: it has no readers of mesh files")
+    for function in _FALLIBLE:
+        if not hasattr(library, function):
+            raise ImportError(f"{path} is of another version of geodisk: it has no {function}")
     return library
 
 

@@ -15,6 +15,7 @@ from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
 from ._mesh import Mesh, keys_of, mesh_of
+from ._oddities import oddities_of_set, warn
 from ._protocols import MeshLike
 from ._radii import radii_of
 from ._results import samples_of_parts
@@ -60,6 +61,7 @@ class _Job:
             distance /= self.distance_part
         self.params.min_distance = distance
         self.result: Samples | None = None
+        self._count = count
 
     def told_distance(self) -> float:
         """Returns the distance as :func:`sample` has it, see Radii."""
@@ -74,6 +76,12 @@ class _Job:
         self.result = self.search.best
         self.params.min_distance = self.search.next
         return self.search.next > 0
+
+    def warn(self, prefix: str) -> None:
+        """Shows warnings about its samples."""
+        assert self.result is not None
+        found = oddities_of_set(self.result, self.mesh._handle, self._count)
+        warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
 
 
 def sample_many(
@@ -156,6 +164,8 @@ def sample_many(
         active = jobs
         while active:
             active = [job for group in _groups(active) for job in _run(runs, group)]
+    for i, job in enumerate(jobs):
+        job.warn(f"mesh {i}: ")
     return [job.result for job in jobs if job.result is not None]
 
 

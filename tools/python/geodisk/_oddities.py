@@ -1,4 +1,4 @@
-"""What is odd about a mesh, as warnings."""
+"""What is odd about a mesh or samples on it, as warnings."""
 
 from __future__ import annotations
 
@@ -6,12 +6,17 @@ import ctypes
 import os
 import sys
 import warnings
-from typing import Sequence
+from typing import TYPE_CHECKING, Iterator, Sequence
+
+import numpy as np
 
 from . import _library as c
 from . import _structs as s
 from ._errors import GeodiskWarning, MeshWarning
 from ._wording import in_python
+
+if TYPE_CHECKING:
+    from ._samples import Samples
 
 _PACKAGE = os.path.dirname(os.path.abspath(__file__))
 
@@ -21,13 +26,37 @@ def oddities_of(mesh: c.Handle, source: c.Handle | None) -> tuple[MeshWarning, .
     found = c.Handle(
         "warnings", "geodisk_warnings_list", mesh.value, None if source is None else source.value
     )
-    result = []
+    return tuple(MeshWarning(*one) for one in _listed(found))
+
+
+def oddities_of_set(
+    samples: Samples,
+    mesh: c.Handle | None,
+    count: float | None,
+    stop_count: int = 0,
+    throws: int = 0,
+) -> tuple[GeodiskWarning, ...]:
+    """Returns what the program prints about samples on a mesh, or in a box."""
+    faces = None if samples.face_index is None else np.ascontiguousarray(samples.face_index)
+    params = s.SampledSet(
+        mesh=None if mesh is None else mesh.value,
+        faces=None if faces is None else faces.ctypes.data,
+        count=len(samples),
+        min_distance=samples.min_distance,
+        wanted_count=0.0 if stop_count else float(count or 0),
+        stop_count=stop_count,
+        throws=throws,
+    )
+    found = c.Handle("warnings", "geodisk_warnings_of_set", ctypes.byref(params))
+    return tuple(GeodiskWarning(*one) for one in _listed(found))
+
+
+def _listed(found: c.Handle) -> Iterator[tuple[str, str, int]]:
+    """Yields message, kind and count of each."""
     for index in range(c.warnings_count(found.value)):
         one = s.Oddity()
         c.call("geodisk_warnings_get", found.value, index, ctypes.byref(one))
-        message = in_python(one.message.decode("utf-8", "replace"))
-        result.append(MeshWarning(message, one.kind.decode(), one.count))
-    return tuple(result)
+        yield in_python(one.message.decode("utf-8", "replace")), one.kind.decode(), one.count
 
 
 def warn(found: Sequence[GeodiskWarning]) -> None:

@@ -14,7 +14,7 @@ from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
 from ._mesh import keys_of, mesh_of
-from ._oddities import warn
+from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
 from ._results import samples_of
@@ -109,7 +109,8 @@ def sample(
     MeshWarning
         As :class:`Mesh` does.
     GeodiskWarning
-        For fewer samples than `stop_count`.
+        For another number of samples than asked for, parts of the area without samples, and a
+        distance that leaves one sample to each part.
 
     Examples
     --------
@@ -156,7 +157,9 @@ def sample(
         )
         distance = found.value * part
     made = sampled(domain_at, distance / part, count, stop_count, device, progress)
-    return _told(samples_of(made, seed, mesh._surface, given=given, distance_part=part), stop_count)
+    samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part)
+    warn(oddities_of_set(samples, mesh._handle, count, stop_count, throws))
+    return samples
 
 
 def sample_box(
@@ -218,18 +221,5 @@ def sample_box(
         distance = found.value
     made = sampled(domain_at, distance, count, stop_count, device, progress)
     samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))
-    return _told(samples, stop_count)
-
-
-def _told(samples: Samples, stop_count: int) -> Samples:
-    """Returns the samples, and warns if they are fewer than `stop_count`."""
-    if len(samples) < stop_count:
-        warn(
-            [
-                e.GeodiskWarning(
-                    f"only {len(samples)} of {stop_count} samples found room before the darts ran "
-                    "out; lower stop_count or the distance, or raise throws"
-                )
-            ]
-        )
+    warn(oddities_of_set(samples, None, count, stop_count, throws))
     return samples

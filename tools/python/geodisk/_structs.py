@@ -221,6 +221,19 @@ class SourceArrays(_Sized):
     ]
 
 
+class SampledSet(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("mesh", c_void_p),
+        ("faces", c_void_p),
+        ("count", c_size_t),
+        ("min_distance", c_double),
+        ("wanted_count", c_double),
+        ("stop_count", c_uint32),
+        ("throws", c_uint32),
+    ]
+
+
 class Oddity(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),

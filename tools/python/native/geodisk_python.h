@@ -86,6 +86,22 @@ GEODISK_C_API geodisk_status geodisk_warnings_list(const geodisk_mesh *mesh,
                                                    const geodisk_source *source,
                                                    geodisk_warnings **warnings,
                                                    geodisk_error *error);
+/* A set of samples on a mesh or in a box, and what was asked for. */
+typedef struct geodisk_sampled_set {
+    size_t struct_size;
+    const geodisk_mesh *mesh; /* NULL for a box. */
+    const uint32_t *faces;    /* Of each sample on the mesh. */
+    size_t count;
+    double min_distance;
+    double wanted_count;      /* Samples that the distance was chosen for, or 0. */
+    uint32_t stop_count;      /* As in geodisk_surface_params. */
+    uint32_t throws;
+} geodisk_sampled_set;
+
+/* Lists what the program prints about the samples. */
+GEODISK_C_API geodisk_status geodisk_warnings_of_set(const geodisk_sampled_set *set,
+                                                     geodisk_warnings **warnings,
+                                                     geodisk_error *error);
 GEODISK_C_API size_t geodisk_warnings_count(const geodisk_warnings *warnings);
 GEODISK_C_API geodisk_status geodisk_warnings_get(const geodisk_warnings *warnings, size_t index,
                                                   geodisk_warning *warning, geodisk_error *error);

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "c/call.hpp"
 #include "c/mesh.hpp"
+#include "geometry/set_warnings.hpp"
 #include "geometry/shape_warnings.hpp"
 #include "geometry/surface_warnings.hpp"
 #include "source.hpp"
@@ -55,6 +57,24 @@ std::vector<MeshWarning> warnings_of(const c::Mesh& mesh, const geodisk_source* 
     return warnings;
 }
 
+std::vector<MeshWarning> warnings_of_set(const geodisk_sampled_set& given) {
+    SampledSet set{.samples = given.count,
+                   .min_distance = given.min_distance,
+                   .wanted_count = given.wanted_count,
+                   .stop_count = given.stop_count,
+                   .has_throws = given.throws > 0};
+    if (given.mesh == nullptr) {
+        set.domain = "box";
+        return set_warnings(set);
+    }
+    const PreparedMesh& mesh = given.mesh->shared->prepared;
+    set.parts = mesh.statistics().components;
+    if (set.parts > 1) {
+        set.bare = parts_without(mesh, std::span(given.faces, given.count));
+    }
+    return set_warnings(set);
+}
+
 } // namespace
 
 extern "C" {
@@ -66,6 +86,21 @@ geodisk_status geodisk_warnings_list(const geodisk_mesh* mesh, const geodisk_sou
             return wrong("mesh or warnings is NULL");
         }
         *warnings = new geodisk_warnings{warnings_of(*mesh->shared, source)};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_warnings_of_set(const geodisk_sampled_set* set, geodisk_warnings** warnings,
+                                       geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        const auto given = taken(set, "set");
+        if (!given) {
+            return given.error();
+        }
+        if (warnings == nullptr) {
+            return wrong("warnings is NULL");
+        }
+        *warnings = new geodisk_warnings{warnings_of_set(*given)};
         return Done{};
     });
 }

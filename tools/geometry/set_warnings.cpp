@@ -1,0 +1,74 @@
+#include "geometry/set_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// Part of a count that may be missed without a word, as CountSearch has it.
+constexpr double kTolerance = 0.05;
+/// Smallest share of the area without samples that is worth a warning.
+constexpr double kLeastShare = 0.01;
+
+std::string percent(double share) {
+    return rounded(100 * share, 2) + " % of the area";
+}
+
+/// Where a count chooses the distance, or stops the darts.
+void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
+    if (std::string text = shortfall(set.samples, set.stop_count); !text.empty()) {
+        warnings.push_back({"count_missed", set.stop_count - set.samples, "", std::move(text), ""});
+    }
+    const double miss = std::abs(static_cast<double>(set.samples) - set.wanted_count);
+    if (set.wanted_count > 0 &&
+        miss > std::max(kTolerance * set.wanted_count, std::min(1.0, set.wanted_count / 4))) {
+        const std::string reason =
+            set.parts > 1 ? "; each of the " + grouped(set.parts) + " parts has samples of its own"
+                          : "";
+        warnings.push_back({"count_missed", static_cast<std::uint64_t>(miss), "",
+                            counted(set.samples, "sample", "samples") + " instead of " +
+                                grouped(static_cast<std::uint64_t>(set.wanted_count)) +
+                                ": no distance that was tried came nearer" + reason,
+                            ""});
+    }
+}
+
+} // namespace
+
+std::vector<MeshWarning> set_warnings(const SampledSet& set) {
+    std::vector<MeshWarning> warnings;
+    check_count(set, warnings);
+    const BareParts& bare = set.bare;
+    if (bare.area_share >= kLeastShare) {
+        warnings.push_back({"bare_parts", bare.count, "",
+                            counted(bare.count, "part", "parts") + " of the mesh, " +
+                                percent(bare.area_share) + (bare.count == 1 ? ", has" : ", have") +
+                                " no sample; ask for more samples or a smaller distance",
+                            ""});
+    }
+    const bool is_full = set.wanted_count == 0 && set.stop_count == 0 && !set.has_throws;
+    if (is_full && set.samples > 0 && set.samples + bare.count <= set.parts) {
+        warnings.push_back(
+            {"single_samples", set.samples, "",
+             (set.parts == 1 ? "there is a single sample" : "no part has more than one sample") +
+                 std::string(": the minimum distance of ") + rounded(set.min_distance, 6) +
+                 " is larger than the " + (set.parts == 1 ? set.domain + " has" : "parts have") +
+                 " room for",
+             ""});
+    }
+    return warnings;
+}
+
+std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
+    return samples >= stop_count
+               ? ""
+               : "only " + grouped(samples) + " of " + grouped(stop_count) +
+                     " samples found room before the darts ran out; lower the count or the "
+                     "distance, or raise --throws";
+}
+
+} // namespace geodisk::tools

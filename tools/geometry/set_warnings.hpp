@@ -1,0 +1,32 @@
+// What users should know about a set of samples besides what they asked for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh_parts.hpp"
+#include "geometry/mesh_warning.hpp"
+
+namespace geodisk::tools {
+
+/// A set of samples on a mesh or in a box, and what was asked for.
+struct SampledSet {
+    std::uint64_t samples = 0;
+    double min_distance = 0;      ///< As it is told.
+    double wanted_count = 0;      ///< Samples that the distance was chosen for, or 0.
+    std::uint32_t stop_count = 0; ///< Samples to stop at, or 0.
+    bool has_throws = false;      ///< The number of darts was given.
+    std::string domain = "mesh";  ///< What has the room for samples.
+    std::uint64_t parts = 1;      ///< Of the mesh.
+    BareParts bare{};
+};
+
+/// Returns warnings about a count that was missed, parts of the area without samples, and a
+/// distance that leaves one sample to each part.
+std::vector<MeshWarning> set_warnings(const SampledSet& set);
+
+/// Returns what to say where darts ran out before there were as many samples as asked for; else "".
+std::string shortfall(std::uint64_t samples, std::uint32_t stop_count);
+
+} // namespace geodisk::tools
