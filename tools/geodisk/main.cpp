@@ -37,6 +37,7 @@ void set_up(geodisk::tools::Command app) {
     geodisk::tools::add_box_command(app);
     geodisk::tools::add_shapes_command(app);
     geodisk::tools::add_info_command(app);
+    geodisk::tools::add_conformance_command(app);
     geodisk::tools::add_quick_command(app);
     geodisk::tools::add_completion_command(app);
     geodisk::tools::add_manual_command(app);

@@ -77,6 +77,10 @@ void add_shapes_command(Command app);
 /// Lists the Vulkan devices and whether they can run geodisk. UserError(no_device) if none can.
 void add_info_command(Command app);
 
+/// Compares the sets that a Vulkan device gives with those that every device gives.
+/// UserError(violation) if some differ.
+void add_conformance_command(Command app);
+
 /// Prints the script by which a shell completes the program's commands and options. Hidden.
 void add_completion_command(Command app);
 

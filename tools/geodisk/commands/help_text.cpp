@@ -6,7 +6,8 @@ namespace {
 constexpr const char* kExitStatus = R"(
 Exit status:
   0    success
-  1    verify found samples too close, off the mesh or of another radius; meshes of a list failed
+  1    verify found samples too close, off the mesh or of another radius; meshes of a list failed;
+       conformance found another set
   2    wrong usage: an unknown option, no or several distances, a value out of range
   3    an input file is missing, unreadable or malformed
   4    an output cannot be written

@@ -7,6 +7,7 @@
 #include "files/sample_file.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/inputs/box_input.hpp"
+#include "geodisk/options/box_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/box_report.hpp"

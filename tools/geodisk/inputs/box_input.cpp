@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geodisk/checks/sample_checks.hpp"
-#include "geodisk/reports/box_report.hpp"
+#include "geodisk/options/box_options.hpp"
 #include "program/arguments.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"

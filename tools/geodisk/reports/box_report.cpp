@@ -39,15 +39,6 @@ std::string box_text(const BoxParams& box) {
     return sides_text(box, [](double side) { return rounded(side, 6); }) + ", " + kind_text(box);
 }
 
-double diagonal_of(const BoxParams& box) {
-    const double longest = *std::max_element(box.extents.begin(), box.extents.end());
-    double sum = 0;
-    for (const double side : box.extents) {
-        sum += (side / longest) * (side / longest);
-    }
-    return longest * std::sqrt(sum);
-}
-
 std::string dry_box_json(const BoxJob& job, const DryRun& dry) {
     Json document{{"version", GEODISK_VERSION_STRING}, {"box", box_json(job.box)}};
     document.update(dry_run_json(dry));

@@ -9,26 +9,13 @@
 #include "files/sample_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/dry_run.hpp"
-#include "geodisk/options/method_options.hpp"
-#include "geodisk/options/run_options.hpp"
+#include "geodisk/options/box_options.hpp"
 #include "geodisk/reports/run_report.hpp"
 
 namespace geodisk::tools {
 
 /// The sides of a box, and whether they are open or periodic: "1 x 0.5, open".
 std::string box_text(const BoxParams& box);
-
-double diagonal_of(const BoxParams& box);
-
-/// What is asked for.
-struct BoxJob {
-    OutputOptions out;
-    RunOptions run;
-    BoxParams box;
-    Method method;
-    double wanted_count = 0; ///< Of --count, where it chooses the distance; else 0.
-    RunnerOptions runner;
-};
 
 /// What --dry-run tells of a job.
 std::string dry_box_json(const BoxJob& job, const DryRun& dry);

@@ -6,19 +6,6 @@
 namespace geodisk::tools {
 namespace {
 
-Json tuning_json(const Tuning& tuning) {
-    return {{"batches", tuning.batches},
-            {"local_size", tuning.local_size},
-            {"slot_local_size", tuning.slot_local_size},
-            {"pool_block", tuning.pool_block},
-            {"reads", to_string(tuning.reads)}};
-}
-
-Json device_json(const DeviceReport& device) {
-    return {
-        {"name", device.name}, {"driver", driver_text(device)}, {"type", type_name(device.type)}};
-}
-
 /// "1.12 of CheckStatus per disk; 1: 89.6 %, 2: 8.9 %, 3: 1.5 %", without the empty bins.
 std::string calls_text(const CallHistogram& calls) {
     std::string text = rounded(calls.mean(), 3) + " of CheckStatus per disk";
@@ -41,6 +28,19 @@ const char* stopped_by(const Drawn& drawn) {
 }
 
 } // namespace
+
+Json tuning_json(const Tuning& tuning) {
+    return {{"batches", tuning.batches},
+            {"local_size", tuning.local_size},
+            {"slot_local_size", tuning.slot_local_size},
+            {"pool_block", tuning.pool_block},
+            {"reads", to_string(tuning.reads)}};
+}
+
+Json device_json(const DeviceReport& device) {
+    return {
+        {"name", device.name}, {"driver", driver_text(device)}, {"type", type_name(device.type)}};
+}
 
 Json drawn_json(const Drawn& drawn) {
     const bool throws_darts = drawn.method.throws_darts;

@@ -12,6 +12,10 @@
 
 namespace geodisk::tools {
 
+Json tuning_json(const Tuning& tuning);
+/// Name, driver and type.
+Json device_json(const DeviceReport& device);
+
 /// What was asked for and what came of it.
 struct Drawn {
     const Method& method;

@@ -1,0 +1,21 @@
+// A set of samples as one number, to compare sets by.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "files/sample_file.hpp"
+
+namespace geodisk::tools {
+
+/// Returns the fingerprint of samples on a surface: 16 hexadecimal digits of FNV-1a with 64 bits,
+/// over the face and the three float weights of each sample in order, every word as four bytes with
+/// the lowest first. Equal sets have equal fingerprints; others practically never.
+std::string fingerprint_of(std::span<const SampleRow> rows);
+
+/// The same of samples in a box, over their coordinates in order, every double as two words with
+/// the lower one first.
+std::string fingerprint_of(std::span<const double> coordinates);
+
+} // namespace geodisk::tools

@@ -1,0 +1,17 @@
+// A job of sampling a box, for the commands that do one.
+#pragma once
+
+#include "geodisk/device_run.hpp"
+#include "geodisk/options/box_options.hpp"
+#include "geodisk/outputs/progress.hpp"
+
+namespace geodisk::tools {
+
+/// The job at its distance.
+Task box_task(const BoxJob& job);
+
+/// Samples the box as the job asks for, and sets the job's distance to the one used. Throws
+/// UserError, DeviceLost among them.
+DeviceResult sample_box(BoxJob& job, RunDevice& device, ProgressLine& progress);
+
+} // namespace geodisk::tools

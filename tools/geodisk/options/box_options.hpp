@@ -1,0 +1,43 @@
+// The options of `geodisk box`, and the job that they ask for.
+#pragma once
+
+#include <string>
+
+#include <geodisk/box.hpp>
+#include <geodisk/runner.hpp>
+
+#include "geodisk/options/method_options.hpp"
+#include "geodisk/options/run_options.hpp"
+
+namespace geodisk::tools {
+
+/// As given on the command line.
+struct BoxOptions {
+    std::string dimension, min_distance, count, extents;
+    bool is_periodic = false;
+    MethodOptions method;
+    OutputOptions out;
+    RunOptions run;
+};
+
+/// Adds the options that say which box is sampled and how densely; `options` must outlive the
+/// parsing.
+void add_box_options(Command command, BoxOptions& options);
+
+/// What is asked for.
+struct BoxJob {
+    OutputOptions out;
+    RunOptions run;
+    BoxParams box;
+    Method method;
+    double wanted_count = 0; ///< Of --count, where it chooses the distance; else 0.
+    RunnerOptions runner;
+};
+
+/// Throws UserError(usage) for values out of range and options that contradict each other.
+BoxJob parse_job(const BoxOptions& options);
+
+/// Length of the diagonal.
+double diagonal_of(const BoxParams& box);
+
+} // namespace geodisk::tools
