@@ -209,6 +209,43 @@ TEST_CASE("the view turns by mouse and by keys, and comes back") {
     check_console(browser);
 }
 
+TEST_CASE("a page fits a phone, by day and by night, and its times add up") {
+    const TemporaryFolder folder;
+    make_page(folder, {kMesh, "-n", "200", "--harmonics", "30"});
+    for (const char* const scheme : {"light", "dark"}) {
+        CAPTURE(scheme);
+        Browser browser;
+        browser.emulate(360, 740, scheme);
+        browser.open(folder / "p.html");
+        CHECK(browser.eval("return window.innerWidth;") == 360);
+        CHECK(browser.eval("return document.documentElement.scrollWidth;") == 360);
+        // WCAG asks for 4.5 between text and what is behind it.
+        CHECK(browser
+                  .eval("const light = color => {"
+                        "  const [r, g, b] = color.match(/[0-9.]+/g).map(v => v / 255)"
+                        "    .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);"
+                        "  return 0.2126 * r + 0.7152 * g + 0.0722 * b;"
+                        "};"
+                        "const behind = element => {"
+                        "  const color = getComputedStyle(element).backgroundColor;"
+                        "  return color === 'rgba(0, 0, 0, 0)' ? behind(element.parentElement)"
+                        "    : color;"
+                        "};"
+                        "return Math.min(...[...document.querySelectorAll("
+                        "  'p, h1, h2, h3, th, td, dt, figcaption, label, span, b, pre, button')]"
+                        "  .filter(element => element.textContent.trim() && element.offsetParent)"
+                        "  .map(element => {"
+                        "    const a = light(getComputedStyle(element).color) + 0.05;"
+                        "    const b = light(behind(element)) + 0.05;"
+                        "    return Math.max(a / b, b / a);"
+                        "  }));")
+                  .get<double>() >= 4.5);
+        CHECK(browser.eval("return document.querySelectorAll('#time-chart text.name').length;") ==
+              11);
+        check_console(browser);
+    }
+}
+
 TEST_CASE("without WebGL the page says so and tells the rest") {
     const TemporaryFolder folder;
     make_page(folder, {"builtin:cube", "-n", "100"});

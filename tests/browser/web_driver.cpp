@@ -187,6 +187,16 @@ Json Browser::command(const std::string& name, const Json& parameters) {
     return driver_->request("POST", "/session/" + session_ + "/" + name, parameters.dump());
 }
 
+void Browser::emulate(int width, int height, const std::string& scheme) {
+    command("goog/cdp/execute",
+            {{"cmd", "Emulation.setDeviceMetricsOverride"},
+             {"params",
+              {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", true}}}});
+    const Json feature{{"name", "prefers-color-scheme"}, {"value", scheme}};
+    command("goog/cdp/execute", {{"cmd", "Emulation.setEmulatedMedia"},
+                                 {"params", {{"features", Json::array({feature})}}}});
+}
+
 void Browser::open(const std::filesystem::path& path) {
     command("url", {{"url", "file://" + path.string()}});
     wait_for("document.documentElement.dataset.ready === 'true'");

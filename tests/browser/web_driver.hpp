@@ -22,6 +22,10 @@ class Browser {
     Browser(const Browser&) = delete;
     Browser& operator=(const Browser&) = delete;
 
+    /// Shows pages from now on as a phone of so many pixels does, with the colours of `scheme`,
+    /// light or dark.
+    void emulate(int width, int height, const std::string& scheme);
+
     /// Opens a file of this computer and waits until it is ready, as its script says.
     void open(const std::filesystem::path& path);
 

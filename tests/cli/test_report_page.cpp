@@ -128,6 +128,8 @@ TEST_CASE("a page tells the command that makes it again") {
     CHECK(view["up"] == Json({0.0, 0.0, 1.0}));
     CHECK(found.facts["commit"].is_string());
     CHECK(found.facts["seconds"].contains("measure"));
+    CHECK(found.facts["seconds"]["other"].get<double>() >= 0);
+    CHECK_FALSE(found.facts["seconds"].contains("spectrum"));
     CHECK(found.facts["spectrum"].is_null());
     CHECK(found.facts["device"]["name"].is_string());
 }

@@ -104,7 +104,7 @@ void run(const Options& options) {
             std::to_string(common.repeats) + " sets",
         "Anisotropy of the whole: " + tools::fixed(decibels(mean_anisotropy(rings)), 2) +
             " dB, and " + tools::fixed(decibels(1.0 / common.repeats), 2) +
-            " dB if all directions are alike. The paper's squares are"
+            " dB without a preferred direction. The paper's squares are"
             "\nopen, as here but for the spectrum, and its samples r or 2 r apart, which it"
             "\ndoes not say.");
     outputs.add_data("-spectrum", table);

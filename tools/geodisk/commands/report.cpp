@@ -52,6 +52,7 @@ SpectrumRun spectrum_of(const SampleJob& job, const MeshInput& mesh,
 }
 
 void run_report(const ReportOptions& options) {
+    const Stopwatch all;
     report::require_front_end();
     const SampleJob job = parse_job(options.sample);
     PageResult page;
@@ -83,6 +84,7 @@ void run_report(const ReportOptions& options) {
     watch = Stopwatch();
     page.content = make_page_content(mesh, disks, page.set.found.neighbors, up, progress);
     page.disk_seconds = watch.seconds();
+    page.all_seconds = all.seconds();
 
     const SampleReport samples(job, mesh, result);
     const PageReport told(samples, page);

@@ -89,7 +89,17 @@ std::string PageReport::summary(double write_seconds) const {
 }
 
 SecondsByStage PageReport::stages() const {
-    return {{"measure", result_.measure_seconds}, {"disks", result_.disk_seconds}};
+    SecondsByStage stages{{"measure", result_.measure_seconds}};
+    if (result_.spectrum) {
+        stages.emplace_back("spectrum", result_.spectrum->seconds);
+    }
+    stages.emplace_back("disks", result_.disk_seconds);
+    double told = 0;
+    for (const auto& [stage, seconds] : samples_.seconds(stages)) {
+        told += seconds;
+    }
+    stages.emplace_back("other", std::max(0.0, result_.all_seconds - told));
+    return stages;
 }
 
 SecondsByStage PageReport::stages(double write_seconds) const {

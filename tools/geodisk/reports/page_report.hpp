@@ -23,6 +23,7 @@ struct PageResult {
     std::string command;              ///< As a line for a shell.
     std::optional<SpectrumRun> spectrum;
     double measure_seconds = 0, disk_seconds = 0;
+    double all_seconds = 0; ///< From the start to the writing of the page.
 };
 
 /// Tells of samples and their page, which must outlive the report.

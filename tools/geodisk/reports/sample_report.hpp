@@ -47,8 +47,10 @@ class SampleReport {
     Json document(const SecondsByStage& after) const;
     std::string summary(const SecondsByStage& after) const;
 
-  private:
+    /// Returns the time of every stage, with `after` at the end.
     SecondsByStage seconds(const SecondsByStage& after) const;
+
+  private:
     Drawn drawn() const;
 
     const SampleJob& job_;

@@ -52,7 +52,7 @@ std::string SpectrumReport::text() const {
         << rounded(found.peak_at, 3) << "; 1 is white noise\n"
         << "anisotropy    " << fixed(found.anisotropy, 2) << " dB on average over "
         << counted(rings.size(), "ring", "rings") << "; " << fixed(decibels(expected_anisotropy), 2)
-        << " dB if all directions are alike\n";
+        << " dB without a preferred direction\n";
     return out.str();
 }
 

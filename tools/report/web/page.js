@@ -95,10 +95,11 @@ function fillCharts() {
   const stages = Object.entries(facts.seconds);
   const names = {
     load: "reading", prepare: "preparing", device: "opening device", pipelines: "shaders", upload: "upload",
-    sample: "sampling", readback: "reading back", measure: "measuring", disks: "disks of the page",
+    sample: "sampling", readback: "reading back", measure: "measuring", spectrum: "spectrum", disks: "disks of the page",
+    other: "other",
   };
   byId("time-chart").append(namedBars("Seconds by stage", stages.map(([name, value]) => [names[name] || name, value]), secondsText));
-  byId("time-caption").textContent = `${secondsText(stages.reduce((sum, [, value]) => sum + value, 0))} in all, without writing this page.`;
+  byId("time-caption").textContent = `${secondsText(stages.reduce((sum, [, value]) => sum + value, 0))} from the start to the writing of this page. "Other" is what no stage counts, such as choosing options and freeing memory.`;
   fillSpectrum();
 }
 
