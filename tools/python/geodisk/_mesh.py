@@ -193,7 +193,7 @@ class Mesh:
         """Counts of vertices, faces, components, boundary edges and the like."""
         return {
             name: getattr(self._info, name)
-            for name, _ in s.MeshInfo._fields_
+            for name, *_ in s.MeshInfo._fields_
             if name != "struct_size"
         }
 

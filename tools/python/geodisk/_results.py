@@ -75,7 +75,7 @@ def _report_of(handle: c.Handle) -> dict[str, Any]:
     c.call("geodisk_samples_report", handle.value, ctypes.byref(report))
     return {
         name: getattr(report, name)
-        for name, _ in s.Report._fields_
+        for name, *_ in s.Report._fields_
         if name not in ("struct_size", "calls", "reserved")
     }
 

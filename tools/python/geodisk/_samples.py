@@ -198,7 +198,9 @@ class Samples:
                 raise IndexError("samples are chosen by an index, a slice, a mask or indices")
             key = key if key.size > 0 else key.astype(np.int64)
         columns = {name: getattr(self, name) for name in _COLUMNS}
-        chosen = {name: None if x is None else x[key] for name, x in columns.items()}
+        chosen: dict[str, Any] = {
+            name: None if x is None else x[key] for name, x in columns.items()
+        }
         chosen["columns"] = {name: x[key] for name, x in self.columns.items()}
         return dataclasses.replace(self, **chosen)
 

@@ -64,7 +64,7 @@ def columns_of(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
 
 
 def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
-    arrays = {
+    arrays: dict[str, Any] = {
         "points": samples.points,
         "normals": samples.normals,
         "face_index": samples.face_index,
