@@ -1,7 +1,8 @@
 // A Vulkan driver that passes every call on to the driver of GEODISK_TEST_DRIVER, but reports
 // limits too small for geodisk, or does not even come to that, as GEODISK_TEST_CRASH says; or which
 // reports what there is, and loses as many devices, one after the other, as GEODISK_TEST_LOSSES
-// says; or which has no queue that draws, where GEODISK_TEST_NO_GRAPHICS is set.
+// says; or which has no queue that draws, where GEODISK_TEST_NO_GRAPHICS is set; or which claims to be
+// a GPU with subgroups of 32, where GEODISK_TEST_AS_GPU is set, so that it is tuned as one.
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -37,11 +38,15 @@ bool has_no_graphics() {
     return std::getenv("GEODISK_TEST_NO_GRAPHICS") != nullptr;
 }
 
+bool is_disguised() {
+    return std::getenv("GEODISK_TEST_AS_GPU") != nullptr;
+}
+
 int devices = 0;
 int submissions = 0; ///< To the last device; those of several threads are not told apart.
 
 void weaken(VkPhysicalDeviceLimits& limits) {
-    if (losses() > 0 || has_no_graphics()) {
+    if (losses() > 0 || has_no_graphics() || is_disguised()) {
         return;
     }
     const char* const crash = std::getenv("GEODISK_TEST_CRASH");
@@ -56,11 +61,35 @@ void weaken(VkPhysicalDeviceLimits& limits) {
     limits.maxComputeWorkGroupInvocations = 16;
 }
 
+void disguise(VkPhysicalDeviceProperties& properties) {
+    if (is_disguised()) {
+        properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    }
+}
+
+/// What is asked for besides.
+void disguise(void* chain) {
+    constexpr std::uint32_t kSubgroup = 32;
+    for (auto* next = static_cast<VkBaseOutStructure*>(chain); is_disguised() && next != nullptr;
+         next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
+            reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next)->subgroupSize = kSubgroup;
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES) {
+            reinterpret_cast<VkPhysicalDeviceVulkan11Properties*>(next)->subgroupSize = kSubgroup;
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) {
+            reinterpret_cast<VkPhysicalDeviceDriverProperties*>(next)->driverID = {};
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES) {
+            reinterpret_cast<VkPhysicalDeviceVulkan12Properties*>(next)->driverID = {};
+        }
+    }
+}
+
 VKAPI_ATTR void VKAPI_CALL get_properties(VkPhysicalDevice device,
                                           VkPhysicalDeviceProperties* properties) {
     reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
         real_function(current_instance, "vkGetPhysicalDeviceProperties"))(device, properties);
     weaken(properties->limits);
+    disguise(*properties);
 }
 
 VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice device,
@@ -68,6 +97,8 @@ VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice device,
     reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
         real_function(current_instance, "vkGetPhysicalDeviceProperties2"))(device, properties);
     weaken(properties->properties.limits);
+    disguise(properties->properties);
+    disguise(properties->pNext);
 }
 
 VKAPI_ATTR void VKAPI_CALL get_queue_families(VkPhysicalDevice device, std::uint32_t* count,
