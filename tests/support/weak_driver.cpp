@@ -1,8 +1,8 @@
 // A Vulkan driver that passes every call on to the driver of GEODISK_TEST_DRIVER, but reports
 // limits too small for geodisk, or does not even come to that, as GEODISK_TEST_CRASH says; or which
 // reports what there is, and loses as many devices, one after the other, as GEODISK_TEST_LOSSES
-// says; or which has no queue that draws, where GEODISK_TEST_NO_GRAPHICS is set; or which claims to be
-// a GPU with subgroups of 32, where GEODISK_TEST_AS_GPU is set, so that it is tuned as one.
+// says; or which has no queue that draws, where GEODISK_TEST_NO_GRAPHICS is set; or which claims to
+// be a GPU with subgroups of 32, where GEODISK_TEST_AS_GPU is set, so that it is tuned as one.
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -26,7 +26,13 @@ PFN_vkVoidFunction real_function(VkInstance instance, const char* name) {
     return get != nullptr ? get(instance, name) : nullptr;
 }
 
-VkInstance current_instance = VK_NULL_HANDLE; // The program under test makes one at a time.
+/// The driver's functions behind those below; they are the same for all instances.
+PFN_vkGetPhysicalDeviceProperties real_properties = nullptr;
+PFN_vkGetPhysicalDeviceProperties2 real_properties2 = nullptr;
+PFN_vkGetPhysicalDeviceQueueFamilyProperties real_families = nullptr;
+PFN_vkCreateDevice real_create_device = nullptr;
+PFN_vkGetDeviceProcAddr real_device_function = nullptr;
+PFN_vkQueueSubmit real_submit = nullptr;
 
 /// How many devices are to be lost.
 int losses() {
@@ -61,9 +67,12 @@ void weaken(VkPhysicalDeviceLimits& limits) {
     limits.maxComputeWorkGroupInvocations = 16;
 }
 
+/// A GPU whose texel buffers are too small to read through, so that kernels read storage. It keeps
+/// the name of its driver, whose limits on loops hold.
 void disguise(VkPhysicalDeviceProperties& properties) {
     if (is_disguised()) {
         properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+        properties.limits.maxTexelBufferElements = 65536;
     }
 }
 
@@ -76,26 +85,20 @@ void disguise(void* chain) {
             reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next)->subgroupSize = kSubgroup;
         } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES) {
             reinterpret_cast<VkPhysicalDeviceVulkan11Properties*>(next)->subgroupSize = kSubgroup;
-        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) {
-            reinterpret_cast<VkPhysicalDeviceDriverProperties*>(next)->driverID = {};
-        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES) {
-            reinterpret_cast<VkPhysicalDeviceVulkan12Properties*>(next)->driverID = {};
         }
     }
 }
 
 VKAPI_ATTR void VKAPI_CALL get_properties(VkPhysicalDevice device,
                                           VkPhysicalDeviceProperties* properties) {
-    reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
-        real_function(current_instance, "vkGetPhysicalDeviceProperties"))(device, properties);
+    real_properties(device, properties);
     weaken(properties->limits);
     disguise(*properties);
 }
 
 VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice device,
                                            VkPhysicalDeviceProperties2* properties) {
-    reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
-        real_function(current_instance, "vkGetPhysicalDeviceProperties2"))(device, properties);
+    real_properties2(device, properties);
     weaken(properties->properties.limits);
     disguise(properties->properties);
     disguise(properties->pNext);
@@ -103,20 +106,10 @@ VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice device,
 
 VKAPI_ATTR void VKAPI_CALL get_queue_families(VkPhysicalDevice device, std::uint32_t* count,
                                               VkQueueFamilyProperties* families) {
-    reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(real_function(
-        current_instance, "vkGetPhysicalDeviceQueueFamilyProperties"))(device, count, families);
+    real_families(device, count, families);
     for (std::uint32_t i = 0; families != nullptr && has_no_graphics() && i < *count; ++i) {
         families[i].queueFlags &= ~VkQueueFlags{VK_QUEUE_GRAPHICS_BIT};
     }
-}
-
-VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
-                                               const VkAllocationCallbacks* allocator,
-                                               VkInstance* instance) {
-    const VkResult result = reinterpret_cast<PFN_vkCreateInstance>(
-        real_function(VK_NULL_HANDLE, "vkCreateInstance"))(info, allocator, instance);
-    current_instance = result == VK_SUCCESS ? *instance : VK_NULL_HANDLE;
-    return result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
@@ -125,11 +118,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
                                              VkDevice* device) {
     ++devices;
     submissions = 0;
-    return reinterpret_cast<PFN_vkCreateDevice>(real_function(current_instance, "vkCreateDevice"))(
-        physical, info, allocator, device);
+    return real_create_device(physical, info, allocator, device);
 }
-
-PFN_vkQueueSubmit real_submit = nullptr;
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
                                       VkFence fence) {
@@ -141,13 +131,19 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const 
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_function(VkDevice device, const char* name) {
-    const auto real = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
-        real_function(current_instance, "vkGetDeviceProcAddr"))(device, name);
+    const PFN_vkVoidFunction real = real_device_function(device, name);
     if (std::strcmp(name, "vkQueueSubmit") == 0) {
         real_submit = reinterpret_cast<PFN_vkQueueSubmit>(real);
         return reinterpret_cast<PFN_vkVoidFunction>(submit);
     }
     return real;
+}
+
+/// Returns `mine`, and notes in `real` what it stands before.
+template <class Function>
+PFN_vkVoidFunction instead(PFN_vkVoidFunction function, Function& real, Function mine) {
+    real = reinterpret_cast<Function>(function);
+    return reinterpret_cast<PFN_vkVoidFunction>(mine);
 }
 
 } // namespace
@@ -156,26 +152,26 @@ extern "C" {
 
 __attribute__((visibility("default"))) VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL
 vk_icdGetInstanceProcAddr(VkInstance instance, const char* name) {
-    if (std::strcmp(name, "vkCreateInstance") == 0) {
-        return reinterpret_cast<PFN_vkVoidFunction>(create_instance);
+    const PFN_vkVoidFunction real = real_function(instance, name);
+    const auto is = [&](const char* other) {
+        return real != nullptr && std::strcmp(name, other) == 0;
+    };
+    if (is("vkGetPhysicalDeviceProperties")) {
+        return instead(real, real_properties, &get_properties);
     }
-    if (std::strcmp(name, "vkGetPhysicalDeviceProperties") == 0) {
-        return reinterpret_cast<PFN_vkVoidFunction>(get_properties);
+    if (is("vkGetPhysicalDeviceProperties2") || is("vkGetPhysicalDeviceProperties2KHR")) {
+        return instead(real, real_properties2, &get_properties2);
     }
-    if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0 ||
-        std::strcmp(name, "vkGetPhysicalDeviceProperties2KHR") == 0) {
-        return reinterpret_cast<PFN_vkVoidFunction>(get_properties2);
+    if (is("vkGetPhysicalDeviceQueueFamilyProperties")) {
+        return instead(real, real_families, &get_queue_families);
     }
-    if (std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0) {
-        return reinterpret_cast<PFN_vkVoidFunction>(get_queue_families);
+    if (losses() > 0 && is("vkCreateDevice")) {
+        return instead(real, real_create_device, &create_device);
     }
-    if (losses() > 0 && std::strcmp(name, "vkCreateDevice") == 0) {
-        return reinterpret_cast<PFN_vkVoidFunction>(create_device);
+    if (losses() > 0 && is("vkGetDeviceProcAddr")) {
+        return instead(real, real_device_function, &get_device_function);
     }
-    if (losses() > 0 && std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
-        return reinterpret_cast<PFN_vkVoidFunction>(get_device_function);
-    }
-    return real_function(instance, name);
+    return real;
 }
 
 __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL

@@ -18,6 +18,9 @@ namespace {
 using tools::ExitCode;
 using tools::UserError;
 
+/// Time in which a GPU that was idle comes to its full clock.
+constexpr double kWarmUpSeconds = 0.1;
+
 /// A job with the tolerances that the device used.
 struct ReferenceJob {
     const PreparedMesh& mesh;
@@ -114,18 +117,21 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count, std::ui
                 what);
 
     const ref::Surface<double> surface(mesh.prepared, params);
-    std::vector<double> upload;
-    std::vector<double> device;
-    std::vector<double> readback;
-    std::vector<double> reference;
-    for (int i = -repetition.warm_ups; i < repetition.repeats; ++i) {
+    std::vector<double> upload, device, readback, reference;
+    const tools::Stopwatch warm_up;
+    for (int i = 0; i < repetition.warm_ups || warm_up.seconds() < kWarmUpSeconds; ++i) {
+        run_device(runner, mesh.prepared, params, what);
+    }
+    for (int i = 0; i < repetition.repeats; ++i) {
         set = run_device(runner, mesh.prepared, params, what);
-        const double reference_seconds = run_reference(surface, job).seconds;
+        upload.push_back(set.report.seconds.upload);
+        device.push_back(set.report.seconds.sample);
+        readback.push_back(set.report.seconds.readback);
+    }
+    for (int i = -repetition.warm_ups; i < repetition.repeats; ++i) {
+        const double seconds = run_reference(surface, job).seconds;
         if (i >= 0) {
-            upload.push_back(set.report.seconds.upload);
-            device.push_back(set.report.seconds.sample);
-            readback.push_back(set.report.seconds.readback);
-            reference.push_back(reference_seconds);
+            reference.push_back(seconds);
         }
     }
     Measurement row;

@@ -55,8 +55,9 @@ struct Repetition {
     int repeats = 5;
 };
 
-/// Samples `mesh` on the device and by the float reference and compares the sets, warms up, then
-/// times the device and the reference in double precision in turn.
+/// Samples `mesh` on the device and by the float reference and compares the sets. Then times the
+/// device, all runs in one go after a warm-up of at least 0.1 s, and after that the reference in
+/// double precision: a GPU that waits for the reference falls asleep.
 ///
 /// Throws UserError: `internal` if the sets differ, `out_of_memory` if the job does not fit, or
 /// when interrupted.

@@ -27,6 +27,7 @@ OptionFacts facts_of(const CLI::Option& option, const Offers& offers) {
         facts.names.push_back("--" + name);
     }
     facts.is_flag = option.get_items_expected_max() == 0;
+    facts.may_lack_value = !facts.is_flag && option.get_items_expected_min() == 0;
     facts.type = facts.is_flag ? "" : option.get_type_name();
     facts.usual = option.get_default_str();
     facts.text = option.get_description();
@@ -58,6 +59,11 @@ Option Option::shows_default(const std::string& text) const {
 
 Option Option::takes_one_value() const {
     option_->allow_extra_args(false);
+    return *this;
+}
+
+Option Option::may_lack_value() const {
+    option_->expected(0, 1);
     return *this;
 }
 

@@ -22,6 +22,7 @@ struct OptionFacts {
     std::string usual;              ///< The value it has when not given, where help shows it.
     std::string text, group;
     bool is_argument = false, is_flag = false, is_required = false, repeats = false;
+    bool may_lack_value = false;
     std::vector<std::string> offers; ///< Values to choose from, of those there may be.
 };
 
@@ -48,6 +49,8 @@ class Option {
     Option shows_default(const std::string& text) const;
     /// It may be given several times, with one value each.
     Option takes_one_value() const;
+    /// It may be given without its value, which is then "".
+    Option may_lack_value() const;
     /// Its values are given as one, with commas between.
     Option takes_commas() const;
     /// Its value is of [low, high].

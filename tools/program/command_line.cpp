@@ -63,7 +63,7 @@ class Sorter {
         const OptionFacts& option = option_named(name);
         if (equals != std::string::npos) {
             add(name, word.substr(equals + 1));
-        } else if (option.is_flag) {
+        } else if (option.is_flag || (option.may_lack_value && !value_follows())) {
             line_.options.push_back(name);
         } else {
             add(name, next_value(name));
@@ -107,6 +107,8 @@ class Sorter {
     }
 
     static std::string long_name(const OptionFacts& option) { return option.names.back(); }
+
+    bool value_follows() const { return at_ < words_.size() && !looks_like_option(words_[at_]); }
 
     std::string next_value(const std::string& name) {
         if (at_ == words_.size()) {

@@ -180,7 +180,9 @@ struct RunPlan {
                                        ///< windows or corners; cut to what the device can take.
     std::uint32_t detect_passes = 0;   ///< Dispatches of detect per round.
     std::uint32_t sample_capacity = 0; ///< Samples the buffers hold; more than slots.
-    std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it.
+    std::uint32_t pool_block = 0;      ///< As Sampler::tuning has it, or 1 where not even one
+                                       ///< block of such lanes fits the pool: by kernels of their
+                                       ///< own, compiled when a job first needs them.
     std::uint32_t stages = 0;          ///< Stages whose candidates are drawn at once; 1 of darts.
     std::uint32_t idle_capacity = 0;   ///< Places in the list of candidates that come next;
                                        ///< at most 2^23.

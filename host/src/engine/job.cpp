@@ -94,10 +94,11 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
                          std::to_string(most_slots) + " that work groups of " +
                          std::to_string(tuning.slot_local_size) + " reach"};
     }
-    if (plan.pool_block != tuning.pool_block) {
-        return Error{Status::invalid_argument,
-                     "the plan's pool_block is " + std::to_string(plan.pool_block) +
-                         ", but the sampler's kernels have " + std::to_string(tuning.pool_block)};
+    if (plan.pool_block != tuning.pool_block && plan.pool_block != 1) {
+        return Error{Status::invalid_argument, "the plan's pool_block is " +
+                                                   std::to_string(plan.pool_block) +
+                                                   ", which is neither 1 nor the sampler's " +
+                                                   std::to_string(tuning.pool_block)};
     }
     return Done{};
 }
@@ -198,7 +199,9 @@ Job::Impl::~Impl() {
 }
 
 Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_plan) {
-    wanted.trims = for_plan.trims && wanted.domain == DomainKind::surface;
+    const bool has_slices = wanted.domain == DomainKind::surface;
+    wanted.trims = for_plan.trims && has_slices;
+    wanted.lanes_apart = for_plan.pool_block != sampler->choices.tuning.pool_block && has_slices;
     const auto pipelines = sampler->pipelines.of(wanted);
     if (!pipelines) {
         return pipelines.error();

@@ -40,7 +40,8 @@ std::string text_of(const KernelVariant& variant) {
     switch (variant.domain) {
     case DomainKind::surface:
         return surfaces + (variant.many_rows ? ", rows of cells" : "") +
-               (variant.event_heap ? ", heap" : ", ring") + (variant.trims ? ", trimming" : "");
+               (variant.event_heap ? ", heap" : ", ring") + (variant.trims ? ", trimming" : "") +
+               (variant.lanes_apart ? ", lanes apart" : "");
     case DomainKind::placement:
         return surfaces;
     case DomainKind::box:

@@ -191,6 +191,7 @@ KernelVariant KernelVariant::of(Kernel kernel) const noexcept {
         variant.many_rows = false;
         variant.event_heap = false;
         variant.trims = false;
+        variant.lanes_apart = false;
     }
     return variant;
 }
@@ -204,7 +205,8 @@ std::vector<KernelVariant> all_kernel_variants() {
             surface.many_rows = many_rows;
             variants.push_back(surface);
             for (bool KernelVariant::*const also :
-                 {&KernelVariant::event_heap, &KernelVariant::trims, &KernelVariant::several}) {
+                 {&KernelVariant::event_heap, &KernelVariant::trims, &KernelVariant::lanes_apart,
+                  &KernelVariant::several}) {
                 variants.emplace_back(surface).*also = true;
             }
         }

@@ -72,6 +72,7 @@ struct KernelVariant {
     bool many_rows = false;      ///< Faces have several rows of cells.
     bool event_heap = false;     ///< Vertex events of a disk wait in a heap, else in a ring.
     bool trims = false;          ///< Disks that make very many windows trim them.
+    bool lanes_apart = false;    ///< Pool blocks of one lane, whatever Tuning::pool_block is.
 
     friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;
 

@@ -145,7 +145,7 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
     const std::array<std::uint32_t, 12> constants{info.per_slot ? tuning.slot_local_size
                                                                 : tuning.local_size,
                                                   choices_.native_rounding ? VK_TRUE : VK_FALSE,
-                                                  tuning.pool_block,
+                                                  variant.lanes_apart ? 1 : tuning.pool_block,
                                                   choices_.counted_lanes,
                                                   choices_.count_calls ? VK_TRUE : VK_FALSE,
                                                   variant.dimension,

@@ -53,8 +53,12 @@ std::uint64_t least_pool(const RunPlan& plan) {
 }
 
 /// Slots and lanes as they fit the pool: the fewest lists and a block of lanes before all, then
-/// lists for the slots in at most half of it. No lanes if not even one block fits.
+/// lists for the slots in at most half of it. Lanes apart where no block of several fits; no lanes
+/// if not even one does.
 void fit(RunPlan& plan, std::uint64_t pool_bytes) {
+    if (pool_bytes < least_pool(plan)) {
+        plan.pool_block = 1;
+    }
     if (pool_bytes < least_pool(plan)) {
         plan.lanes = 0;
         return;
@@ -92,15 +96,12 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
 }
 
 Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
-    return Error{Status::workspace_too_small,
-                 (plan.pool_block == 1 ? std::string("the disk of one candidate takes ")
-                                       : "the disks of " + std::to_string(plan.pool_block) +
-                                             " candidates side by side take ") +
-                     std::to_string(std::uint64_t{plan.pool_block} * plan.lane_rows() * 16) +
-                     " bytes of the pool and each of the least " + std::to_string(kLeastSlots) +
-                     " lists of conflicts " +
-                     std::to_string(std::uint64_t{plan.list_capacity} * 4) +
-                     ", but the pool may take only " + std::to_string(pool_bytes)};
+    return Error{
+        Status::workspace_too_small,
+        "the disk of one candidate takes " + std::to_string(std::uint64_t{plan.lane_rows()} * 16) +
+            " bytes of the pool and each of the least " + std::to_string(kLeastSlots) +
+            " lists of conflicts " + std::to_string(std::uint64_t{plan.list_capacity} * 4) +
+            ", but the pool may take only " + std::to_string(pool_bytes)};
 }
 
 } // namespace

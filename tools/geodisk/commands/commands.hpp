@@ -96,6 +96,6 @@ struct KernelsOptions {
 
 /// What `info --kernels` does: prints what the device's driver tells of the kernels that it has
 /// compiled. UserError(no_device) if it tells nothing.
-void print_kernels(const KernelsOptions& options, bool as_json);
+void print_kernels(const KernelsOptions& options, const OutputOptions& out);
 
 } // namespace geodisk::tools

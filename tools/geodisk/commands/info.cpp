@@ -1,10 +1,10 @@
 
 #include <array>
 #include <cstdint>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +15,7 @@
 #include "files/vulkan_environment.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/json.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
@@ -25,11 +26,11 @@ namespace {
 
 constexpr const char* kExamples[] = {
     "geodisk info",
-    "geodisk info --json",
+    "geodisk info --json devices.json",
 };
 
 struct InfoOptions {
-    bool as_json = false;
+    OutputOptions out; ///< Just where JSON goes.
     bool kernels = false;
     KernelsOptions of_kernels;
 };
@@ -123,31 +124,26 @@ void print_text(std::ostream& out, const std::vector<DeviceReport>& reports,
     }
 }
 
-void print_json(std::ostream& out, const std::vector<DeviceReport>& reports,
-                std::optional<std::size_t> best) {
+std::string json_of_all(const std::vector<DeviceReport>& reports, std::optional<std::size_t> best) {
     Json devices = Json::array();
     for (std::size_t i = 0; i < reports.size(); ++i)
         devices.push_back(to_json(i, reports[i]));
     const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
                         {"default_device", json_of(best)},
                         {"devices", std::move(devices)}};
-    out << text_of(document);
+    return text_of(document);
 }
 
-void run_info(bool as_json) {
+void run_info(const OutputOptions& out) {
     const Result<std::vector<DeviceReport>> listed = list_devices();
     const std::vector<DeviceReport> reports = listed ? *listed : std::vector<DeviceReport>{};
     const std::string device = listed ? device_of_environment() : "";
     const Result<std::size_t> chosen = select_device(reports, device);
     const std::optional<std::size_t> best = chosen ? std::optional(*chosen) : std::nullopt;
 
-    if (as_json)
-        print_json(std::cout, reports, best);
-    else
-        print_text(std::cout, reports, best);
-    std::cout.flush();
-    if (!std::cout)
-        fail_output("the list of devices cannot be written");
+    std::ostringstream text;
+    print_text(text, reports, best);
+    publish(out, json_of_all(reports, best), text.str());
     if (!listed) {
         take_device(Result<std::size_t>(listed.error()));
     }
@@ -165,7 +161,11 @@ void add_info_command(Command app) {
     const Command command =
         app.add_command("info", "List the Vulkan devices and whether they can run geodisk");
     const auto options = std::make_shared<InfoOptions>();
-    command.add_flag("--json", options->as_json, "Write what is told as JSON");
+    const Option json =
+        command
+            .add_option("--json", options->out.json, "FILE",
+                        "Write JSON to FILE; without FILE, or with -, print JSON only")
+            .may_lack_value();
     const Option kernels =
         command.add_flag("--kernels", options->kernels,
                          "Instead, compile the kernels on one device and tell the registers,\n"
@@ -186,11 +186,16 @@ void add_info_command(Command app) {
                   "Kernels as for sample --count-calls", "Development")
         .needs(kernels);
     command.has_footer(help_footer(kExamples));
-    command.calls([options] { // Owns them, as the options refer to them.
-        if (options->kernels)
-            print_kernels(options->of_kernels, options->as_json);
-        else
-            run_info(options->as_json);
+    command.calls([options, json] { // Owns them, as the options refer to them.
+        if (json.is_given() && options->out.json.empty()) {
+            options->out.json = "-";
+        }
+        check_outputs(options->out, "the list", {});
+        if (options->kernels) {
+            print_kernels(options->of_kernels, options->out);
+        } else {
+            run_info(options->out);
+        }
     });
 }
 

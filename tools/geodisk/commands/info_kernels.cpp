@@ -1,4 +1,3 @@
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "files/vulkan_environment.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/kernel_report.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -30,7 +30,7 @@ Reads parsed_reads(const std::string& name) {
 
 } // namespace
 
-void print_kernels(const KernelsOptions& options, bool as_json) {
+void print_kernels(const KernelsOptions& options, const OutputOptions& out) {
     SamplerOptions sampler_options;
     sampler_options.tuning.reads = parsed_reads(options.reads);
     sampler_options.count_calls = options.count_calls;
@@ -43,21 +43,15 @@ void print_kernels(const KernelsOptions& options, bool as_json) {
     sampler_options.tuning = overridden(kept, sampler_options.tuning);
     const Sampler sampler = take(Sampler::create(context.device(), sampler_options));
     const std::vector<KernelReport> reports = take(sampler.report_kernels());
-    if (as_json) {
-        std::cout << text_of(Json{{"geodisk_version", GEODISK_VERSION_STRING},
-                                  {"device", report.name},
-                                  {"driver", driver_text(report)},
-                                  {"reads", to_string(sampler.tuning().reads)},
-                                  {"kernels", kernels_json(reports)}});
-    } else {
-        std::cout << "device  " << one_line(report.name) << '\n'
-                  << "driver  " << one_line(driver_text(report)) << '\n'
-                  << "reads   " << to_string(sampler.tuning().reads) << "\n\n"
-                  << plain_lines(kernels_text(reports));
-    }
-    std::cout.flush();
-    if (!std::cout)
-        fail_output("what is known of the kernels cannot be written");
+    const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
+                        {"device", report.name},
+                        {"driver", driver_text(report)},
+                        {"reads", to_string(sampler.tuning().reads)},
+                        {"kernels", kernels_json(reports)}};
+    const std::string text = "device  " + one_line(report.name) + "\ndriver  " +
+                             one_line(driver_text(report)) + "\nreads   " +
+                             to_string(sampler.tuning().reads) + "\n\n" + kernels_text(reports);
+    publish(out, text_of(document), text);
 }
 
 } // namespace geodisk::tools

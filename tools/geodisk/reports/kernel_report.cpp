@@ -10,10 +10,16 @@
 namespace geodisk::tools {
 namespace {
 
+/// No count or size of a kernel is as large; NVIDIA's driver puts other things there.
+constexpr double kBeyondSize = 0x1p32;
+
+/// "" for what is no value.
 std::string value_text(const KernelStatistic& statistic) {
     return std::visit(
         [](auto value) -> std::string {
             using Value = decltype(value);
+            if (static_cast<double>(value) >= kBeyondSize)
+                return "";
             if constexpr (std::is_same_v<Value, bool>)
                 return value ? "yes" : "no";
             else if constexpr (std::is_same_v<Value, double>)
@@ -71,7 +77,12 @@ Json kernels_json(const std::vector<KernelReport>& reports) {
     for (const KernelReport& report : reports) {
         Json statistics = Json::object();
         for (const KernelStatistic& statistic : report.statistics)
-            std::visit([&](auto value) { statistics[statistic.name] = value; }, statistic.value);
+            std::visit(
+                [&](auto value) {
+                    const bool is_size = static_cast<double>(value) < kBeyondSize;
+                    statistics[statistic.name] = is_size ? Json(value) : Json(nullptr);
+                },
+                statistic.value);
         kernels.push_back({{"kernel", report.kernel},
                            {"variant", report.variant},
                            {"executable", report.executable},
