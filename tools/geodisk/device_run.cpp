@@ -21,17 +21,25 @@ namespace {
 /// Beyond what most meshes make; disks of so many are told of, since they take long.
 constexpr std::uint64_t kManyWindows = 10000;
 
+/// Fewer disks say little of how long the others take.
+constexpr double kFewDisks = 4;
+
 /// Draws how far a run is that should give about `expected` samples. Says once if it takes long,
 /// and stops it on a signal.
 ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected) {
     return [&progress, &log, expected, watch = Stopwatch(),
-            time = TimeEstimate()](const Progress& state) mutable {
+            time = TimeEstimate(std::min(0.05, kFewDisks / std::max(1.0, expected)))](
+               const Progress& state) mutable {
         log.tell_progress(state);
         const double part = part_done(state, expected);
         time.note(watch.seconds(), part);
         if (const auto seconds = time.long_run()) {
             progress.clear();
             print_warning("sampling takes about " + seconds_text(*seconds) + " on this device");
+        } else if (time.is_long_already()) {
+            progress.clear();
+            print_warning("sampling takes more than " + seconds_text(watch.seconds()) +
+                          " on this device: disks are far larger than triangles");
         }
         std::string text = grouped(state.accepted) + " samples";
         if (const auto left = time.left(); left && *left >= 1) {
@@ -54,9 +62,12 @@ std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
 
 double part_done(const Progress& state, double expected) {
     // Work is in the disks of accepted candidates, but only the darts are sure to reach the end.
-    const double accepted = std::min(0.99, state.accepted / std::max(1.0, expected));
+    // Those being worked on may count as decided, all of them at once where disks are few and
+    // large.
+    const double all = std::max(1.0, expected);
+    const double accepted = std::min(0.99, state.accepted / all);
     const double passed = static_cast<double>(state.decided) / state.candidates;
-    return std::max(accepted, passed);
+    return std::max(accepted, std::min(passed, (state.disks + 1) / all));
 }
 
 void check_run(const Error& error, bool bounded) {

@@ -18,7 +18,8 @@ void TimeEstimate::note(double seconds, double part) {
     if (!first_ || seconds - *first_ < kWarmUp) {
         start_seconds_ = seconds;
         start_part_ = part;
-    } else if (seconds - start_seconds_ >= kTrial && part > start_part_) {
+    } else if (seconds - start_seconds_ >= kTrial && part > start_part_ &&
+               part - start_part_ >= least_part_) {
         left_ = (1 - part) * (seconds - start_seconds_) / (part - start_part_);
     }
 }
@@ -29,6 +30,12 @@ std::optional<double> TimeEstimate::long_run() {
     }
     is_told_ = true;
     return seconds_ + *left_;
+}
+
+bool TimeEstimate::is_long_already() {
+    const bool is_news = !is_told_already_ && !left_ && seconds_ >= kLongRun;
+    is_told_already_ = is_told_already_ || is_news;
+    return is_news;
 }
 
 } // namespace geodisk::tools

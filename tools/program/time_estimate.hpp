@@ -11,16 +11,22 @@ inline constexpr double kLongRun = 20;
 /// Follows one run.
 class TimeEstimate {
   public:
+    /// `least_part`: less of the work than that says little of the rest.
+    explicit TimeEstimate(double least_part = 0) : least_part_(least_part) {}
+
     /// Notes that so much of the work, 0 to 1, is done after so many seconds.
     void note(double seconds, double part);
     /// Seconds that are left; none while too little is known.
     std::optional<double> left() const { return left_; }
     /// Seconds that the whole run takes, once, if that is a long time.
     std::optional<double> long_run();
+    /// Returns true once, when that long has passed and nobody knows what is left.
+    bool is_long_already();
 
   private:
+    double least_part_;
     double start_seconds_ = 0, start_part_ = 0, seconds_ = 0;
-    bool is_told_ = false;
+    bool is_told_ = false, is_told_already_ = false;
     std::optional<double> first_, left_; ///< Seconds when work began; and that are left.
 };
 
