@@ -24,7 +24,7 @@ constexpr double kUsualSide = 1440;
 constexpr double kMostHeight = 0.25, kMostShortHeight = 0.5;
 /// All in ems.
 constexpr double kMargin = 1, kGap = 2, kAbove = 0.2, kBarHeight = 0.7, kBelowBar = 0.15;
-constexpr double kRow = 2.5, kTextRow = 1.6; // Of rows with bars, and with text alone.
+constexpr double kRow = 2.8, kTextRow = 1.6; // Of rows with bars, and with text alone.
 constexpr double kLineHeight = 0.14;
 /// Where the scale of distances ends, and that of places with room for a sample begins, in radii.
 constexpr double kEndOfDistances = 2.5, kRoomFor = 2;

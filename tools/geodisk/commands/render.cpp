@@ -22,6 +22,7 @@ namespace {
 constexpr const char* kExamples[] = {
     "geodisk render bunny.obj points.ply -o picture.png",
     "geodisk render bunny.obj points.ply -o cells.png --style voronoi --view front --view back",
+    "geodisk render bunny.obj points.ply -o density.png --style density --legend",
     "geodisk render box.csv -o box.png",
 };
 
