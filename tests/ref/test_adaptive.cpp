@@ -445,6 +445,22 @@ TEST_SUITE("adaptive sets") {
         CHECK(fine / coarse == doctest::Approx(4).epsilon(0.15));
     }
 
+    TEST_CASE("have a guard that leaves the smallest disks their place") {
+        const TestMesh shape = builtin("icosphere", 5);
+        for (const double least : {1.0, 0.1, 0.001}) {
+            CAPTURE(least);
+            std::vector<double> factors(shape.vertex_count(), 1);
+            factors[0] = least;
+            const Case c(shape, factors);
+            const SampleParams params = c.params(1000);
+            const double error = first_error(c.surface, params);
+            const double guard = first_tolerances(c.surface, params).guard;
+            CHECK(guard >= error);
+            CHECK(guard <= std::max(1.15 * error, 0x1p-13 * least + 0x1p-20));
+            CHECK(guard < 0.018 * least);
+        }
+    }
+
     TEST_CASE("have room for small disks however large the largest is") {
         // A distance beyond the diagonal, and still room for small disks in half of the square.
         const TestMesh mesh = flat_grid(20, 20, 1, 1);
