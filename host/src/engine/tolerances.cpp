@@ -14,8 +14,8 @@ constexpr double kLeastSlack = 16; // In roundings.
 constexpr double kRadiiRounding = 0x1p-21;
 constexpr double kLeastChain = 64;
 constexpr double kMostChain = 1u << 16;
-// Guards per power of two where radii vary: what is added to a small radius matters more.
-constexpr double kRadiiSteps = 8;
+// Where radii vary: what is added to a small radius matters more.
+constexpr double kRadiiLeastGuard = 0x1p-15;
 
 double power_of_two_from(double x, double least) {
     double power = least;
@@ -57,10 +57,7 @@ ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params)
       per_crossing_(kRounding) {
     if (params.radii != nullptr) {
         further_ = kRadiiRounding;
-        steps_ = kRadiiSteps;
-        while (least_guard_ > 0x1p-13 * params.radii->least_factor()) {
-            least_guard_ /= 2;
-        }
+        least_guard_ = kRadiiLeastGuard;
     }
 }
 
@@ -68,7 +65,6 @@ void ErrorModel::widen(const ErrorModel& other) noexcept {
     longest_ = std::max(longest_, other.longest_);
     further_ = std::max(further_, other.further_);
     least_guard_ = std::min(least_guard_, other.least_guard_);
-    steps_ = std::max(steps_, other.steps_);
     per_crossing_ = std::max(per_crossing_, other.per_crossing_);
 }
 
@@ -77,12 +73,7 @@ double ErrorModel::error_of(std::uint32_t chain) const noexcept {
 }
 
 double ErrorModel::guard_for(double error_bound) const noexcept {
-    const double error = error_bound - further_;
-    const double power = power_of_two_from(error, least_guard_);
-    // Within the power of two, for which errors are large enough to have steps.
-    const double step = power / 2 / steps_;
-    const double guard = power > least_guard_ ? std::ceil(error / step) * step : power;
-    return guard + further_;
+    return power_of_two_from(error_bound - further_, least_guard_) + further_;
 }
 
 Tolerances ErrorModel::tolerances(double error_bound) const noexcept {

@@ -44,9 +44,9 @@ class GEODISK_API ErrorModel {
 
     /// Of chains of so many crossings.
     double error_of(std::uint32_t chain) const noexcept;
-    /// Returns a guard that is safe while errors keep to the bound. It has few values, so that an
-    /// edit somewhere does not decide anew about ties elsewhere: powers of two from 2^-13 on; where
-    /// radii vary eight steps per power of two, from 2^-13 of the smallest radius on.
+    /// Returns a guard that is safe while errors keep to the bound: powers of two from 2^-13 on, and
+    /// where radii vary from 2^-15 on, so that an edit somewhere does not decide anew about ties
+    /// elsewhere.
     double guard_for(double error_bound) const noexcept;
     Tolerances tolerances(double error_bound) const noexcept;
 
@@ -54,7 +54,6 @@ class GEODISK_API ErrorModel {
     double longest_ = 0; ///< Edge.
     double further_ = 0;
     double least_guard_ = 0x1p-13;
-    double steps_ = 1; ///< Guards per power of two.
     double per_crossing_ = 0;
 };
 
