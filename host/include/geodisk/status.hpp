@@ -1,8 +1,8 @@
 // Status, Error and Result<T>: how every geodisk call reports failure. No geodisk function throws,
-// prints, aborts or reads the environment.
+// prints, aborts or reads the environment, but for a Result that is asked for what it does not
+// hold.
 #pragma once
 
-#include <cassert>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -43,10 +43,14 @@ struct Error {
     std::int32_t vk_result = 0;         ///< The VkResult behind the failure, if any.
 };
 
+/// Prints "geodisk: Result::value() of an error: MESSAGE", or for no error that error() was asked
+/// of a value, to standard error, and aborts.
+[[noreturn]] GEODISK_API void end_misuse(const Error* error) noexcept;
+
 /// Either a value or an Error.
 ///
-/// `value()` may only be called when the result holds one, `error()` only when it does not; asserts
-/// say so.
+/// Call `value()` only if the result holds one, and `error()` only if it does not. Otherwise the
+/// program ends with a message, in every build.
 template <class T>
 class [[nodiscard]] Result {
   public:
@@ -58,15 +62,15 @@ class [[nodiscard]] Result {
     /// Whether it holds a value.
     explicit operator bool() const noexcept { return content_.index() == 0; }
     T& value() & noexcept {
-        assert(*this);
+        check_value();
         return *std::get_if<0>(&content_);
     }
     const T& value() const& noexcept {
-        assert(*this);
+        check_value();
         return *std::get_if<0>(&content_);
     }
     T&& value() && noexcept {
-        assert(*this);
+        check_value();
         return std::move(*std::get_if<0>(&content_));
     }
     T* operator->() noexcept { return &value(); }
@@ -74,15 +78,26 @@ class [[nodiscard]] Result {
     T& operator*() & noexcept { return value(); }
     const T& operator*() const& noexcept { return value(); }
     const Error& error() const& noexcept {
-        assert(!*this);
+        check_error();
         return *std::get_if<1>(&content_);
     }
     Error&& error() && noexcept {
-        assert(!*this);
+        check_error();
         return std::move(*std::get_if<1>(&content_));
     }
 
   private:
+    void check_value() const noexcept {
+        if (const Error* const held = std::get_if<1>(&content_)) [[unlikely]] {
+            end_misuse(held);
+        }
+    }
+    void check_error() const noexcept {
+        if (content_.index() == 0) [[unlikely]] {
+            end_misuse(nullptr);
+        }
+    }
+
     std::variant<T, Error> content_;
 };
 

@@ -1,3 +1,6 @@
+#include <cstdio>
+#include <cstdlib>
+
 #include <geodisk/export.hpp>
 #include <geodisk/status.hpp>
 
@@ -33,6 +36,15 @@ GEODISK_API const char* to_string(Status status) noexcept {
         return "internal";
     }
     return "unknown"; // A value from outside the enumeration, such as a newer library's.
+}
+
+GEODISK_API void end_misuse(const Error* error) noexcept {
+    if (error != nullptr) {
+        std::fprintf(stderr, "geodisk: Result::value() of an error: %s\n", error->message.c_str());
+    } else {
+        std::fputs("geodisk: Result::error() of a value\n", stderr);
+    }
+    std::abort();
 }
 
 } // namespace geodisk
