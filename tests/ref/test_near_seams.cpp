@@ -95,6 +95,12 @@ TEST_CASE("near seams: not in meshes that are whole, coincide, or are narrow by 
     CHECK(found_in(sheets).edges == 0);
 }
 
+TEST_CASE("near seams: the shortest edges that coordinates can have are looked through in time") {
+    const double next = std::nextafter(1.0, 2.0);
+    CHECK(found_in({{1, 0, next, 0, 1, 1, 2, 0}, {0, 1, 2, 1, 3, 2}, 2}).edges == 0);
+    CHECK(found_in({{0, 1e8, 0, 1e-8, 1e8, 0, 0, 1e8 + 1, 0}, {0, 1, 2}, 3}).edges == 0);
+}
+
 TEST_CASE("near seams: parts far smaller than the whole have their own measure") {
     // Neighbours in a grid are a hundred thousandth of the box, but not of their edges.
     TestMesh mesh = flat_grid(30, 30, 1e-4, 1e-4);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -30,43 +32,65 @@ constexpr double kLeastEpsilon = 0x1p-42;
 
 using Place = std::array<double, kMostDimensions>;
 
-struct Box {
-    double diagonal = 0, longest_side = 0;
-};
-
-Box box_of(const MeshView& mesh, const std::vector<EdgeEnds>& edges) {
-    Box box;
-    for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (const auto& [from, to] : edges) {
-            for (const std::uint32_t v : {from, to}) {
-                low = std::min(low, mesh.coordinate(v, axis));
-                high = std::max(high, mesh.coordinate(v, axis));
+/// Coordinates times a power of two that makes the longest side of the borders about 1, so that
+/// squares of distances neither overflow nor vanish.
+class ScaledMesh {
+  public:
+    ScaledMesh(const MeshView& mesh, const std::vector<EdgeEnds>& edges) : mesh_(mesh) {
+        double squares = 0;
+        for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
+            double low = HUGE_VAL, high = -HUGE_VAL;
+            for (const auto& [from, to] : edges) {
+                for (const std::uint32_t v : {from, to}) {
+                    low = std::min(low, mesh.coordinate(v, axis));
+                    high = std::max(high, mesh.coordinate(v, axis));
+                }
             }
+            longest_side_ = std::max(longest_side_, high - low);
+            squares = std::hypot(squares, high - low);
         }
-        box.longest_side = std::max(box.longest_side, high - low);
-        box.diagonal = std::hypot(box.diagonal, high - low);
+        if (is_sized()) {
+            scale_ = std::ldexp(1.0, std::min(-std::ilogb(longest_side_), kMostExponent));
+        }
+        diagonal_ = squares * scale_;
     }
-    return box;
-}
 
-double distance(const MeshView& mesh, std::uint32_t a, std::uint32_t b) {
-    double length = 0;
-    for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
-        length = std::hypot(length, mesh.coordinate(a, axis) - mesh.coordinate(b, axis));
+    /// False for no borders, and for borders in one point.
+    bool is_sized() const { return longest_side_ > 0 && std::isfinite(longest_side_); }
+    double longest_side() const { return longest_side_; } ///< In mesh units.
+    double diagonal() const { return diagonal_; }
+    double in_mesh_units(double length) const { return length / scale_; }
+
+    const MeshView& view() const { return mesh_; }
+    double coordinate(std::uint32_t v, std::uint32_t axis) const {
+        return mesh_.coordinate(v, axis) * scale_;
     }
-    return length;
-}
+    double distance(std::uint32_t a, std::uint32_t b) const {
+        double sum = 0;
+        for (std::uint32_t axis = 0; axis < mesh_.dimension; ++axis) {
+            const double d = coordinate(a, axis) - coordinate(b, axis);
+            sum += d * d;
+        }
+        return std::sqrt(sum);
+    }
+
+  private:
+    static constexpr int kMostExponent = 1000; // Of a scale that stays finite.
+
+    const MeshView& mesh_;
+    double longest_side_ = 0, scale_ = 1, diagonal_ = 0;
+};
 
 /// Whether two vertices share a face, for those that are near each other.
 class ShortEdges {
   public:
-    ShortEdges(const MeshView& mesh, double longest) {
-        for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-            const auto face = mesh.triangles.face(f);
+    ShortEdges(const ScaledMesh& mesh, double longest) {
+        const IndexView triangles = mesh.view().triangles;
+        for (std::size_t f = 0; f < mesh.view().face_count(); ++f) {
+            const auto face = triangles.face(f);
             for (std::size_t k = 0; k < 3 && takes_part(face); ++k) {
                 const std::uint32_t a = face[k], b = face[(k + 1) % 3];
-                if (distance(mesh, a, b) <= longest) {
+                if (mesh.distance(a, b) <= longest) {
                     edges_.push_back(std::minmax(a, b));
                 }
             }
@@ -83,67 +107,79 @@ class ShortEdges {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;
 };
 
+/// A cell of the grid below: those of a level have sides of one length.
+struct EdgeCell {
+    int level = 0;
+    std::array<double, 3> at{};
+
+    /// Differs for most cells. Those of a block have numbers that follow each other.
+    std::uint64_t hash() const {
+        std::uint64_t block = static_cast<std::uint64_t>(level), cell = 0;
+        for (const double x : at) {
+            block = mixed(block, std::floor(x / kPerBlock));
+            cell = mixed(cell, x);
+        }
+        return block * kNumbersOfBlock + (cell >> 32) % kNumbersOfBlock;
+    }
+
+  private:
+    /// A block is some edges wide, so that an edge in a block has a number or two.
+    static constexpr int kPerBlock = 32;
+    static constexpr std::uint64_t kNumbersOfBlock = 64;
+
+    static std::uint64_t mixed(std::uint64_t hash, double x) {
+        hash ^= std::bit_cast<std::uint64_t>(x + 0.0); // There is no -0 then.
+        hash *= 0x9e3779b97f4a7c15;
+        return hash ^ hash >> 32;
+    }
+};
+
 /// Border edges in a grid by their midpoints. Its cells grow with the length of the edges, so that
 /// few edges share a cell however small the parts of the mesh are.
 class EdgeGrid {
   public:
-    EdgeGrid(const MeshView& mesh, std::vector<EdgeEnds> edges, double diagonal)
-        : mesh_(mesh), edges_(std::move(edges)), most_(kPartOfDiagonal * diagonal),
-          short_edges_(mesh, most_), axes_(std::min(mesh.dimension, 3u)) {
-        members_.reserve(edges_.size());
+    EdgeGrid(const ScaledMesh& mesh, std::vector<EdgeEnds> edges)
+        : mesh_(mesh), edges_(std::move(edges)), most_(kPartOfDiagonal * mesh.diagonal()),
+          short_edges_(mesh, most_), axes_(std::min(mesh.view().dimension, 3u)),
+          mask_(std::bit_ceil(edges_.size()) - 1), starts_(mask_ + 2), members_(edges_.size()) {
+        std::vector<std::uint64_t> hashes(edges_.size());
         for (std::uint32_t i = 0; i < edges_.size(); ++i) {
             const double length = length_of(i);
-            if (length > 0) {
-                const int level = level_of(length);
-                members_.push_back({level, cell_of(midpoint(i), level, 0), i});
-            }
+            hashes[i] = length > 0 ? cell_of(midpoint(i), level_of(length), 0).hash() : i;
+            ++starts_[(hashes[i] & mask_) + 1];
         }
-        std::sort(members_.begin(), members_.end());
+        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+        for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+            members_[next[hashes[i] & mask_]++] = {tag_of(hashes[i]), i};
+        }
     }
 
-    std::uint32_t edge_count() const { return static_cast<std::uint32_t>(edges_.size()); }
-
-    /// Distance to the nearest other edge whose ends are close to those of edge `i`; 0 for none.
-    double gap_of(std::uint32_t i) const {
-        const double length = length_of(i);
-        const double radius = std::min(kPartOfEdge * length, most_);
-        double nearest = 0;
-        if (!(length > 0)) {
-            return nearest;
+    /// Calls `visit` with the distance of each edge, neighbours one after the other, to the nearest
+    /// other one whose ends are close to its own, in mesh units; 0 for none.
+    template <class Visit>
+    void visit_gaps(const Visit& visit) const {
+        for (const Member& member : members_) {
+            visit(mesh_.in_mesh_units(gap_of(member.edge)));
         }
-        const int last = level_of(length + 2 * radius);
-        for (int level = level_of(length - 2 * radius); level <= last; ++level) {
-            const Cell low = cell_of(midpoint(i), level, -radius);
-            const Cell high = cell_of(midpoint(i), level, radius);
-            for (Cell cell = low; cell[0] <= high[0]; ++cell[0]) {
-                for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1]) {
-                    for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2]) {
-                        look_in({level, cell, 0}, i, radius, nearest);
-                    }
-                }
-            }
-        }
-        return nearest;
     }
 
   private:
-    using Cell = std::array<double, 3>;
     struct Member {
-        int level;
-        Cell cell;
-        std::uint32_t edge;
-        auto operator<=>(const Member&) const = default;
+        std::uint32_t tag = 0; ///< Of the cell: others share its bucket.
+        std::uint32_t edge = 0;
     };
 
-    // So that most neighbourhoods lie in one cell.
+    // So that most neighbourhoods lie in one cell, and all in two along each axis.
     static constexpr double kCellsPerEdge = 8;
     /// Bounds the time where very many edges share a cell.
     static constexpr int kMostCandidates = 256;
 
-    double length_of(std::uint32_t i) const {
-        return distance(mesh_, edges_[i].from, edges_[i].to);
+    static std::uint32_t tag_of(std::uint64_t hash) {
+        return static_cast<std::uint32_t>(hash >> 32);
     }
     static int level_of(double length) { return std::ilogb(length); }
+    double length_of(std::uint32_t i) const { return mesh_.distance(edges_[i].from, edges_[i].to); }
 
     Place midpoint(std::uint32_t i) const {
         Place place{};
@@ -153,21 +189,55 @@ class EdgeGrid {
         }
         return place;
     }
-    Cell cell_of(const Place& place, int level, double shift) const {
+    EdgeCell cell_of(const Place& place, int level, double shift) const {
         const double side = std::ldexp(1 / kCellsPerEdge, level);
-        Cell cell{};
+        EdgeCell cell{level, {}};
         for (std::uint32_t axis = 0; axis < axes_; ++axis) {
-            cell[axis] = std::floor((place[axis] + shift) / side);
+            cell.at[axis] = std::floor((place[axis] + shift) / side);
         }
         return cell;
     }
 
-    void look_in(const Member& cell, std::uint32_t i, double radius, double& nearest) const {
-        auto at = std::lower_bound(members_.begin(), members_.end(), cell);
-        for (int looked_at = 0; at != members_.end() && at->level == cell.level &&
-                                at->cell == cell.cell && looked_at < kMostCandidates;
-             ++at, ++looked_at) {
-            const double gap = at->edge == i ? 0 : gap_between(i, at->edge, radius);
+    double gap_of(std::uint32_t i) const {
+        const double length = length_of(i);
+        double nearest = 0;
+        if (!(length > 0)) {
+            return nearest;
+        }
+        const Place middle = midpoint(i);
+        const double radius = std::min(kPartOfEdge * length, most_);
+        const int last = level_of(length + 2 * radius);
+        for (int level = level_of(length - 2 * radius); level <= last; ++level) {
+            const EdgeCell low = cell_of(middle, level, -radius);
+            const EdgeCell high = cell_of(middle, level, radius);
+            for (unsigned choice = 0; choice < 1u << axes_; ++choice) {
+                EdgeCell cell = low;
+                bool is_new = true;
+                for (std::uint32_t axis = 0; axis < axes_; ++axis) {
+                    if ((choice >> axis & 1u) != 0) {
+                        is_new = is_new && high.at[axis] != low.at[axis];
+                        cell.at[axis] = high.at[axis];
+                    }
+                }
+                if (is_new) {
+                    look_in(cell, i, radius, nearest);
+                }
+            }
+        }
+        return nearest;
+    }
+
+    void look_in(const EdgeCell& cell, std::uint32_t i, double radius, double& nearest) const {
+        const std::uint64_t hash = cell.hash();
+        int looked_at = 0;
+        for (std::uint32_t at = starts_[hash & mask_];
+             at < starts_[(hash & mask_) + 1] && looked_at < kMostCandidates; ++at) {
+            const Member& other = members_[at];
+            if (other.tag != tag_of(hash) || other.edge == i) {
+                continue;
+            }
+            ++looked_at;
+            const double gap = gap_between(i, other.edge, radius);
             if (gap > 0 && (nearest == 0 || gap < nearest)) {
                 nearest = gap;
             }
@@ -179,19 +249,21 @@ class EdgeGrid {
         radius = std::min(radius, kPartOfEdge * length_of(k));
         const auto [a, b] = edges_[i];
         auto [c, d] = edges_[k];
-        if (distance(mesh_, a, c) > radius) {
+        if (mesh_.distance(a, c) > radius) {
             std::swap(c, d);
         }
-        const double gap = std::max(distance(mesh_, a, c), distance(mesh_, b, d));
+        const double gap = std::max(mesh_.distance(a, c), mesh_.distance(b, d));
         // Across a narrow part of the surface, edges are near each other as they should be.
         return gap <= radius && !short_edges_.join(a, c) && !short_edges_.join(b, d) ? gap : 0;
     }
 
-    const MeshView& mesh_;
+    const ScaledMesh& mesh_;
     std::vector<EdgeEnds> edges_;
     double most_;
     ShortEdges short_edges_;
     std::uint32_t axes_;
+    std::uint64_t mask_;                ///< Of the number of buckets, a power of two, less 1.
+    std::vector<std::uint32_t> starts_; ///< Of each bucket in members_, and the end.
     std::vector<Member> members_;
 };
 
@@ -241,18 +313,17 @@ Result<NearSeams> find_near_seams(const MeshView& mesh) noexcept {
         }
         NearSeams seams;
         std::vector<EdgeEnds> borders = border_edges(mesh);
-        const Box box = box_of(mesh, borders);
-        if (borders.empty() || !std::isfinite(box.diagonal)) {
+        const ScaledMesh scaled(mesh, borders);
+        if (!scaled.is_sized()) {
             return seams;
         }
-        const EdgeGrid grid(mesh, std::move(borders), box.diagonal);
-        for (std::uint32_t i = 0; i < grid.edge_count(); ++i) {
-            const double gap = grid.gap_of(i);
+        EdgeGrid(scaled, std::move(borders)).visit_gaps([&seams](double gap) {
             seams.edges += gap > 0 ? 1 : 0;
             seams.gap = std::max(seams.gap, gap);
-        }
+        });
         if (seams.edges > 0) {
-            const double least = std::max(kRounding * seams.gap, kLeastEpsilon * box.longest_side);
+            const double least =
+                std::max(kRounding * seams.gap, kLeastEpsilon * scaled.longest_side());
             if (auto chosen = choose_epsilon(mesh, least, seams); !chosen) {
                 return chosen.error();
             }
