@@ -7,57 +7,33 @@
 #include <system_error>
 #include <thread>
 
-#include "files/output_target.hpp"
-
+#include <fcntl.h>
 #ifdef _WIN32
-#include <fcntl.h>
 #include <io.h>
-#include <share.h>
-#include <sys/stat.h>
 #else
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 #endif
+
+#include "files/descriptor.hpp"
+#include "files/output_target.hpp"
 
 namespace geodisk::tools {
 namespace {
 
 #ifdef _WIN32
-std::FILE* open_alone(const Path& path) {
-    int descriptor = -1;
-    const int error =
-        _wsopen_s(&descriptor, path.c_str(), _O_CREAT | _O_RDWR | _O_BINARY | _O_NOINHERIT,
-                  _SH_DENYWR, _S_IREAD | _S_IWRITE);
-    if (error != 0) {
-        errno = error == EACCES && std::filesystem::exists(path) ? EWOULDBLOCK : error;
-        return nullptr;
-    }
-    return _fdopen(descriptor, "r+b");
-}
-
 int resize(std::FILE* file, std::int64_t size) {
     return _chsize_s(_fileno(file), size);
 }
 #else
-std::FILE* open_alone(const Path& path) {
-    const int descriptor = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-    if (descriptor < 0) {
-        return nullptr;
-    }
-    // Where the file system knows no locks, nothing tells of others.
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        close(descriptor);
-        errno = EWOULDBLOCK;
-        return nullptr;
-    }
-    return fdopen(descriptor, "r+b");
-}
-
 int resize(std::FILE* file, std::int64_t size) {
     return ftruncate(fileno(file), size) == 0 ? 0 : errno;
 }
 #endif
+
+std::FILE* open_log(const Path& path) {
+    const int descriptor = open_alone(path, O_CREAT | O_RDWR);
+    return descriptor < 0 ? nullptr : fdopen(descriptor, "r+b");
+}
 
 constexpr int kTries = 20;
 constexpr std::chrono::milliseconds kPause(100);
@@ -79,11 +55,11 @@ std::int64_t whole_lines(std::FILE* file) {
 
 } // namespace
 
-LineLog::LineLog(const Path& path) : path_(path), file_(open_alone(path)) {
+LineLog::LineLog(const Path& path) : path_(path), file_(open_log(path)) {
     // A program that was killed takes a moment to be gone.
     for (int tries = 0; file_ == nullptr && errno == EWOULDBLOCK && tries < kTries; ++tries) {
         std::this_thread::sleep_for(kPause);
-        file_ = open_alone(path);
+        file_ = open_log(path);
     }
     if (file_ == nullptr) {
         if (errno == EWOULDBLOCK) {

@@ -10,6 +10,8 @@
 #include <unistd.h>
 #endif
 
+#include "files/descriptor.hpp"
+
 namespace geodisk::tools {
 
 #ifdef _WIN32
@@ -21,10 +23,7 @@ std::FILE* open_stream_to_read(const std::filesystem::path& path, const StreamPa
     if (stream.descriptor < 0) {
         return open_to_read(path);
     }
-    const int copy = _dup(stream.descriptor);
-    if (copy >= 0) {
-        _setmode(copy, _O_BINARY);
-    }
+    const int copy = copy_descriptor(stream.descriptor);
     return copy < 0 ? nullptr : _fdopen(copy, "rb");
 }
 #else
@@ -34,7 +33,7 @@ std::FILE* open_to_read(const std::filesystem::path& path) {
 
 std::FILE* open_stream_to_read(const std::filesystem::path& path, const StreamPath& stream) {
     const int descriptor = stream.descriptor >= 0
-                               ? fcntl(stream.descriptor, F_DUPFD_CLOEXEC, 0)
+                               ? copy_descriptor(stream.descriptor)
                                : open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
     if (descriptor < 0) {
         return nullptr;

@@ -13,19 +13,14 @@
 #include <unistd.h>
 #endif
 
+#include "files/descriptor.hpp"
+
 namespace geodisk::tools {
 namespace {
 
 #ifdef _WIN32
 int open_stream(const std::filesystem::path& path) {
     return _wopen(path.c_str(), _O_WRONLY | _O_BINARY | _O_NOINHERIT);
-}
-int copy_of(int descriptor) {
-    const int copy = _dup(descriptor);
-    if (copy >= 0) {
-        _setmode(copy, _O_BINARY);
-    }
-    return copy;
 }
 std::ptrdiff_t write_some(int descriptor, std::string_view bytes) {
     constexpr std::size_t kMost = 1 << 20; // Less than an int.
@@ -37,9 +32,6 @@ int close_stream(int descriptor) {
 #else
 int open_stream(const std::filesystem::path& path) {
     return open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY);
-}
-int copy_of(int descriptor) {
-    return fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
 }
 /// Waits where the other end asked not to be waited for.
 std::ptrdiff_t write_some(int descriptor, std::string_view bytes) {
@@ -74,7 +66,8 @@ int write_stream(const std::filesystem::path& path, const StreamPath& stream,
                  std::string_view bytes) {
     std::cout.flush();
     std::cerr.flush();
-    const int descriptor = stream.descriptor >= 0 ? copy_of(stream.descriptor) : open_stream(path);
+    const int descriptor =
+        stream.descriptor >= 0 ? copy_descriptor(stream.descriptor) : open_stream(path);
     if (descriptor < 0) {
         return errno;
     }

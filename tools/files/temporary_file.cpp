@@ -5,17 +5,16 @@
 #include <string>
 #include <system_error>
 
+#include <fcntl.h>
 #ifdef _WIN32
-#include <fcntl.h>
 #include <io.h>
-#include <share.h>
-#include <sys/stat.h>
 #else
-#include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #endif
+
+#include "files/descriptor.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -35,22 +34,7 @@ std::filesystem::path name_for(const std::filesystem::path& target) {
 }
 
 #ifdef _WIN32
-// What a process has open so, others cannot open or remove. The C runtime of old knows no mode "x".
-std::FILE* open_new(const std::filesystem::path& path) {
-    int descriptor = -1;
-    const int error = _wsopen_s(&descriptor, path.c_str(),
-                                _O_CREAT | _O_EXCL | _O_WRONLY | _O_BINARY | _O_NOINHERIT,
-                                _SH_DENYRW, _S_IREAD | _S_IWRITE);
-    if (error != 0) {
-        errno = error;
-        return nullptr;
-    }
-    std::FILE* const file = _fdopen(descriptor, "wb");
-    if (file == nullptr) {
-        _close(descriptor);
-    }
-    return file;
-}
+constexpr int kNoFollow = 0;
 
 void remove_if_abandoned(const std::filesystem::path& path) {
     _wremove(path.c_str());
@@ -58,8 +42,12 @@ void remove_if_abandoned(const std::filesystem::path& path) {
 
 /// 0 or an errno value.
 int make_empty(const std::filesystem::path& path) {
-    std::FILE* const file = open_new(path);
-    return file == nullptr ? errno : std::fclose(file);
+    const int descriptor = open_alone(path, _O_CREAT | _O_EXCL | _O_WRONLY);
+    return descriptor < 0 ? errno : _close(descriptor);
+}
+
+bool is_at(int /*descriptor*/, const std::filesystem::path& /*path*/) {
+    return true; // Others cannot remove what is open.
 }
 
 // An open file has no second name there.
@@ -67,37 +55,13 @@ int link_file(const std::filesystem::path& /*from*/, const std::filesystem::path
     return ENOSYS;
 }
 #else
+constexpr int kNoFollow = O_NOFOLLOW;
+
 bool is_at(int descriptor, const std::filesystem::path& path) {
     struct stat opened {
     }, named{};
     return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-}
-
-/// Whoever holds the lock owns the file.
-std::FILE* open_new(const std::filesystem::path& path) {
-    const int descriptor =
-        open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor < 0) {
-        return nullptr;
-    }
-    // File systems without locks have none that could be taken for abandoned either.
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        close(descriptor); // Another process has taken it for abandoned meanwhile, and removes it.
-        errno = EEXIST;
-        return nullptr;
-    }
-    if (!is_at(descriptor, path)) {
-        close(descriptor); // And here has removed it.
-        errno = EEXIST;
-        return nullptr;
-    }
-    std::FILE* const file = fdopen(descriptor, "wb");
-    if (file == nullptr) {
-        unlink(path.c_str());
-        close(descriptor);
-    }
-    return file;
 }
 
 void remove_if_abandoned(const std::filesystem::path& path) {
@@ -124,6 +88,28 @@ int link_file(const std::filesystem::path& from, const std::filesystem::path& to
     return link(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 #endif
+
+/// Whoever holds the lock owns the file.
+std::FILE* open_new(const std::filesystem::path& path) {
+    const int descriptor = open_alone(path, O_CREAT | O_EXCL | O_WRONLY | kNoFollow);
+    if (descriptor < 0) {
+        // Where it is locked, another process has taken it for abandoned meanwhile, and removes it.
+        errno = errno == EWOULDBLOCK ? EEXIST : errno;
+        return nullptr;
+    }
+    if (!is_at(descriptor, path)) {
+        close(descriptor); // And here has removed it.
+        errno = EEXIST;
+        return nullptr;
+    }
+    std::FILE* const file = fdopen(descriptor, "wb");
+    if (file == nullptr) {
+        std::error_code ignored;
+        close(descriptor);
+        std::filesystem::remove(path, ignored);
+    }
+    return file;
+}
 
 } // namespace
 
