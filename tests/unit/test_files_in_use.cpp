@@ -78,22 +78,25 @@ TEST_CASE("no file that is read or written otherwise is written") {
 
 TEST_CASE("files that a mesh names are read") {
     const TemporaryFolder folder;
-    for (const char* const name : {"a b.bin", "tex.png", "my wood.png", "bump.jpg", "old.tga"}) {
+    for (const char* const name :
+         {"a b.bin", "tex.png", "my wood.png", "bump.jpg", "old.tga", "sky.hdr"}) {
         folder.write(name, "");
     }
-    folder.write("wood.mtl", "newmtl wood\nmap_Kd -s 1 1 1 my wood.png\nbump -bm .5 bump.jpg\n");
+    folder.write("wood.mtl", "newmtl wood\nmap_Kd -s 1 1 1 my wood.png\nbump -bm .5 bump.jpg\n"
+                             "refl -type sphere \"sky.hdr\"\n");
     folder.write("mesh.obj", "mtllib wood.mtl missing.mtl\nv 0 0 0\n");
     folder.write("dos.obj", "mtllib .\\wood.mtl\r\nv 0 0 0\r\n");
-    folder.write("mesh.ply", "ply\ncomment TextureFile old.tga\nend_header\n");
+    folder.write("mesh.ply", "ply\ncomment TextureFile old.tga\ncomment texture: tex.png\n"
+                             "end_header\n");
     const std::string json = R"({"buffers": [{"uri": "a%20b.bin"}, {"uri": "data:x,y"}],)"
                              R"( "images": [{"extras": {"uri": "tex.png"}}]})";
     folder.write("mesh.gltf", json);
     const auto size = static_cast<char>(json.size());
     folder.write("mesh.glb", std::string("glTF\2\0\0\0\0\0\0\0", 12) + size +
                                  std::string("\0\0\0JSON", 7) + json + "binary");
-    CHECK(names_in(folder, "mesh.obj") == Names{"bump.jpg", "my wood.png", "wood.mtl"});
-    CHECK(names_in(folder, "dos.obj") == Names{"bump.jpg", "my wood.png", "wood.mtl"});
-    CHECK(names_in(folder, "mesh.ply") == Names{"old.tga"});
+    CHECK(names_in(folder, "mesh.obj") == Names{"bump.jpg", "my wood.png", "sky.hdr", "wood.mtl"});
+    CHECK(names_in(folder, "dos.obj") == Names{"bump.jpg", "my wood.png", "sky.hdr", "wood.mtl"});
+    CHECK(names_in(folder, "mesh.ply") == Names{"old.tga", "tex.png"});
     CHECK(names_in(folder, "mesh.gltf") == Names{"a b.bin", "tex.png"});
     CHECK(names_in(folder, "mesh.glb") == Names{"a b.bin", "tex.png"});
     CHECK(names_in(folder, "missing.obj").empty());

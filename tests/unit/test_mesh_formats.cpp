@@ -71,6 +71,13 @@ TEST_CASE("binary STL that begins with solid is told by the zeros of its head") 
     CHECK(apart.triangle_count() == 1);
 }
 
+TEST_CASE("a text STL that may be cut short is told") {
+    const MeshFile mesh = mesh_of("a.stl", "solid part\n" + std::string(kFacet));
+    CHECK(mesh.triangle_count() == 1);
+    CHECK(warning_of(mesh).kind == "cut_short");
+    CHECK(contains(warning_of(mesh).message, "not ended by endsolid"));
+}
+
 TEST_CASE("STL facets keep their numbers where they vanish") {
     const std::string point = "facet\nvertex 1 1 1\nvertex 1 1 1\nvertex 2 1 1\nendfacet\n";
     const std::string copies = std::string(kFacet) + std::string(kFacet);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -86,10 +87,26 @@ Names names_in_gltf(const std::string& bytes) {
     return std::move(collector.names);
 }
 
-/// Names may hold blanks and stand behind options: all ends of the text, and each word.
+/// Takes text up to the next part in quotation marks from `rest`, and returns that part.
+std::optional<std::string_view> next_quoted(std::string_view& rest) {
+    const std::size_t first = rest.find('"');
+    const std::size_t last = rest.find('"', first + 1);
+    if (first == std::string_view::npos || last == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const std::string_view quoted = rest.substr(first + 1, last - first - 1);
+    rest.remove_prefix(last + 1);
+    return quoted;
+}
+
+/// Names may hold blanks and stand behind options: all ends of the text, each word, and what is in
+/// quotation marks.
 void add_words(std::string_view text, Names& names) {
     constexpr std::size_t kMostWords = 64;
     text = trimmed(text);
+    for (std::string_view rest = text; const auto quoted = next_quoted(rest);) {
+        names.emplace_back(*quoted);
+    }
     std::vector<std::string_view> words;
     split_tokens(text, words);
     words.resize(std::min(words.size(), kMostWords));
@@ -122,12 +139,11 @@ Names names_in_mtl(const std::string& bytes) {
 }
 
 Names names_in_ply(const std::string& bytes) {
-    constexpr std::string_view kKey = "comment TextureFile";
     Names names;
     TextLines lines(bytes);
     for (std::string_view line; lines.next(line) && !line.starts_with("end_header");) {
-        if (line.starts_with(kKey)) {
-            add_words(line.substr(kKey.size()), names);
+        if (lower_case(std::string(line)).find("texture") != std::string::npos) {
+            add_words(line, names);
         }
     }
     return names;

@@ -97,6 +97,8 @@ class AsciiReader {
         if (in_facet_) {
             fail("the file ends inside a facet");
         }
+        add_warning(mesh_.warnings, "cut_short", in_solid_ ? 1 : 0, "",
+                    "solid is not ended by endsolid: the file may be cut short", "");
         return std::move(mesh_);
     }
 
@@ -116,6 +118,7 @@ class AsciiReader {
             if (in_facet_) {
                 fail("a facet is not ended");
             }
+            in_solid_ = keyword == "solid";
         } else if (keyword == "end" && tokens_.size() > 1) { // "end facet"
             tokens_.erase(tokens_.begin());
             read_record("end" + lower_case(std::string(tokens_[0])));
@@ -167,7 +170,7 @@ class AsciiReader {
     TextLines lines_;
     std::vector<std::string_view> tokens_;
     PolygonMesh mesh_;
-    bool in_facet_ = false;
+    bool in_solid_ = false, in_facet_ = false;
     int vertices_ = 0; ///< Of the facet so far.
 };
 
