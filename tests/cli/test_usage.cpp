@@ -149,6 +149,13 @@ TEST_CASE("wrong usage is explained") {
     check_fails(folder, 2, "SAMPLES is required", {"verify", "builtin:cube"});
     check_fails(folder, 2, "--speed", sample({"-n", "9", "--speed", "3"}));
     check_fails(folder, 2, "one argument too many: 'surplus'", sample({"surplus", "-n", "9"}));
+    check_fails(folder, 2, "'1e-6'; if it is the value of --weld, give --weld=1e-6",
+                sample({"-n", "9", "--weld", "1e-6"}));
+    check_fails(folder, 2, "an argument is empty", {"sample", "", "-o", "a.ply", "-n", "9"});
+    check_fails(folder, 2, "'1e30' is above 2^53", sample({"-n", "1e30"}));
+    check_fails(folder, 3, ".: is a folder", {"sample", ".", "-o", "a.ply", "-n", "9"});
+    check_fails(folder, 4, ".: cannot write: is a folder",
+                {"sample", "builtin:cube", "-o", ".", "-n", "9"});
     check_fails(folder, 2, "--count needs a value", sample({"-n"}));
     check_fails(folder, 2, "--count is given more than once", sample({"-n", "9", "-n", "8"}));
     check_fails(folder, 2, "--json: needs a value", sample({"-n", "9", "--json=", "--seed=3"}));

@@ -29,15 +29,20 @@ void check_regular(const Path& path) {
     if (error) {
         fail_input(path, "cannot read: " + error.message());
     }
-    if (std::filesystem::is_directory(status)) {
-        fail_input(path, "is a folder, not a file");
-    }
+    check_no_folder(path);
     if (!std::filesystem::is_regular_file(status)) {
         fail_input(path, "is not a regular file");
     }
 }
 
 } // namespace
+
+void check_no_folder(const Path& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        fail_input(path, "is a folder, not a file");
+    }
+}
 
 std::string read_file(const Path& path) {
     const auto stream = input_stream(path);

@@ -11,6 +11,9 @@ namespace geodisk::tools {
 /// is missing, a folder or unreadable, and for devices but terminals, which may never end.
 std::string read_file(const Path& path);
 
+/// Throws UserError(bad_input) if `path` is a folder.
+void check_no_folder(const Path& path);
+
 /// `text` with the letters A to Z in lower case.
 std::string lower_case(std::string text);
 

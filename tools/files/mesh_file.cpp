@@ -405,6 +405,7 @@ MeshFile read_mesh(const MeshSources& sources) {
                    " is none of gltf, glb, obj, off, "
                    "ply and stl");
     }
+    check_no_folder(path);
     fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
                      "builtin:NAME, or give --mesh-format");
 }

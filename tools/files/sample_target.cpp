@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "files/input_file.hpp"
+#include "files/output_target.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/suggestion.hpp"
@@ -43,6 +44,10 @@ SampleFormat format_of(const Path& path, std::string_view name) {
     const std::string extension = lower_extension(path);
     if (const auto format = find_format(extension.empty() ? "" : extension.substr(1))) {
         return *format;
+    }
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        fail_to_write(path, "is a folder");
     }
     fail_usage(path.string() + ": unknown sample format; known are " + all_names(".") +
                ", or give --format");

@@ -40,9 +40,12 @@ Length parse_length(const std::string& option, const std::string& text) {
 
 double parse_count(const std::string& option, const std::string& text) {
     const std::optional<double> value = parse_real(trimmed(text));
-    // Beyond 2^53 not every whole number is a double; no set is as large.
-    if (!value || !(*value >= 1 && *value <= 0x1p53) || std::floor(*value) != *value) {
+    if (!value || !(*value >= 1) || std::floor(*value) != *value) {
         fail(option, text, "is not a whole number of at least 1");
+    }
+    // Beyond 2^53 not every whole number is a double; no set is as large.
+    if (*value > 0x1p53) {
+        fail(option, text, "is above 2^53, more than any set has");
     }
     return *value;
 }

@@ -39,6 +39,9 @@ class Sorter {
                 line_.arguments.push_back(word);
             }
         }
+        if (std::ranges::find(line_.arguments, "") != line_.arguments.end()) {
+            fail_usage("an argument is empty; name a file");
+        }
         check_arguments();
         return std::move(line_);
     }
@@ -53,8 +56,26 @@ class Sorter {
             room += option.is_argument ? 1 : 0;
         }
         if (line_.arguments.size() > room) {
-            fail_usage("one argument too many: " + in_quotes(line_.arguments[room]));
+            fail_usage("one argument too many: " + in_quotes(line_.arguments[room]) +
+                       bare_option_hint(line_.arguments[room]));
         }
+    }
+
+    /// Where the word stands behind an option whose value may be left out, as --weld says in its
+    /// help: "--weld 1e-6".
+    std::string bare_option_hint(const std::string& argument) const {
+        const auto at = std::ranges::find(words_, argument);
+        if (at == words_.begin() || at == words_.end() || !at[-1].starts_with("--")) {
+            return "";
+        }
+        const auto option = std::ranges::find_if(command_.options, [&](const OptionFacts& one) {
+            return std::ranges::find(one.names, at[-1]) != one.names.end();
+        });
+        const bool may_have_value = option != command_.options.end() &&
+                                    option->text.find(at[-1] + "=") != std::string::npos;
+        return may_have_value ? "; if it is the value of " + at[-1] + ", give " + at[-1] + '=' +
+                                    one_line(argument)
+                              : "";
     }
 
     void take_long(const std::string& word) {
