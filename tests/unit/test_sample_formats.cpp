@@ -161,6 +161,15 @@ TEST_CASE("PCD tells its fields, in text and binary") {
     CHECK(contains(written_box("b.pcd", some_rows(0), 2), "FIELDS x y z\nSIZE 4 4 4\n"));
 }
 
+TEST_CASE("distances in a box that a float rounds are told") {
+    const std::vector<SampleRow> rows = some_rows(0);
+    const auto note = rounding_note(sample_target("b.pcd"), rows, 2, 1e-3);
+    REQUIRE(note);
+    CHECK(contains(*note, ".pcd holds floats, which change distances by up to "));
+    CHECK_FALSE(rounding_note(sample_target("b.pcd"), rows, 2, 1e3));
+    CHECK_FALSE(rounding_note(sample_target("b.ply"), rows, 2, 1e-3));
+}
+
 TEST_CASE("numbers that a float does not hold are told") {
     for (const char* const name : {"a.pcd"
 #ifdef GEODISK_GLTF

@@ -106,6 +106,11 @@ void check_columns(const SampleTarget& target, std::span<const std::string> colu
 std::optional<std::string> precision_note(const SampleTarget& target,
                                           std::span<const SampleRow> rows, std::uint32_t dimension);
 
+/// Returns what to tell the user of samples in a box whose distances the file rounds.
+std::optional<std::string> rounding_note(const SampleTarget& target,
+                                         std::span<const SampleRow> rows, std::uint32_t dimension,
+                                         double min_distance);
+
 /// UserError(usage) if the format cannot hold samples of so many coordinates.
 void check_dimension(const SampleTarget& target, std::uint32_t dimension);
 /// The same for samples in a box.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "files/output_file.hpp"
@@ -7,6 +8,7 @@
 #include "files/sample_writers.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -75,6 +77,9 @@ bool has_comments(SampleFormat format) {
     return format == SampleFormat::ply || format == SampleFormat::csv ||
            format == SampleFormat::obj || format == SampleFormat::pcd;
 }
+
+/// Rounding of distances, as a part of the minimum distance.
+constexpr double kWorthTelling = 1e-6;
 
 /// Formats that viewers read have x y z in any case, those for programs what coordinates there are.
 void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& full_header,
@@ -157,6 +162,29 @@ std::optional<std::string> precision_note(const SampleTarget& target,
     }
     return text + (target.has_header ? ", which the header names as origin; " : "; ") +
            ".ply, .csv and .npz hold them as they are";
+}
+
+std::optional<std::string> rounding_note(const SampleTarget& target,
+                                         std::span<const SampleRow> rows, std::uint32_t dimension,
+                                         double min_distance) {
+    const bool has_floats = target.format == SampleFormat::pcd ||
+                            target.format == SampleFormat::gltf ||
+                            target.format == SampleFormat::glb;
+    double largest = 0;
+    for (const SampleRow& row : rows) {
+        for (const double coordinate : std::span(row.position).first(dimension)) {
+            largest = std::max(largest, std::abs(coordinate));
+        }
+    }
+    // Both ends of a distance may be off by half a step along each axis.
+    const double error = std::sqrt(dimension) * largest * 0x1p-23 / min_distance;
+    if (!has_floats || error < kWorthTelling) {
+        return std::nullopt;
+    }
+    return extension_of(target.format) + " holds floats, which change distances by up to " +
+           rounded(error, 2) +
+           " of the minimum distance, so that verify may find some too small; .ply, .csv and .npz "
+           "hold doubles";
 }
 
 const std::string* SampleHeader::find(std::string_view key) const {

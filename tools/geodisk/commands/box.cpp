@@ -61,6 +61,9 @@ void run_box(const BoxOptions& options) {
         print_warning("there is a single sample: the minimum distance of " +
                       rounded(job.box.min_distance, 6) + " is larger than the box has room for");
     }
+    if (const auto note = rounding_note(job.out.target(), rows, dimension, job.box.min_distance)) {
+        print_warning(job.out.output + ": " + *note);
+    }
     const BoxReport report(job, rows.size(), done);
     write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
         write_box_samples(file, job.out.target(), report.header(), rows, dimension);
