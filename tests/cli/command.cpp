@@ -61,6 +61,9 @@ Channel open_channel(bool is_terminal) {
     if (!setting.stdout_path.empty()) {
         out = open(setting.stdout_path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     }
+    if (!setting.stdin_path.empty()) {
+        dup2(open(setting.stdin_path.c_str(), O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    }
     if (setting.file_size_limit) {
         const rlimit limit{*setting.file_size_limit, *setting.file_size_limit};
         setrlimit(RLIMIT_FSIZE, &limit);

@@ -33,6 +33,7 @@ struct Setting {
     std::vector<std::pair<std::string, std::string>> environment; ///< Added to that of the tests.
     std::optional<std::size_t> file_size_limit;
     std::string folder;      ///< To run in, below that of the test.
+    std::string stdin_path;  ///< A file to read standard input from.
     std::string stdout_path; ///< A file to append standard output to instead of a pipe.
     bool stdout_has_reader = true;
     std::vector<int> closed; ///< Numbers of streams that are closed.

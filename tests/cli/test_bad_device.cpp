@@ -111,6 +111,15 @@ TEST_CASE("a device that cannot draw may still sample") {
     CHECK(contains(quick.out, "picture       none, the device cannot draw\n"));
     CHECK(files_in(folder) == std::vector<std::string>{"cube-samples.ply", "weak.json"});
 
+    // The mesh is read once, and warned about once.
+    setting->stdin_path =
+        folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 7 7 7\nf 1 2 3\n").string();
+    const Outcome piped = run(folder, {"-", "--mesh-format", "obj", "--count", "9"}, *setting);
+    INFO(piped.err);
+    CHECK(piped.status == 0);
+    CHECK(lines_of(piped.err).size() == 1);
+    CHECK(std::filesystem::exists(folder / "stdin-samples.ply"));
+
     check_fails(folder, 5, "graphics", joined(kSample, {"--picture", "a.png"}), *setting);
     check_fails(folder, 5, "graphics",
                 {"render", "builtin:cube", "cube-samples.ply", "-o", "a.png"}, *setting);

@@ -27,8 +27,14 @@ void add_batch_command(Command app);
 using NameOutputs = std::function<void(const std::vector<AtomicFile*>& files, std::string& output,
                                        std::string& picture)>;
 
+/// Files that `sample` writes but the user has not named.
+struct UnnamedOutputs {
+    NameOutputs name;              ///< If set, names them in the end.
+    bool may_lack_picture = false; ///< Leaves the picture out if the device cannot draw.
+};
+
 /// What `sample` does.
-void sample_to_files(const SampleOptions& options, const NameOutputs& name_outputs = {});
+void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed = {});
 
 /// Samples a mesh and draws the samples, into files of the current folder named by the mesh.
 void add_quick_command(Command app);

@@ -108,23 +108,16 @@ void sample_to_free_names(SampleOptions options) {
     if (names_picture) {
         options.picture = names.name(1);
     }
+    bool has_picture = names_picture;
     const auto name = [&](const std::vector<AtomicFile*>& files, std::string& output,
                           std::string& picture) {
         names.claim(files);
         output = names.name(0);
-        picture = names_picture && !picture.empty() ? names.name(1) : picture;
+        has_picture = !picture.empty();
+        picture = names_picture && has_picture ? names.name(1) : picture;
     };
-    try {
-        sample_to_files(options, name);
-        return;
-    } catch (const UserError& error) {
-        if (error.code() != ExitCode::no_device || !names_picture) {
-            throw;
-        }
-    }
-    options.picture.clear(); // A device that cannot draw may still sample.
-    sample_to_files(options, name);
-    if (options.out.has_summary()) {
+    sample_to_files(options, {name, names_picture});
+    if (names_picture && !has_picture && options.out.has_summary()) {
         std::cout << "picture       none, the device cannot draw\n";
         flush_or_fail("the summary");
     }

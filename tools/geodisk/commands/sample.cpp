@@ -14,6 +14,7 @@
 #include "geodisk/sample_run.hpp"
 #include "picture/png.hpp"
 #include "program/command.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -40,9 +41,26 @@ void draw_samples(const SampleJob& job, const MeshInput& mesh, SampleResult& res
     check_validation(device.context());
 }
 
+/// Leaves the picture out where the device cannot draw and that will do.
+RunDevice open_device_for(SampleJob& job, bool may_lack_picture, ProgressLine& progress) {
+    if (may_lack_picture) {
+        try {
+            RunDevice device = device_for(job);
+            device.open(progress);
+            return device;
+        } catch (const UserError& error) {
+            if (error.code() != ExitCode::no_device) {
+                throw;
+            }
+        }
+        job.picture.clear();
+    }
+    return device_for(job);
+}
+
 } // namespace
 
-void sample_to_files(const SampleOptions& options, const NameOutputs& name_outputs) {
+void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed) {
     check_output_or_dry_run(options.out);
     SampleJob job = parse_job(options);
     const NamedFile picture{"the picture", job.picture};
@@ -58,7 +76,7 @@ void sample_to_files(const SampleOptions& options, const NameOutputs& name_outpu
     if (!job.picture.empty()) {
         check_visible(job.mesh.mesh, mesh);
     }
-    RunDevice device = device_for(job);
+    RunDevice device = open_device_for(job, unnamed.may_lack_picture, progress);
     if (job.out.is_dry_run) {
         const DryRun dry = try_sampling(job, mesh, device, progress);
         publish(job.out, dry_sample_json(job, mesh, dry), dry_sample_text(job, mesh, dry));
@@ -80,10 +98,10 @@ void sample_to_files(const SampleOptions& options, const NameOutputs& name_outpu
         write_sample_file(file, job, mesh, result, report);
     };
     const auto name_files = [&](const std::vector<AtomicFile*>& files) {
-        name_outputs(files, job.out.output, job.picture);
+        unnamed.name(files, job.out.output, job.picture);
     };
     write_outputs(job.out, "the samples", progress, report, write, further,
-                  name_outputs ? NameFiles(name_files) : nullptr);
+                  unnamed.name ? NameFiles(name_files) : nullptr);
 }
 
 void add_sample_command(Command app) {

@@ -129,7 +129,7 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
         LoadedRadii loaded = load_radii(*source, path, file, prepared);
         radii = std::move(loaded.field);
         distance_part = source->is_density ? radii->least_factor() : 1;
-        for (std::optional<MeshWarning> warning : {density.warning(path), loaded.warning}) {
+        for (std::optional<MeshWarning> warning : {density.warning(), loaded.warning}) {
             if (warning) {
                 density_warnings.push_back(std::move(*warning));
             }
@@ -148,7 +148,7 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
     MeshInput mesh = load_silently(options, progress, density);
     progress.clear();
     for (const MeshWarning& warning : mesh.warnings) {
-        print_warning(warning.file + ": " + warning.message);
+        print_warning((warning.file.empty() ? "" : warning.file + ": ") + warning.message);
     }
     return mesh;
 }

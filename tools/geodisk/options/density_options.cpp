@@ -132,7 +132,7 @@ std::optional<DensitySource> DensityOptions::source() const {
     return source;
 }
 
-std::optional<MeshWarning> DensityOptions::warning(const std::string& path) const {
+std::optional<MeshWarning> DensityOptions::warning() const {
     const auto of = source();
     if (!of || of->option == "--density" || of->option == "--radius-factor") {
         return std::nullopt;
@@ -141,13 +141,13 @@ std::optional<MeshWarning> DensityOptions::warning(const std::string& path) cons
         return MeshWarning{"old_option", 1, "",
                            "--density-curvature is now --density curvature, or with the distance "
                            "of the largest radius --radius-factor curvature",
-                           path};
+                           ""};
     }
     return MeshWarning{"old_option", 1, "",
                        of->option + " gives factors of the radius and is now --radius-factor " +
                            of->text() + "; for a density, where more means more samples, give " +
                            "--density " + of->text(),
-                       path};
+                       ""};
 }
 
 void DensityOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {

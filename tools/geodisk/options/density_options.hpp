@@ -40,7 +40,7 @@ struct DensityOptions {
     /// Whether distances are those at the largest density.
     bool is_density() const { return !density.empty(); }
     /// Tells what took the place of an option of before, or nothing; of the mesh `path`.
-    std::optional<MeshWarning> warning(const std::string& path) const;
+    std::optional<MeshWarning> warning() const;
     /// Adds the files that are read, called `what`.
     void add_files(std::vector<NamedFile>& read, const std::string& what) const;
     /// Puts `place(name)` for the file that is named.

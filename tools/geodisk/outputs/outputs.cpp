@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "program/failure.hpp"
@@ -112,6 +113,10 @@ void print_failure(const std::string& subject, const std::string& message) {
 }
 
 void print_warning(const std::string& message) {
+    static std::set<std::string> printed;
+    if (!printed.insert(message).second) {
+        return;
+    }
     std::cerr << coloured("geodisk: warning:", Colour::yellow) << ' ' << one_line(message) << '\n';
 }
 
