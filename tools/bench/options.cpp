@@ -108,7 +108,7 @@ void add_tuning(Command app, RunnerOptions& runner, bool& tune) {
     };
     app.add_flag("--tune", tune,
                  "Find out what suits the device and keep it for\n"
-                 "geodisk sample and later runs",
+                 "geodisk sample and later runs; settings given stay",
                  kGroup);
     add("--slots", runner.plan.slots, "Candidates active at a time");
     add("--lanes", runner.plan.lanes, "Invocations that share the work on them");

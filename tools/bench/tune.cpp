@@ -153,10 +153,15 @@ class Search {
 Tuning find_tuning(const Context& context, const Options& options,
                    const std::vector<NamedMesh>& meshes, const Tuning& start,
                    const std::function<void(const Trial&)>& on_trial) {
+    const Tuning& given = options.runner.sampler.tuning;
     Search search(context, options, jobs_of(options, meshes), start, on_trial);
-    search.try_reads();
+    if (given.reads == Reads::automatic) {
+        search.try_reads();
+    }
     for (const Setting& setting : settings_for(context.report())) {
-        search.try_values(setting);
+        if (given.*setting.field == 0) {
+            search.try_values(setting);
+        }
     }
     return search.best();
 }

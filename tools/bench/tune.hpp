@@ -21,8 +21,8 @@ struct Trial {
 };
 
 /// Changes one setting after the other, from `start` on, as long as the device gets faster by more
-/// than measuring errs. The work is `options`' counts on `meshes`; all tunings must return the same
-/// sets. Throws UserError as measure().
+/// than measuring errs. Settings that `options` give stay. The work is `options`' counts on
+/// `meshes`; all tunings must return the same sets. Throws UserError as measure().
 Tuning find_tuning(const Context& context, const Options& options,
                    const std::vector<NamedMesh>& meshes, const Tuning& start,
                    const std::function<void(const Trial&)>& on_trial);
