@@ -22,30 +22,14 @@ using namespace geodisk::test;
 
 namespace {
 
-struct Case {
-    TestMesh mesh;
-    PreparedMesh surface;
-    RadiusField field;
-
+struct Case : FieldCase {
     Case(TestMesh shape, const std::vector<double>& factors)
-        : mesh(std::move(shape)), surface(prepared(mesh)), field(radius_field(surface, factors)) {}
-
-    SampleParams params(double count, std::uint64_t seed = 1) const {
-        SampleParams result;
-        result.seed = seed;
-        result.radii = &field;
-        result.min_distance = distance_for_count(field.effective_area(), count);
-        return result;
-    }
+        : FieldCase(std::move(shape), radius_field, factors) {}
 };
 
-std::string refusal(const PreparedMesh& surface, const std::vector<double>& factors,
+std::string refused(const PreparedMesh& surface, const std::vector<double>& factors,
                     std::uint64_t element = kNoElement) {
-    const auto field = RadiusField::prepare(surface, factors);
-    REQUIRE_FALSE(field);
-    CHECK(field.error().status == Status::invalid_argument);
-    CHECK(field.error().element == element);
-    return field.error().message;
+    return refusal(RadiusField::prepare(surface, factors), element);
 }
 
 /// The mean of 1 / g^2 over a triangle: -2 times the second divided difference of the logarithm.
@@ -235,19 +219,19 @@ TEST_SUITE("radius field") {
             factors[vertex] = factor;
             return factors;
         };
-        CHECK(refusal(surface, {}) == "there are 0 radius factors g for 43 vertices");
-        CHECK(refusal(surface, std::vector<double>(44, 1.0)) ==
+        CHECK(refused(surface, {}) == "there are 0 radius factors g for 43 vertices");
+        CHECK(refused(surface, std::vector<double>(44, 1.0)) ==
               "there are 44 radius factors g for 43 vertices");
-        CHECK(refusal(surface, with(7, -0.5), 7) ==
+        CHECK(refused(surface, with(7, -0.5), 7) ==
               "the radius factor g of vertex 7 (from 0) is -0.5; it must be from 0.001 to 1");
-        CHECK(refusal(surface, with(0, 0), 0) ==
+        CHECK(refused(surface, with(0, 0), 0) ==
               "the radius factor g of vertex 0 (from 0) is 0; it must be from 0.001 to 1");
-        CHECK(refusal(surface, with(41, std::nextafter(1.0, 2.0)), 41) ==
+        CHECK(refused(surface, with(41, std::nextafter(1.0, 2.0)), 41) ==
               "the radius factor g of vertex 41 (from 0) is 1.0000000000000002; it must be from "
               "0.001 to 1");
-        CHECK(refusal(surface, with(3, NAN), 3) ==
+        CHECK(refused(surface, with(3, NAN), 3) ==
               "the radius factor g of vertex 3 (from 0) is nan; it must be from 0.001 to 1");
-        CHECK(refusal(surface, std::vector<double>(43, 0.0)) == "all radius factors g are zero");
+        CHECK(refused(surface, std::vector<double>(43, 0.0)) == "all radius factors g are zero");
         CHECK(RadiusField::prepare(surface, with(42, NAN)));
         CHECK(RadiusField::prepare(surface, with(5, RadiusField::kLeastFactor)));
     }

@@ -20,24 +20,11 @@ using namespace geodisk::test;
 
 namespace {
 
-struct Case {
-    TestMesh mesh;
-    PreparedMesh surface;
-    RadiusField field;
-
+struct Case : FieldCase {
     Case(TestMesh shape, const std::vector<double>& density)
-        : mesh(std::move(shape)), surface(prepared(mesh)), field(density_field(surface, density)) {}
-    Case(TestMesh shape, const std::function<double(double)>& of_x)
-        : mesh(std::move(shape)), surface(prepared(mesh)),
-          field(density_field(surface, density_along(mesh, of_x))) {}
-
-    SampleParams params(double count, std::uint64_t seed) const {
-        SampleParams result;
-        result.seed = seed;
-        result.radii = &field;
-        result.min_distance = distance_for_count(surface, &field, count);
-        return result;
-    }
+        : FieldCase(std::move(shape), density_field, density) {}
+    Case(const TestMesh& shape, const std::function<double(double)>& of_x)
+        : FieldCase(shape, density_field, density_along(shape, of_x)) {}
 
     double x_of(ref::FacePoint<double> point) const {
         const double weights[3] = {1 - point.weight1 - point.weight2, point.weight1, point.weight2};
@@ -50,13 +37,9 @@ struct Case {
     }
 };
 
-std::string refusal(const PreparedMesh& surface, const std::vector<double>& density,
+std::string refused(const PreparedMesh& surface, const std::vector<double>& density,
                     std::uint64_t element = kNoElement) {
-    const auto field = RadiusField::from_density(surface, density);
-    REQUIRE_FALSE(field);
-    CHECK(field.error().status == Status::invalid_argument);
-    CHECK(field.error().element == element);
-    return field.error().message;
+    return refusal(RadiusField::from_density(surface, density), element);
 }
 
 /// Samples of several runs with their places from 0 to 1 along x, as a share of all.
@@ -115,18 +98,18 @@ TEST_SUITE("density") {
             density[vertex] = value;
             return density;
         };
-        CHECK(refusal(surface, {1, 2}) == "there are 2 densities for 43 vertices");
-        CHECK(refusal(surface, with(7, -0.5), 7) ==
+        CHECK(refused(surface, {1, 2}) == "there are 2 densities for 43 vertices");
+        CHECK(refused(surface, with(7, -0.5), 7) ==
               "the density of vertex 7 (from 0) is -0.5; it must be 0 or positive, and finite");
-        CHECK(refusal(surface, with(3, NAN), 3) ==
+        CHECK(refused(surface, with(3, NAN), 3) ==
               "the density of vertex 3 (from 0) is nan; it must be 0 or positive, and finite");
-        CHECK(refusal(surface, with(0, HUGE_VAL), 0) ==
+        CHECK(refused(surface, with(0, HUGE_VAL), 0) ==
               "the density of vertex 0 (from 0) is inf; it must be 0 or positive, and finite");
-        CHECK(refusal(surface, std::vector<double>(43, 0.0)) ==
+        CHECK(refused(surface, std::vector<double>(43, 0.0)) ==
               "the density is 0 everywhere, so no samples fit");
         std::vector<double> unused(43, 0.0);
         unused[42] = 1;
-        CHECK(refusal(surface, unused) == "the density is 0 everywhere, so no samples fit");
+        CHECK(refused(surface, unused) == "the density is 0 everywhere, so no samples fit");
         CHECK(RadiusField::from_density(surface, with(42, NAN)));
     }
 

@@ -68,4 +68,26 @@ RadiusField radius_field(const PreparedMesh& mesh, const std::vector<double>& fa
     return expect_field(RadiusField::prepare(mesh, factors));
 }
 
+FieldCase::FieldCase(TestMesh shape, Make make, const std::vector<double>& values)
+    : mesh(std::move(shape)), surface(prepared(mesh)), field(make(surface, values)) {}
+
+SampleParams FieldCase::params(double count, std::uint64_t seed) const {
+    SampleParams result;
+    result.seed = seed;
+    result.radii = &field;
+    result.min_distance = distance_for_count(surface, &field, count);
+    return result;
+}
+
+std::string refusal(const Result<RadiusField>& field, std::uint64_t element) {
+    if (field) {
+        throw std::runtime_error("the field is not refused");
+    }
+    const Error& error = field.error();
+    if (error.status != Status::invalid_argument || error.element != element) {
+        throw std::runtime_error("refused otherwise: " + error.message);
+    }
+    return error.message;
+}
+
 } // namespace geodisk::test

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "geodisk/params.hpp"
 #include "geodisk/radius_field.hpp"
 #include "support/meshes.hpp"
 
@@ -27,5 +29,23 @@ RadiusField density_field(const PreparedMesh& mesh, const std::vector<double>& d
 
 /// RadiusField::prepare; throws std::runtime_error with the message when it fails.
 RadiusField radius_field(const PreparedMesh& mesh, const std::vector<double>& factors);
+
+/// A mesh with radii that vary.
+struct FieldCase {
+    using Make = RadiusField (*)(const PreparedMesh& mesh, const std::vector<double>& values);
+
+    TestMesh mesh;
+    PreparedMesh surface;
+    RadiusField field;
+
+    FieldCase(TestMesh shape, Make make, const std::vector<double>& values);
+
+    /// Parameters for about `count` samples.
+    SampleParams params(double count, std::uint64_t seed = 1) const;
+};
+
+/// Message of a field that is refused for its values; throws std::runtime_error where it is not,
+/// or not as a wrong argument that names `element`.
+std::string refusal(const Result<RadiusField>& field, std::uint64_t element);
 
 } // namespace geodisk::test
