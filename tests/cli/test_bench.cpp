@@ -96,15 +96,18 @@ TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
     const TemporaryFolder folder;
     Setting tuned = bench();
     tuned.environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}};
-    const Outcome found =
-        run(folder, {"builtin:cube", "-n", "50", "--repeats", "1", "--tune"}, tuned);
+    // Each size of work groups is compiled anew, so these are given.
+    const Outcome found = run(folder,
+                              {"builtin:cube", "-n", "50", "--repeats", "1", "--tune",
+                               "--local-size", "64", "--slot-local-size", "8"},
+                              tuned);
     REQUIRE(found.status == 0);
     CHECK(found.err.empty());
-    for (const char* const setting : {"reads storage", "slot_local_size 64", "pool_block 8",
-                                      "batches 12", "local_size 32", "kept in"}) {
+    for (const char* const setting : {"reads storage", "pool_block 8", "batches 12", "kept in"}) {
         CAPTURE(setting);
         CHECK(contains(found.out, setting));
     }
+    CHECK_FALSE(contains(found.out, "local_size 32"));
     const auto kept = std::filesystem::directory_iterator(folder / "cache" / "geodisk")->path();
     Json tuning = Json::parse(bytes_of(kept));
     CHECK(tuning["device"].is_string());
