@@ -29,8 +29,8 @@ std::uint32_t wrapped(std::uint64_t steps) {
     return static_cast<std::uint32_t>(steps);
 }
 
-LatticeAxis periodic_axis(double extent, double unit) {
-    const double cells = std::max(1.0, std::floor(extent / unit));
+LatticeAxis periodic_axis(double extent, double width_of_cell) {
+    const double cells = std::max(1.0, std::floor(extent / width_of_cell));
     const auto count = static_cast<std::uint32_t>(cells);
     const std::uint64_t width = kWholeAxis / count;
     return {extent * 0x1p-32, kWholeAxis, count, wrapped(width),
@@ -45,11 +45,11 @@ int unit_bits(double side) {
     return side < 65536 ? 16 : 16 - static_cast<int>(std::ceil(std::log2(side / 65536)));
 }
 
-LatticeAxis open_axis(double extent, double unit) {
+LatticeAxis open_axis(double extent, double unit, int doublings) {
     const int bits = unit_bits(extent / unit);
     const double length = std::max(1.0, std::floor(std::ldexp(extent / unit, bits)));
     const auto steps = static_cast<std::uint64_t>(length);
-    const std::uint64_t width = std::uint64_t{1} << bits;
+    const std::uint64_t width = std::uint64_t{1} << std::min(31, bits + doublings);
     const std::uint64_t cells = (steps + width - 1) / width;
     return {std::ldexp(unit, -bits), steps, static_cast<std::uint32_t>(cells), wrapped(width),
             wrapped(steps - (cells - 1) * width)};
@@ -72,6 +72,18 @@ double sample_density(BoxParams box, double volume) {
     const double density = kDensities[box.extents.size() - 1];
     const double more = std::log2(expected_count(box) / (density * volume));
     return density * std::exp2(std::max(0.0, std::round(more)));
+}
+
+/// How often the cells double their width, so that 2^23 darts, five for each sample of theirs, are
+/// enough for all of them.
+int cell_doublings(const BoxParams& box) {
+    const Stages stages = stages_in(box);
+    int halvings = 0;
+    while (stages.throws != 0 && std::ldexp(5 * stages.samples, -halvings) > 0x1p23) {
+        ++halvings;
+    }
+    const int dimensions = static_cast<int>(box.extents.size());
+    return (halvings + dimensions - 1) / dimensions;
 }
 
 using Cell = std::array<std::uint32_t, gpu::kMostAxes>;
@@ -184,8 +196,10 @@ double box_unit(const BoxParams& box) {
 }
 
 BoxLattice::BoxLattice(const BoxParams& box) : unit(box_unit(box)), is_periodic(box.is_periodic) {
+    const int doublings = cell_doublings(box);
     for (const double extent : box.extents) {
-        axes.push_back(box.is_periodic ? periodic_axis(extent, unit) : open_axis(extent, unit));
+        axes.push_back(box.is_periodic ? periodic_axis(extent, std::ldexp(unit, doublings))
+                                       : open_axis(extent, unit, doublings));
     }
 }
 

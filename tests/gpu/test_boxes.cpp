@@ -459,6 +459,15 @@ TEST_SUITE("boxes") {
         }
     }
 
+    TEST_CASE("few darts come of few candidates, however many samples there is room for") {
+        BoxParams box = unit_box(2, 2.5e6, false, 9);
+        box.throws = 200;
+        const SampleSet few = sample(box);
+        CHECK(few.points == sequential_set<float>(box));
+        CHECK(few.report.candidates == 200);
+        CHECK(few.points.size() == 400);
+    }
+
     TEST_CASE("what a box cannot be is refused") {
         Context& context = shared_context();
         for (const std::size_t dimension : {0u, 7u}) {

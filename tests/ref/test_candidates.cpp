@@ -450,3 +450,19 @@ TEST_CASE("bins: a disk finds every point within reach, however large the triang
         }
     }
 }
+
+TEST_CASE("stages of darts begin small enough and double") {
+    for (const double samples : {1.0, 1000.0, 1.6e6, 1.7e6, 4e9}) {
+        CAPTURE(samples);
+        const Stages stages{samples, 0, 100};
+        CHECK(stages.expected(0) <= 0x1p23);
+        CHECK(stages.expected(0) >= std::min(5 * samples, 0x1p22));
+        for (std::uint32_t stage = 1; stage < 40; ++stage) {
+            const double step = stages.per_sample(stage) / stages.per_sample(stage - 1);
+            CHECK((step == 1 || step == 2 || stages.expected(stage - 1) == 64));
+            CHECK(stages.expected(stage) <= 0x1p23);
+        }
+    }
+    CHECK(Stages{1.6e6, 0, 100}.per_sample(0) == 5);
+    CHECK(Stages{1.7e6, 0, 100}.per_sample(0) == 2.5);
+}

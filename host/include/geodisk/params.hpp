@@ -62,8 +62,9 @@ struct Stages {
     /// Of a pool: its ratio over kStageRatio, rounded up, but at most kMostPoolStages.
     GEODISK_API std::uint32_t pool_stages() const noexcept;
     /// Candidates of a stage for each sample. The stages of a pool are alike. Of darts the first
-    /// has kStageRatio, and each twice as many as the one before while they are no more than 640,
-    /// nor 2^23 in all; and no fewer than 64 in all.
+    /// has kStageRatio, or half as often as it takes to have at most 2^23 in all; and each twice as
+    /// many as the one before while they are no more than 640, nor 2^23 in all. No stage has fewer
+    /// than 64 in all.
     GEODISK_API double per_sample(std::uint32_t stage) const noexcept;
 
     /// Candidates that a stage expects (of several surfaces, at most), and all of a pool.

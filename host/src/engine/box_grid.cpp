@@ -20,15 +20,24 @@ double relative_side(const BoxParams& box, std::size_t axis) {
     return box.extents[axis] / unit_of(box);
 }
 
+/// Doublings of the width of the cells that candidates are drawn by, a distance otherwise: where
+/// the first stage of darts has fewer than kStageRatio for each sample, cells are larger likewise.
+int doublings(const BoxParams& box) {
+    const double fewer = kStageRatio / stages_of(box).per_sample(0);
+    const double dimensions = static_cast<double>(box.extents.size());
+    return fewer > 1 ? static_cast<int>(std::ceil(std::log2(fewer) / dimensions)) : 0;
+}
+
 // Steps follow from the unit alone, so that a larger box has the same; a periodic one needs a whole
 // number of them.
-DrawAxis draw_axis(const BoxParams& box, std::size_t axis) {
+DrawAxis draw_axis(const BoxParams& box, std::size_t axis, int doubled) {
     const double side = relative_side(box, axis);
     DrawAxis draw{};
     if (box.is_periodic) {
         draw.step = box.extents[axis] * 0x1p-32;
         draw.steps = std::uint64_t{1} << 32;
-        draw.cells = static_cast<std::uint32_t>(std::max(1.0, std::floor(side)));
+        draw.cells =
+            static_cast<std::uint32_t>(std::max(1.0, std::floor(std::ldexp(side, -doubled))));
         draw.width = draw.cells == 1 ? 0 : static_cast<std::uint32_t>(draw.steps / draw.cells);
     } else {
         int bits = side < 1 ? kShortSideBits : kCellBits;
@@ -37,7 +46,7 @@ DrawAxis draw_axis(const BoxParams& box, std::size_t axis) {
         }
         draw.step = std::ldexp(unit_of(box), -bits);
         draw.steps = static_cast<std::uint64_t>(std::max(1.0, std::floor(std::ldexp(side, bits))));
-        draw.width = std::uint32_t{1} << bits;
+        draw.width = std::uint32_t{1} << std::min(bits + doubled, kShortSideBits);
         draw.cells = static_cast<std::uint32_t>((draw.steps + draw.width - 1) / draw.width);
     }
     draw.last_width = static_cast<std::uint32_t>(
@@ -58,8 +67,9 @@ double unit_of(const BoxParams& box) noexcept {
 
 DrawAxes draw_axes(const BoxParams& box) noexcept {
     DrawAxes axes{};
+    const int doubled = doublings(box);
     for (std::size_t i = 0; i < box.extents.size(); ++i) {
-        axes[i] = draw_axis(box, i);
+        axes[i] = draw_axis(box, i, doubled);
     }
     return axes;
 }

@@ -85,11 +85,7 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
                     std::to_string(candidates) + " candidates" + of.beside_candidates() +
                     " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
                     " binds at most " + std::to_string(limit) +
-                    (of_mesh                 ? "; give a mesh of fewer faces"
-                     : of.stages.throws != 0 ? "; however few darts are thrown, they come of at "
-                                               "least 5 candidates for each sample there is room "
-                                               "for: raise the minimum distance"
-                                             : "; raise the minimum distance")};
+                    (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
         }
     }
     return Done{};

@@ -29,6 +29,9 @@ double Stages::per_sample(std::uint32_t stage) const noexcept {
     }
     double darts = kStageRatio;
     const double most = std::min(kMostDartsPerSample, kMostDartsOfStage / samples);
+    while (darts > most) { // By powers of two, so that an edit of the mesh hardly ever changes it.
+        darts /= 2;
+    }
     for (std::uint32_t s = 0; s < stage && 2 * darts <= most; ++s) {
         darts *= 2;
     }
