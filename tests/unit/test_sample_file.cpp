@@ -240,6 +240,7 @@ TEST_CASE("broken sample files are refused with their line or record") {
     }
     check_refused("a.csv", "", "no header row");
     check_refused("a.csv", "x,y,z,face_index\n1,2,3,0\n", "no column bary_u");
+    check_refused("a.csv", "2\nmethane\nC 0 0 0\n", "holds no samples: there are no columns x y z");
     check_refused("a.csv", "1,2\n", "line 1: has no header row, and fewer than three numbers");
     check_refused("a.obj", "v 0 0 0\nf 1 1 1\n", "line 2: a face, so this is a mesh");
     check_refused("a.csv", csv_with("1,2,3,0,1,0"), "line 2");

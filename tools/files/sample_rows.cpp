@@ -90,6 +90,9 @@ ColumnPlaces find_places(const Path& path, SampleDomain domain, const PlaceOf& p
     }
     places.has_faces = faces == wanted;
     const bool are_points = faces == 0 && !places.coordinates.empty();
+    if (domain == SampleDomain::surface && faces == 0 && !are_points) {
+        fail_input(path, "holds no samples: there are no columns x y z, and no column face_index");
+    }
     if (domain == SampleDomain::surface && !places.has_faces && !are_points) {
         fail_input(path, "has no column " + std::string(missing));
     }
