@@ -148,7 +148,7 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double w
     check_interrupted();
 
     SampleSet best;
-    decltype(RunReport::seconds) seconds;
+    RunSeconds seconds;
     CountSearch search(wanted);
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");

@@ -42,7 +42,15 @@ using StageSeconds = std::array<double, kStages>;
 /// Name of a stage as spelled above.
 GEODISK_API const char* to_string(Stage stage) noexcept;
 
-/// How a run went. Seconds are wall time.
+/// Wall time of the parts of a run, in seconds.
+struct RunSeconds {
+    double compile = 0; ///< Pipelines that no run before has needed.
+    double upload = 0;
+    double sample = 0;
+    double readback = 0;
+};
+
+/// How a run went.
 struct RunReport {
     std::uint32_t candidates = 0;     ///< Decided: all, or up to the last sample of a count.
     std::uint32_t chunks = 0;         ///< Parts in which they were drawn, of a stage or more each.
@@ -70,10 +78,7 @@ struct RunReport {
     std::uint64_t uploaded = 0; ///< Bytes; of meshes only the lengths where the run before was of
                                 ///< the same ones.
     RunPlan plan;               ///< As it stood at the end.
-    struct {
-        double compile = 0; ///< Of pipelines that no run before has needed.
-        double upload = 0, sample = 0, readback = 0;
-    } seconds;
+    RunSeconds seconds;
     StageSeconds stages{}; ///< Device time, 0 without RunnerOptions::time_stages.
 };
 

@@ -1,0 +1,20 @@
+// All of the C++ library, for those who do not choose: meshes, domains, and the layers that sample
+// them on a device.
+#pragma once
+
+#include <geodisk/box.hpp>
+#include <geodisk/context.hpp>
+#include <geodisk/count_search.hpp>
+#include <geodisk/device.hpp>
+#include <geodisk/domain.hpp>
+#include <geodisk/frame_sampler.hpp>
+#include <geodisk/kernel_report.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/placement.hpp>
+#include <geodisk/radius_field.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/sampler.hpp>
+#include <geodisk/status.hpp>
+#include <geodisk/version.hpp>
+#include <geodisk/weld.hpp>
