@@ -203,7 +203,7 @@ TEST_CASE("box: darts until there are so many samples, or so many darts were thr
                          nlohmann::json::parse(bytes_of(folder / "a.json"))};
     };
     const auto [all, of_all] = darts({"--throws", "20000", "--count-calls"});
-    CHECK(of_all["method"] == "pdts");
+    CHECK(of_all["method"] == "darts");
     CHECK(of_all["throws"] == 20000);
     CHECK(of_all["stopped_by"] == "throws");
     CHECK(of_all["pool_ratio"].is_null());
@@ -218,7 +218,7 @@ TEST_CASE("box: darts until there are so many samples, or so many darts were thr
                 box("b.csv", {"--dim", "1", "-d", "0.5", "--method", "pdts", "--count", "9"}));
     check_fails(folder, 2, "nothing to stop at",
                 box("b.csv", {"--dim", "2", "-d", "0.1", "--method", "pdts"}));
-    check_fails(folder, 2, "--throws is for --method pdts",
+    check_fails(folder, 2, "--darts is for --method darts",
                 box("b.csv", {"--dim", "2", "-d", "0.1", "--throws", "9"}));
 }
 

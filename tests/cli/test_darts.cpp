@@ -1,4 +1,4 @@
-// `geodisk sample --method pdts`: when it stops, what it says then, and what it refuses.
+// `geodisk sample --method darts`: when it stops, what it says then, and what it refuses.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -24,7 +24,7 @@ Arguments sample(const Arguments& options) {
 }
 
 Arguments darts(const Arguments& options) {
-    Arguments arguments = sample({"--method", "pdts"});
+    Arguments arguments = sample({"--method", "darts"});
     arguments.insert(arguments.end(), options.begin(), options.end());
     return arguments;
 }
@@ -74,13 +74,13 @@ TEST_CASE("darts stop at their number, and are a pool if they are as many") {
     // The first stage of either expects five darts per sample.
     const Throw pool =
         thrown(folder, sample({"-d", "0.2", "--method", "psdp", "--pool-ratio", "5"}));
-    CHECK(pool.report["method"] == "psdp");
+    CHECK(pool.report["method"] == "pool");
     CHECK(pool.report["stopped_by"] == "pool");
     CHECK(pool.report["throws"].is_null());
     const auto size = pool.report["candidates"].get<std::uint64_t>();
-    const Throw set = thrown(folder, darts({"-d", "0.2", "--throws", std::to_string(size)}));
+    const Throw set = thrown(folder, darts({"-d", "0.2", "--darts", std::to_string(size)}));
     CHECK(places(set) == places(pool));
-    CHECK(set.report["method"] == "pdts");
+    CHECK(set.report["method"] == "darts");
     CHECK(set.report["throws"] == size);
     CHECK(set.report["stopped_by"] == "throws");
     CHECK(set.report["chunks"] == 1);
@@ -127,22 +127,22 @@ TEST_CASE("darts that run out before the count are told, or an error where none 
     const TemporaryFolder empty;
     check_fails(empty, 2, "of 5,000 samples 0.5 apart found room",
                 darts({"-d", "0.5", "--count", "5000", "--json", "a.json"}));
-    check_fails(empty, 2, "--throws", darts({"-d", "0.5", "--count", "5000"}));
+    check_fails(empty, 2, "--darts", darts({"-d", "0.5", "--count", "5000"}));
 }
 
 TEST_CASE("methods take their own options") {
     const TemporaryFolder folder;
-    check_fails(folder, 2, "'dart' is neither psdp nor pdts",
+    check_fails(folder, 2, "'dart' is neither pool nor darts",
                 sample({"-d", "1", "--method", "dart"}));
     check_fails(folder, 2, "nothing to stop at", darts({"-d", "1"}));
     check_fails(folder, 2, "no distance given", darts({"--count", "9"}));
     check_fails(folder, 2, "no distance given", darts({"--throws", "9"}));
     check_fails(folder, 2, "contradict", darts({"-d", "1", "-r", "1", "--throws", "9"}));
-    check_fails(folder, 2, "--pool-ratio is for --method psdp",
+    check_fails(folder, 2, "--pool-ratio is for --method pool",
                 darts({"-d", "1", "--throws", "9", "--pool-ratio", "20"}));
-    check_fails(folder, 2, "--throws is for --method pdts", sample({"-d", "1", "--throws", "9"}));
+    check_fails(folder, 2, "--darts is for --method darts", sample({"-d", "1", "--darts", "9"}));
     for (const char* const value : {"0", "-1", "1.5", "many", "4294967296", "1e300"}) {
-        check_fails(folder, 2, "--throws", darts({"-d", "1", "--throws", value}));
+        check_fails(folder, 2, "--darts", darts({"-d", "1", "--throws", value}));
         check_fails(folder, 2, "--count", darts({"-d", "1", "--count", value}));
     }
     check_fails(folder, 2, "more than the 4,294,967,295", darts({"-d", "1", "--throws", "1e10"}));

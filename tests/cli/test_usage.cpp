@@ -39,7 +39,7 @@ TEST_CASE("help tells options, examples and exit statuses") {
     }
     const Outcome help = run(folder, {"sample", "--help"});
     for (const char* const option :
-         {"--min-distance", "--radius", "--count", "--seed", "--method", "--throws", "--pool-ratio",
+         {"--min-distance", "--radius", "--count", "--seed", "--method", "--darts", "--pool-ratio",
           "--device", "--json", "--quiet", "--ascii"}) {
         CHECK(contains(help.out, option));
     }
@@ -87,7 +87,7 @@ TEST_CASE("each command has a manual page with its options") {
     const std::string page = bytes_of(folder / "geodisk-sample.1");
     CHECK(contains(page, "geodisk\\-sample \\- put samples on a mesh"));
     CHECK(contains(page, ".TP\n\\fB\\-d\\fR, \\fB\\-\\-min\\-distance\\fR \\fID\\fR\nLeast"));
-    CHECK(contains(page, "Default: psdp.\n"));
+    CHECK(contains(page, "Default: pool.\n"));
     for (const char* const command : {"batch", "verify", "analyze", "spectrum", "render", "report",
                                       "transfer", "box", "shapes", "info", "quick"}) {
         CHECK(bytes_of(folder / (std::string("geodisk-") + command + ".1")).starts_with(".TH "));
@@ -188,8 +188,8 @@ TEST_CASE("a mistyped word is answered by the one it is close to") {
                 "is none of geodesic, euclidean and approximate; did you mean euclidean?",
                 sample({"-n", "9", "--metric", "euclidian"}));
     check_fails(folder, 2, "; did you mean glb?", sample({"-n", "9", "--format", "gbl"}));
-    check_fails(folder, 2, "'psd' is neither psdp nor pdts; did you mean psdp?",
-                sample({"-n", "9", "--method", "psd"}));
+    check_fails(folder, 2, "'poll' is neither pool nor darts; did you mean pool?",
+                sample({"-n", "9", "--method", "poll"}));
     check_fails(folder, 2, "; did you mean voronoi?",
                 {"render", "builtin:cube", "a.ply", "-o", "a.png", "--style", "vornoi"});
     check_fails(folder, 2, "meshes is a folder; sample all meshes in it by geodisk batch meshes -o",

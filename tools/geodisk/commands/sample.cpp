@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kExamples[] = {
     "geodisk sample bunny.obj -o points.ply --count 10000",
     "geodisk sample bunny.obj -o points.csv --min-distance 1% --seed 7",
-    "geodisk sample bunny.obj -o points.ply --min-distance 1% --method pdts --count 500",
+    "geodisk sample bunny.obj -o points.ply --min-distance 1% --method darts --count 500",
     "geodisk sample builtin:showpiece -o points.ply --count 10000 --picture points.png",
 };
 

@@ -72,7 +72,7 @@ void add_box_options(Command command, BoxOptions& options) {
                        distance);
     command.add_option("-n,--count", options.count, "N",
                        "Choose the distance that should give about N samples;\n"
-                       "with --method pdts, stop at exactly N",
+                       "with --method darts, stop at exactly N",
                        distance);
     add_method_options(command, options.method, "the box");
 }

@@ -19,15 +19,15 @@ constexpr double kDartsPerSample = 1000;
 constexpr const char* kMethodGroup = "Method";
 
 void check_method(const MethodOptions& options) {
-    if (options.method != "psdp" && options.method != "pdts") {
-        fail_choice("--method", options.method, std::vector<std::string>{"psdp", "pdts"});
+    if (options.method != "pool" && options.method != "psdp" && !options.throws_darts()) {
+        fail_choice("--method", options.method, std::vector<std::string>{"pool", "darts"});
     }
     if (options.throws_darts() && !options.pool_ratio.empty()) {
-        fail_usage("--pool-ratio is for --method psdp; with pdts, --throws "
+        fail_usage("--pool-ratio is for --method pool; with darts, --darts "
                    "tells how many darts to throw");
     }
     if (!options.throws_darts() && !options.throws.empty()) {
-        fail_usage("--throws is for --method pdts; with psdp, --pool-ratio "
+        fail_usage("--darts is for --method darts; with pool, --pool-ratio "
                    "tells how many candidates to draw");
     }
 }
@@ -62,7 +62,7 @@ void Method::check_count(std::uint64_t samples, double min_distance, std::uint64
         fail_usage("--count: only " + grouped(samples) + " of " + grouped(stop_count) +
                    " samples " + rounded(min_distance, 6) + " apart found room with " +
                    grouped(darts) +
-                   " darts; ask for fewer samples, a smaller distance or, with --throws, for what "
+                   " darts; ask for fewer samples, a smaller distance or, with --darts, for what "
                    "there is");
     }
 }
@@ -77,11 +77,11 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     }
     if (method.throws_darts) {
         if (count.empty() && options.throws.empty()) {
-            fail_usage("nothing to stop at; with --method pdts give --count, "
-                       "--throws or both");
+            fail_usage("nothing to stop at; with --method darts give --count, "
+                       "--darts or both");
         }
         method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
-        method.throws = options.throws.empty() ? 0 : parse_candidates("--throws", options.throws);
+        method.throws = options.throws.empty() ? 0 : parse_candidates("--darts", options.throws);
     }
     return method;
 }
@@ -100,7 +100,7 @@ void check_one_distance(const MethodOptions& options,
     }
     if (found.empty()) {
         fail_usage(std::string("no distance given; ") +
-                   (options.throws_darts() ? "with --method pdts " : "") + "give " +
+                   (options.throws_darts() ? "with --method darts " : "") + "give " +
                    (possible.size() > 1 ? "one of " : "") + listed(possible));
     }
     if (found.size() > 1) {
@@ -111,20 +111,21 @@ void check_one_distance(const MethodOptions& options,
 void add_method_options(Command command, MethodOptions& options, const std::string& domain) {
     command
         .add_option("--method", options.method, "NAME",
-                    "psdp: from a pool of candidates; pdts: throw darts until\n"
-                    "there are --count samples or --throws darts were thrown",
+                    "pool: from a pool of candidates; darts: throw darts until\n"
+                    "there are --count samples or --darts were thrown (psdp and\n"
+                    "pdts in the paper and in earlier versions)",
                     kMethodGroup)
-        .offers({"psdp", "pdts"})
+        .offers({"pool", "darts"})
         .shows_default();
-    command.add_option("--throws", options.throws, "K",
-                       "Most darts of pdts, up to 4294967295; fewer samples than\n"
+    command.add_option("--darts,--throws", options.throws, "K",
+                       "Maximum number of darts, up to 4294967295; fewer samples than\n"
                        "--count are then no error. If not given, 1000 for each\n"
                        "sample that " +
                            domain + " has room for",
                        kMethodGroup);
     command
         .add_option("--pool-ratio", options.pool_ratio, "Q",
-                    "Candidates of psdp per expected sample, 1 to 10000; more\n"
+                    "Candidates of the pool per expected sample, 1 to 10000; more\n"
                     "leave fewer gaps",
                     kMethodGroup)
         .shows_default(exact_text(kDefaultPoolRatio));

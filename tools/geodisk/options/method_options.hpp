@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,15 +13,20 @@ namespace geodisk::tools {
 
 class Command;
 
+/// Returns true for "darts", and for "pdts", as the paper calls the method.
+inline bool names_darts(std::string_view method) {
+    return method == "darts" || method == "pdts";
+}
+
 /// As given on the command line.
 struct MethodOptions {
-    std::string method = "psdp", pool_ratio, throws;
+    std::string method = "pool", pool_ratio, throws;
     bool count_calls = false;
 
-    bool throws_darts() const { return method == "pdts"; }
+    bool throws_darts() const { return names_darts(method); }
 };
 
-/// Adds --method, --throws and --pool-ratio; `options` must outlive the parsing. Samples have room
+/// Adds --method, --darts and --pool-ratio; `options` must outlive the parsing. Samples have room
 /// in `domain`: "the surface".
 void add_method_options(Command command, MethodOptions& options, const std::string& domain);
 
@@ -29,7 +35,7 @@ void add_calls_option(Command command, MethodOptions& options);
 
 /// The options, checked.
 struct Method {
-    bool throws_darts = false; ///< --method pdts.
+    bool throws_darts = false; ///< --method darts.
     bool counts_calls = false; ///< --count-calls.
     double pool_ratio = kDefaultPoolRatio;
     std::uint32_t throws = 0;     ///< 0 if not given.

@@ -70,7 +70,7 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--metric", options.metric, usual.metric);
     list.add("--method", options.method.method, usual.method.method);
     list.add("--pool-ratio", options.method.pool_ratio);
-    list.add("--throws", options.method.throws);
+    list.add("--darts", options.method.throws);
     list.add("--seed", options.run.seed, usual.run.seed);
     list.add_flag("--ascii", options.out.ascii);
     list.add("--columns", options.out.columns);

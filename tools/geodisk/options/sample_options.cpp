@@ -105,7 +105,7 @@ void add_subject_options(Command command, SampleOptions& options) {
                        "Half the least distance; where radii vary, the largest", distance);
     command.add_option("-n,--count", options.count, "N",
                        "Choose the distance that should give about N samples;\n"
-                       "with --method pdts, stop at exactly N",
+                       "with --method darts, stop at exactly N",
                        distance);
 
     add_mesh_options(command, options.mesh);

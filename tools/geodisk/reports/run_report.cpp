@@ -44,7 +44,7 @@ Json device_json(const DeviceReport& device) {
 
 Json drawn_json(const Drawn& drawn) {
     const bool throws_darts = drawn.method.throws_darts;
-    return {{"method", throws_darts ? "pdts" : "psdp"},
+    return {{"method", throws_darts ? "darts" : "pool"},
             // Each method has this or that.
             {"pool_ratio", throws_darts ? Json(nullptr) : Json(drawn.method.pool_ratio)},
             {"throws", throws_darts ? Json(drawn.run.candidates) : Json(nullptr)},
