@@ -23,6 +23,7 @@ from test_mesh_sources import CUBE
         ("turned over; --lift normals pulls them apart", "turned over"),
         ("out of memory; give more with --memory", "out of memory"),
         ("out of memory; give --weld", "out of memory; give weld"),
+        ("lower the count, or raise --darts", "lower the count, or raise throws"),
         ("a--weld.obj: damaged", "a--weld.obj: damaged"),
         ("--weld.obj: damaged", "--weld.obj: damaged"),
         ("x/--weld: damaged", "x/--weld: damaged"),

@@ -68,7 +68,7 @@ std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
                ? ""
                : "only " + grouped(samples) + " of " + grouped(stop_count) +
                      " samples found room before the darts ran out; lower the count or the "
-                     "distance, or raise --throws";
+                     "distance, or raise --darts";
 }
 
 } // namespace geodisk::tools

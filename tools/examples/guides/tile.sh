@@ -7,7 +7,7 @@ set -eu
 cd "$1"
 
 # Exactly 1,000 points, at a distance that leaves room for a few more.
-geodisk box --dim 2 --periodic --min-distance 0.0253 --method pdts --count 1000 --seed 1 -o tile.csv
+geodisk box --dim 2 --periodic --min-distance 0.0253 --method darts --count 1000 --seed 1 -o tile.csv
 
 # No two are closer, around the edges neither, and there is little power at low frequencies.
 geodisk verify tile.csv

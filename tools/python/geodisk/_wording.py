@@ -5,10 +5,13 @@ from __future__ import annotations
 import re
 
 # Options of the program that functions of this package have as parameters.
-_PARAMETERS = frozenset(
-    "background columns count cut density device edge-lengths face-keys keep-seams mesh-format metric "
-    "min-distance pool-ratio radius radius-factor seed size stop-count style throws up view weld".split()
-)
+_PARAMETERS = {
+    option: option.replace("-", "_")
+    for option in (
+        "background columns count cut density device edge-lengths face-keys keep-seams mesh-format "
+        "metric min-distance pool-ratio radius radius-factor seed size stop-count style up view weld"
+    ).split()
+} | {"darts": "throws"}
 # With the suffix of the options of two meshes. Not within the name of a file.
 _OPTION = re.compile(r"(?<![^\s(])--([a-z]+(?:-[a-z]+)*?)(?:-[ab])?(?![\w./-])")
 
@@ -20,5 +23,5 @@ def in_python(message: str) -> str:
     """
     message = re.sub(r" \(see geodisk \w+ --help\)", "", message)
     said, *advice = message.split("; ")
-    kept = [said, *(clause for clause in advice if set(_OPTION.findall(clause)) <= _PARAMETERS)]
-    return _OPTION.sub(lambda option: option[1].replace("-", "_"), "; ".join(kept))
+    kept = [said, *(clause for clause in advice if set(_OPTION.findall(clause)) <= _PARAMETERS.keys())]
+    return _OPTION.sub(lambda option: _PARAMETERS.get(option[1], option[1].replace("-", "_")), "; ".join(kept))

@@ -58,7 +58,7 @@ function fillFigures() {
     ["Warnings", facts.warnings.length === 0 ? null : facts.warnings.map(warning => warning.message).join("; ")],
   ]);
   fillTable(byId("run-figures"), [
-    ["Method", facts.method === "pdts" ? "parallel dart throwing" : "darts of a pool of candidates"],
+    ["Method", facts.method === "darts" ? "parallel dart throwing" : "darts of a pool of candidates"],
     ["Candidates", grouped(facts.candidates)],
     ["Seed", facts.seed],
     ["Metric", facts.metric],
