@@ -24,4 +24,8 @@ def in_python(message: str) -> str:
     message = re.sub(r" \(see geodisk \w+ --help\)", "", message)
     said, *advice = message.split("; ")
     kept = [said, *(clause for clause in advice if set(_OPTION.findall(clause)) <= _PARAMETERS.keys())]
-    return _OPTION.sub(lambda option: _PARAMETERS.get(option[1], option[1].replace("-", "_")), "; ".join(kept))
+
+    def parameter(option):
+        return _PARAMETERS.get(option[1], option[1].replace("-", "_"))
+
+    return _OPTION.sub(parameter, "; ".join(kept))
