@@ -64,8 +64,8 @@ void check_error(const Error& error, const char* function, VkResult result) {
     CHECK(error.message.find(to_string(result)) != std::string::npos);
 }
 
-/// Fails every call that Runner::create makes of `function`, one after the other; returns the runner
-/// that is created once none fails.
+/// Fails every call that Runner::create makes of `function`, one after the other; returns the
+/// runner that is created once none fails.
 Runner sweep_create(Bench& bench, const char* function, VkResult result, std::uint32_t& faults) {
     for (std::uint32_t number = 0;; ++number) {
         CAPTURE(number);
@@ -209,8 +209,7 @@ TEST_SUITE("faults") {
                 Runner runner = bench.prepared_runner();
                 for (const Fallible& fallible : kFallible) {
                     CAPTURE(std::string(fallible.function));
-                    faults +=
-                        sweep_run(bench, runner, fallible.function, fallible.results.back());
+                    faults += sweep_run(bench, runner, fallible.function, fallible.results.back());
                 }
             }
             CHECK(faults > 0);

@@ -44,9 +44,9 @@ class GEODISK_API ErrorModel {
 
     /// Of chains of so many crossings.
     double error_of(std::uint32_t chain) const noexcept;
-    /// Returns a guard that is safe while errors keep to the bound: powers of two from 2^-13 on, and
-    /// where radii vary from 2^-15 on, so that an edit somewhere does not decide anew about ties
-    /// elsewhere.
+    /// Returns a guard that is safe while errors keep to the bound: powers of two from 2^-13 on,
+    /// and where radii vary from 2^-15 on, so that an edit somewhere does not decide anew about
+    /// ties elsewhere.
     double guard_for(double error_bound) const noexcept;
     Tolerances tolerances(double error_bound) const noexcept;
 
