@@ -16,7 +16,8 @@ namespace {
 
 void check_space(const SampleJob& job, const MeshInput& mesh) {
     if (!job.is_geodesic() && mesh.dimension() != 3) {
-        fail_usage("--metric " + job.metric + " needs three coordinates per vertex; the mesh has " +
+        fail_usage("--metric " + metric_name(job.metric) +
+                   " needs three coordinates per vertex; the mesh has " +
                    (mesh.dimension() == 0 ? "none" : std::to_string(mesh.dimension())));
     }
 }
@@ -38,9 +39,7 @@ Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams
         return take(Domain::surface(mesh.prepared, params));
     }
     const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
-    return take(Domain::surface_in_space(view, mesh.prepared, params,
-                                         job.metric == "euclidean" ? Metric::euclidean
-                                                                   : Metric::approximate));
+    return take(Domain::surface_in_space(view, mesh.prepared, params, *job.metric));
 }
 
 std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,

@@ -1,6 +1,5 @@
 #include "geodisk/options/sample_options.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -12,23 +11,37 @@
 namespace geodisk::tools {
 namespace {
 
-const std::vector<std::string>& metrics() {
-    static const std::vector<std::string> all{"geodesic", "euclidean", "approximate"};
-    return all;
+constexpr std::optional<Metric> kMetrics[] = {std::nullopt, Metric::euclidean, Metric::approximate};
+
+std::vector<std::string> metric_names() {
+    std::vector<std::string> names;
+    for (const std::optional<Metric>& metric : kMetrics) {
+        names.push_back(metric_name(metric));
+    }
+    return names;
+}
+
+std::optional<Metric> parse_metric(const std::string& name) {
+    for (const std::optional<Metric>& metric : kMetrics) {
+        if (metric_name(metric) == name) {
+            return metric;
+        }
+    }
+    fail_choice("--metric", name, metric_names());
 }
 
 /// Straight lines need the space that lengths and lifts do without.
-void check_metric(const SampleOptions& options) {
-    if (std::ranges::find(metrics(), options.metric) == metrics().end()) {
-        fail_choice("--metric", options.metric, metrics());
+void check_metric(const SampleOptions& options, const SampleJob& job) {
+    if (job.is_geodesic()) {
+        return;
     }
-    if (options.metric != "geodesic" && options.density.is_given()) {
+    if (options.density.is_given()) {
         fail_usage("--metric " + options.metric +
                    " takes no radii that vary, so neither --density nor --radius-factor");
     }
     for (const auto& [name, value] : options.mesh.additions()) {
         const bool is_kept = name == "weld" || name == "keep_seams" || name == "mesh_format";
-        if (options.metric != "geodesic" && !is_kept) {
+        if (!is_kept) {
             fail_usage("--metric " + options.metric +
                        " goes by the coordinates of the mesh file, so it takes no --" + name);
         }
@@ -39,6 +52,10 @@ void check_metric(const SampleOptions& options) {
 
 HeaderEntries SampleJob::additions() const {
     return density.added_to(mesh.additions());
+}
+
+std::string metric_name(const std::optional<Metric>& metric) {
+    return !metric ? "geodesic" : *metric == Metric::euclidean ? "euclidean" : "approximate";
 }
 
 SampleJob parse_job(const SampleOptions& options) {
@@ -54,7 +71,7 @@ SampleJob parse_job(const SampleOptions& options) {
         check_columns(job.out.target(), job.columns);
     }
     job.run = options.run;
-    job.metric = options.metric;
+    job.metric = parse_metric(options.metric);
     job.picture = options.picture;
     job.legend = options.legend;
     if (job.legend && job.picture.empty()) {
@@ -75,7 +92,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_seconds();
     job.runner.sampler.count_calls = job.method.counts_calls;
-    check_metric(options);
+    check_metric(options, job);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
     job.density.is_given();
@@ -116,7 +133,7 @@ void add_subject_options(Command command, SampleOptions& options) {
                     "geodesic: exact, along the surface. For comparison alone,\n"
                     "euclidean: straight through space; approximate: a closed\n"
                     "form by normals (Bowers et al. 2010)")
-        .offers(metrics())
+        .offers(metric_names())
         .shows_default();
     add_method_options(command, options.method, "the surface");
     add_seed_option(command, options.run);

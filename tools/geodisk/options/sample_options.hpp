@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/domain.hpp>
 #include <geodisk/runner.hpp>
 
 #include "geodisk/options/density_options.hpp"
@@ -45,7 +46,7 @@ struct SampleJob {
     OutputOptions out;
     std::vector<std::string> columns; ///< Of the samples, besides those that all have.
     RunOptions run;
-    std::string metric; ///< "geodesic", or one that is not along the surface.
+    std::optional<Metric> metric; ///< Through space; without it, distances are geodesic.
     Method method;
     std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
     double wanted_count = 0;            ///< Of --count, where it chooses the distance; else 0.
@@ -54,7 +55,7 @@ struct SampleJob {
     std::string picture; ///< File for one, or empty.
     bool legend = false; ///< On the picture.
 
-    bool is_geodesic() const { return metric == "geodesic"; }
+    bool is_geodesic() const { return !metric; }
 
     /// What shapes the surface and its radii besides the mesh file, as the header names it.
     HeaderEntries additions() const;
@@ -62,5 +63,8 @@ struct SampleJob {
 
 /// Throws UserError(usage) for values out of range and options that contradict each other.
 SampleJob parse_job(const SampleOptions& options);
+
+/// The name of SampleJob::metric, as --metric takes it.
+std::string metric_name(const std::optional<Metric>& metric);
 
 } // namespace geodisk::tools

@@ -15,7 +15,7 @@ namespace {
 
 /// Says what is not exact.
 std::string metric_text(const SampleJob& job) {
-    return job.is_geodesic() ? job.metric : job.metric + ", not exact along the surface";
+    return metric_name(job.metric) + (job.is_geodesic() ? "" : ", not exact along the surface");
 }
 
 /// The distance that was given, or as it would be; `largest` is that of two samples with the
