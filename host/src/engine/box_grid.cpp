@@ -23,9 +23,12 @@ double relative_side(const BoxParams& box, std::size_t axis) {
 /// Doublings of the width of the cells that candidates are drawn by, a distance otherwise: where
 /// the first stage of darts has fewer than kStageRatio for each sample, cells are larger likewise.
 int doublings(const BoxParams& box) {
-    const double fewer = kStageRatio / stages_of(box).per_sample(0);
+    const Stages stages = stages_of(box);
+    const double fewer = kStageRatio / stages.per_sample(0);
     const double dimensions = static_cast<double>(box.extents.size());
-    return fewer > 1 ? static_cast<int>(std::ceil(std::log2(fewer) / dimensions)) : 0;
+    return stages.throws != 0 && fewer > 1
+               ? static_cast<int>(std::ceil(std::log2(fewer) / dimensions))
+               : 0;
 }
 
 // Steps follow from the unit alone, so that a larger box has the same; a periodic one needs a whole
