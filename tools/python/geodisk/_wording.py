@@ -25,7 +25,7 @@ def in_python(message: str) -> str:
     said, *advice = message.split("; ")
     kept = [said, *(clause for clause in advice if set(_OPTION.findall(clause)) <= _PARAMETERS.keys())]
 
-    def parameter(option):
+    def parameter(option: re.Match[str]) -> str:
         return _PARAMETERS.get(option[1], option[1].replace("-", "_"))
 
     return _OPTION.sub(parameter, "; ".join(kept))
