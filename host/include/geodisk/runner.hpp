@@ -24,22 +24,22 @@ struct Sample {
     float weights[3];   ///< Of the triangle's corners in order; they sum to exactly 1.
 };
 
-/// The parts of a run on the device.
+/// Parts of a run on the device.
 enum class Stage : std::uint32_t {
-    count,   ///< How many candidates each face has.
-    bin,     ///< And how many of them each cell of a large one.
-    draw,    ///< The candidates.
-    select,  ///< Finds the next batch and readies its slots.
-    detect,  ///< Geodesic disks.
+    count,   ///< Counts the candidates of each face.
+    bin,     ///< Counts those of each cell of a large face.
+    draw,    ///< Draws the candidates.
+    select,  ///< Finds the next batch and prepares its slots.
+    detect,  ///< Computes geodesic disks.
     resolve, ///< Decides the batch.
     gather,  ///< Puts the samples in order.
 };
-/// Of Stage.
+/// Number of stages.
 inline constexpr std::size_t kStages = 7;
-/// By Stage.
+/// Seconds, indexed by Stage.
 using StageSeconds = std::array<double, kStages>;
 
-/// Name of a stage as spelled above.
+/// Returns the name of a stage as spelled above.
 GEODISK_API const char* to_string(Stage stage) noexcept;
 
 /// Wall time of the parts of a run, in seconds.
@@ -52,79 +52,78 @@ struct RunSeconds {
 
 /// How a run went.
 struct RunReport {
-    std::uint32_t candidates = 0;     ///< Decided: all, or up to the last sample of a count.
-    std::uint32_t chunks = 0;         ///< Parts in which they were drawn, of a stage or more each.
+    std::uint32_t candidates = 0;     ///< Candidates decided: all, or up to the last sample of a
+                                      ///< count.
+    std::uint32_t chunks = 0;         ///< Parts in which they were drawn, one or more stages each.
     std::uint32_t iterations = 0;     ///< Batches of disks.
-    std::uint32_t dispatches = 0;     ///< Recorded, empty ones and clears of memory
-                                      ///< included.
-    std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples; those of
-                                      ///< samples anew with every chunk.
-    std::uint32_t regrown = 0;        ///< Times a batch was repeated with more memory.
+    std::uint32_t dispatches = 0;     ///< Dispatches recorded, including empty ones and clears.
+    std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples. Each chunk
+                                      ///< computes those of earlier samples again.
+    std::uint32_t regrown = 0;        ///< Batches repeated with more memory.
     std::uint64_t windows = 0;        ///< Windows and vertex events of all disks, or rows of cells
-                                      ///< where distances are straight; what else concerns
-                                      ///< windows, chains and vertices is 0 there.
+                                      ///< for straight distances. Other figures of windows, chains
+                                      ///< and vertices are 0 then.
     std::uint64_t tested = 0;         ///< Candidate distances computed in all disks.
-    std::uint32_t most_waiting = 0;   ///< Most windows, or vertex events, waiting in one disk.
-    std::uint32_t longest_chain = 0;  ///< Most edge crossings of a window of a sample's disk.
-    std::uint32_t most_vertices = 0;  ///< Reached by one disk.
-    std::uint32_t most_conflicts = 0; ///< Listed by one disk.
+    std::uint32_t most_waiting = 0;   ///< Maximum of windows, or vertex events, waiting in a disk.
+    std::uint32_t longest_chain = 0;  ///< Maximum of edges crossed by a window of a sample's disk.
+    std::uint32_t most_vertices = 0;  ///< Maximum of vertices reached by a disk.
+    std::uint32_t most_conflicts = 0; ///< Maximum of conflicts listed by a disk.
     CallHistogram calls;              ///< Empty without SamplerOptions::count_calls.
-    /// Trips of the main loop of detect, each a window or corner, by all lanes; and as many as it
-    /// would be if each did what the busiest of its subgroup did in the same dispatch, as all are
-    /// held up by. 0 without SamplerOptions::count_trips.
+    /// Trips of the main loop of detect in all lanes; a trip takes one window or corner. And their
+    /// number if every lane took as many as the busiest lane of its subgroup, which all wait for.
+    /// 0 without SamplerOptions::count_trips.
     std::uint64_t trips = 0, lane_trips = 0;
     double guard = 0;               ///< Conflicts were tested against min_distance * (1 + guard).
-    std::uint64_t device_bytes = 0; ///< Memory allocated on the device.
-    std::uint64_t uploaded = 0; ///< Bytes; of meshes only the lengths where the run before was of
-                                ///< the same ones.
-    RunPlan plan;               ///< As it stood at the end.
+    std::uint64_t device_bytes = 0; ///< Memory allocated on the device, in bytes.
+    std::uint64_t uploaded = 0;     ///< Bytes uploaded. A mesh that is on the device already counts
+                                    ///< with its lengths only.
+    RunPlan plan;                   ///< Plan at the end of the run.
     RunSeconds seconds;
     StageSeconds stages{}; ///< Device time, 0 without RunnerOptions::time_stages.
 };
 
-/// In dart-throwing order.
+/// Samples in dart-throwing order.
 struct SampleSet {
-    std::vector<Sample> samples; ///< Of a surface.
-    std::vector<double> points;  ///< Of a box: Domain::dimension() coordinates of each sample.
+    std::vector<Sample> samples; ///< Samples of a surface.
+    std::vector<double> points;  ///< Domain::dimension() coordinates per sample of a box.
     RunReport report;
 };
 
 /// How far a run is.
 struct Progress {
-    std::uint32_t decided; ///< Candidates decided or being worked on, of `candidates`, about.
-    std::uint32_t candidates;
-    std::uint32_t accepted;
-    std::uint32_t disks;   ///< Complete.
-    std::uint64_t windows; ///< Of those disks; with many for each, disks take long.
+    std::uint32_t decided;    ///< Candidates decided or in work, approximately.
+    std::uint32_t candidates; ///< All candidates.
+    std::uint32_t accepted;   ///< Samples so far.
+    std::uint32_t disks;      ///< Complete disks.
+    std::uint64_t windows;    ///< Windows of those disks. Disks of many windows take long.
 };
 
-/// What a Runner may take, how long it waits, and what it tells.
+/// Limits of a Runner: memory and time.
 struct RunnerOptions {
     SamplerOptions sampler;
-    /// Most bytes that a run takes on the device, staging included; 0 for no bound of the caller's.
-    /// Fewer stages at once and a smaller pool make do with less; no choice changes the samples.
-    /// Where memory is short without a bound, the run is tried with half as much before it is an
-    /// error.
+    /// Maximum bytes of a run on the device, including staging; 0 for no limit. The runner meets it
+    /// by fewer stages at once and a smaller pool. It does not change the samples. Without a limit,
+    /// a run that is out of memory is retried with half as much.
     std::uint64_t device_bytes = 0;
-    /// Most bytes of the pool, which holds disks in progress and lists of conflicts; bounded by one
-    /// binding of the device.
+    /// Maximum bytes of the pool, which holds disks in progress and lists of conflicts. The range
+    /// of one binding limits it as well.
     std::uint64_t pool_bytes = std::uint64_t{256} << 20;
-    /// Non-zero fields replace what the runner would choose. For tuning and tests: no choice
-    /// changes the samples, but `error_bound`, and with it the ties.
+    /// Plan whose non-zero fields replace the runner's choice. For tuning and tests: none changes
+    /// the samples, except `error_bound`, which decides ties.
     RunPlan plan;
-    /// Measures the device time of each stage by timestamps, where the queue has them.
+    /// Measures the device time of each stage by timestamps, if the queue has them.
     bool time_stages = false;
-    /// That a submission is to take, so that no watchdog bites and progress and cancellation stay
-    /// prompt: the first is tiny, and the others follow what those before took. 0 chooses 0.02, and
-    /// 0.1 on a CPU.
+    /// Target length of one submission in seconds; keeps GPU watchdogs quiet, progress and
+    /// cancellation prompt. The first submission is tiny, later ones follow the times measured.
+    /// 0 chooses 0.02, or 0.1 on a CPU.
     double submission_seconds = 0;
-    /// A submission that is waited for longer counts as hung; time in which the process is stopped
-    /// does not count. 0 chooses 120, and 600 on a CPU.
+    /// Seconds after which a submission counts as hung. Time in which the process is stopped does
+    /// not count. 0 chooses 120, or 600 on a CPU.
     double stall_seconds = 0;
 };
 
-/// Called after every submission, also while a mesh is uploaded and candidates are drawn. Returns
-/// false to stop the run with `cancelled`.
+/// Is called after every submission, including those that upload and draw candidates. Returns false
+/// to stop the run with `cancelled`.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 /// Not thread-safe; several runners may share a device, and a queue through QueueRef's lock.
@@ -135,50 +134,50 @@ class GEODISK_API Runner {
     /// seconds that are no time.
     static Result<Runner> create(const DeviceRefs& device, const QueueRef& queue,
                                  const RunnerOptions& options = {}) noexcept;
-    /// The same with a Sampler that other runners may share, which has compiled its pipelines, and
-    /// on whose device arithmetic is checked once; RunnerOptions::sampler is not looked at. A
-    /// runner per thread costs a command pool and memory of its own.
+    /// Uses a Sampler that other runners may share. It keeps its compiled pipelines, and arithmetic
+    /// is checked once per Sampler. Ignores RunnerOptions::sampler. Each further runner costs a
+    /// command pool and its own memory.
     static Result<Runner> create(std::shared_ptr<const Sampler> sampler, const QueueRef& queue,
                                  const RunnerOptions& options = {}) noexcept;
     Runner(Runner&&) noexcept;
     Runner& operator=(Runner&&) noexcept;
     ~Runner();
 
-    /// Returns the set that sequential dart throwing over the same candidates returns, whatever
-    /// device, driver or plan. What overflows is enlarged and the batch repeated; a run whose
-    /// window chains outgrow the guard is repeated with a wider one. Candidates that do not fit a
-    /// binding or the device's memory, or may not be needed, are drawn chunk by chunk.
+    /// Returns the set of sequential dart throwing over the same candidates, on every device,
+    /// driver and plan. A buffer that overflows is enlarged and the batch repeated. A run whose
+    /// window chains exceed the guard is repeated with a wider one. Candidates are drawn in chunks
+    /// if they do not fit a binding or the device's memory, or may not be needed.
     ///
     /// Errors: `job_too_large`, `workspace_too_small` and `invalid_argument` as Sampler's
     /// functions; `mesh_rejected` as Job::advance; `out_of_device_memory`, `device_lost`,
-    /// `cancelled`. After `device_lost` the runner refuses all further work; when a submission was
-    /// given up as hung, what it uses is never freed.
+    /// `cancelled`. After `device_lost` the runner refuses all further work. Objects of a
+    /// submission that hangs are never freed.
     Result<SampleSet> sample_and_wait(const Domain& domain,
                                       const ProgressCallback& progress = {}) noexcept;
-    /// The same of Domain::surface(mesh, params), and its errors.
+    /// Samples Domain::surface(mesh, params). Errors: those of both.
     Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;
 
-    // The same without waiting, for one run at a time. sample_and_wait is refused meanwhile.
+    // Without waiting, one run at a time. sample_and_wait() is refused meanwhile.
 
-    /// Begins a run; the domain must outlive it. Errors: `invalid_argument` while one is in
-    /// progress; all others come from poll().
+    /// Begins a run; the domain must outlive it. Errors: `invalid_argument` if one is in progress;
+    /// all others come from poll().
     Result<Done> start(const Domain& domain, const ProgressCallback& progress = {}) noexcept;
-    /// Goes on with the run where the device is done with what was submitted last: records and
-    /// submits what comes next. Else waits for that, but no longer than `patience`. The samples
-    /// once the run is complete, else nothing. Errors: `invalid_argument` where none is in
-    /// progress; as sample_and_wait, upon which none is any more.
+    /// Waits for the latest submission, at most for `patience`. Once it has ended, records and
+    /// submits the next one. Returns the samples when the run is complete, else nothing. Errors:
+    /// `invalid_argument` if no run is in progress; otherwise as sample_and_wait(), and the run has
+    /// then ended.
     Result<std::optional<SampleSet>> poll(std::chrono::milliseconds patience = {}) noexcept;
-    /// Of the submission in flight, to be waited for with others of the caller, by vkWaitForFences
-    /// alone; null where there is none.
+    /// Returns the fence of the submission in flight, or null. Pass it to vkWaitForFences only, for
+    /// example with fences of your own.
     VkFence fence() const noexcept;
-    /// How far the run is.
+    /// Returns how far the run is.
     Progress progress() const noexcept;
     /// Ends the run, if one is in progress, and waits for the submission in flight.
     void cancel() noexcept;
 
-    /// Frees the device memory that runs keep for those to come, of which an error frees it too;
-    /// not while one is in progress.
+    /// Frees the device memory that is kept for later runs; not while one is in progress. An error
+    /// of a run frees it as well.
     void release_memory() noexcept;
 
     const Sampler& sampler() const noexcept;
