@@ -1,4 +1,4 @@
-// Domain: what is sampled, and by which distance. Sampler records and Runner runs them all alike.
+// Domain: a surface or box to sample, and the distance to use. Sampler and Runner treat all alike.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ namespace gpu {
 struct SampleRec;
 }
 
-/// Distances that do not go along the surface.
+/// Distances through space.
 enum class Metric : std::uint32_t {
-    euclidean,   ///< The straight line.
-    approximate, ///< The closed form of Bowers, Wang, Wei and Maletz 2010 by positions and normals:
+    euclidean,   ///< Straight line.
+    approximate, ///< Closed form of Bowers, Wang, Wei and Maletz 2010 by positions and normals:
                  ///< d * (asin(a) - asin(b)) / (a - b), with the straight distance d and the
                  ///< cosines a and b of its angles with both normals. Exact on planes and spheres.
 };
@@ -28,66 +28,65 @@ enum class Metric : std::uint32_t {
 /// One of several surfaces that are sampled as one job: an instance of a mesh.
 struct SurfacePart {
     const PreparedMesh* mesh = nullptr;
-    /// Of this surface alone, seed and distance included.
-    SampleParams params;
-    /// Of the instance: its lengths are those of the mesh so many times.
-    double scale = 1;
+    SampleParams params; ///< Parameters of this surface, including its seed and distance.
+    double scale = 1;    ///< Length in the instance of a unit of the mesh.
 };
 
-/// A sampling job, checked, with what follows from it alone. Immutable, so any number of threads
-/// may use one. It needs no device.
+/// A sampling job with checked parameters. Immutable: any number of threads may use one. Needs no
+/// device.
 class GEODISK_API Domain {
   public:
-    /// A surface by geodesic distance. The mesh, and the radii and keys of `params`, must outlive
-    /// the domain and its runs.
+    /// Makes the domain of a surface by geodesic distance. The mesh, and the radii and keys of
+    /// `params`, must outlive the domain and its runs.
     ///
-    /// Errors: `invalid_argument` as pool_size(), and for more than 2^30 grid cells, naming the
+    /// Errors: those of pool_size(); `invalid_argument` for more than 2^30 grid cells, naming the
     /// face.
     static Result<Domain> surface(const PreparedMesh& mesh, const SampleParams& params) noexcept;
 
-    /// Surfaces by geodesic distance, in one job; what they refer to must outlive the domain and
-    /// its runs. Each gets the samples that it would get by itself, whatever the others are; but
-    /// where one alone takes a larger guard than 2^-13 (RunReport::guard), that holds for all of
-    /// them. Faces and vertices of each follow those of the ones before. The order of samples is
-    /// that of the job, and of each surface its own.
+    /// Makes the domain of several surfaces by geodesic distance, as one job. Everything they refer
+    /// to must outlive the domain and its runs. Each surface gets the samples that it gets alone,
+    /// except that the largest guard (RunReport::guard) of one holds for all. Faces and vertices
+    /// are numbered through all surfaces. Samples come in the order of the job, which keeps the
+    /// order of each surface.
     ///
-    /// Errors: `invalid_argument` as surface(), naming the part; for none, for a null mesh, for a
-    /// scale that is not positive and finite, for throws or a stop count, for radii of some parts
-    /// only, and where all together are too large to index with 32 bits.
+    /// Errors: those of surface(), naming the part; `invalid_argument` for no part, a null mesh, a
+    /// scale that is not positive and finite, throws or a stop count, radii for some parts only, or
+    /// more faces and vertices than 32 bits count.
     static Result<Domain> surfaces(std::span<const SurfacePart> parts) noexcept;
 
-    /// A surface by distances through space, as other methods take them, for comparison. It is not
-    /// what geodesic distance gives: sheets that come near each other in space keep each other's
-    /// samples away although the way along the surface is long (paper sections 5.6 and 6.1). The
-    /// candidates are those of surface(). `view` is what `mesh` was prepared from; both, and what
-    /// they refer to, must outlive the domain and its runs.
+    /// Makes the domain of a surface by distances through space, to compare with other methods.
+    /// Sheets that are near each other in space then keep each other's samples away, even if the
+    /// way along the surface is long (paper sections 5.6 and 6.1). The candidates are those of
+    /// surface(). `mesh` was prepared from `view`. Both, and everything they refer to, must outlive
+    /// the domain and its runs.
     ///
     /// Candidates are placed to 2^-31 of the bounding box, so conflicts are tested against
     /// `min_distance * (1 + guard)` with RunReport::guard = 2^-20 + 2^-30 * box / D. No two samples
     /// are closer in space than D. Normals are those of the vertices, weighted by the areas of
     /// their faces, and interpolated.
     ///
-    /// Errors: `invalid_argument` as pool_size(), for a view of another mesh, or one that has not
-    /// three coordinates per vertex, for `radii`, and for a distance too small beside the box.
+    /// Errors: those of pool_size(); `invalid_argument` for a view of another mesh, or without
+    /// three coordinates per vertex, for `radii`, and for a distance too small for the bounding
+    /// box.
     static Result<Domain> surface_in_space(const MeshView& view, const PreparedMesh& mesh,
                                            const SampleParams& params, Metric metric) noexcept;
 
-    /// A box. Errors: `invalid_argument` as pool_size().
+    /// Makes the domain of a box by straight-line distance. Errors: those of pool_size().
     static Result<Domain> box(const BoxParams& box) noexcept;
 
     Domain(Domain&&) noexcept;
     Domain& operator=(Domain&&) noexcept;
     ~Domain();
 
-    /// The first face of each surface, in the numbering of the job, and one past the last; empty of
-    /// a box.
+    /// Returns the first face of each surface, in the numbering of the job, and one past the last.
+    /// Empty for a box.
     std::span<const std::uint32_t> first_faces() const noexcept;
-    /// Those in which the candidates come.
+    /// Returns the stages in which candidates come.
     const Stages& stages() const noexcept;
-    /// Coordinates of a sample of a box: 1 to 6, in its units. 0 of a surface, whose samples have a
-    /// face and weights.
+    /// Returns the number of coordinates of a sample in a box, 1 to 6. 0 for a surface, whose
+    /// samples have a face and weights.
     std::uint32_t dimension() const noexcept;
-    /// Writes them; `point` must have as many.
+    /// Writes the coordinates of a sample in units of the box; `point` has dimension() elements.
     void coordinates(const gpu::SampleRec& sample, std::span<double> point) const noexcept;
 
     struct Impl; ///< Internal.
