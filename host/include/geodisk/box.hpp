@@ -10,18 +10,18 @@
 
 namespace geodisk {
 
-/// Dimensions of a box.
+/// Maximum of dimensions of a box.
 inline constexpr std::uint32_t kMostBoxDimensions = 6;
 
-/// The guard band of boxes: conflicts are tested against `min_distance * (1 + kBoxGuard)`, which
-/// covers what rounding makes of a distance in float.
+/// Guard of boxes: conflicts are tested against `min_distance * (1 + kBoxGuard)`, which covers the
+/// rounding of distances in float.
 inline constexpr double kBoxGuard = 0x1p-20;
 
 /// A sampling job in [0, extents[0]) x [0, extents[1]) x ...
 struct BoxParams {
     std::vector<double> extents{1, 1}; ///< 1 to 6 sides, each positive.
-    /// Opposite sides are glued together: distances go around, and copies of the box side by side
-    /// keep the minimum distance. It must not exceed the shortest side then.
+    /// Glues opposite sides together: distances go around, and copies of the box side by side keep
+    /// the minimum distance. It must then not exceed the shortest side.
     bool is_periodic = false;
     double min_distance = 0; ///< D > 0: no two samples are closer, in the units of the sides.
     std::uint64_t seed = 0;
@@ -30,23 +30,23 @@ struct BoxParams {
     std::uint32_t stop_count = 0;          ///< As SampleParams::stop_count.
 };
 
-/// Expected number of samples, by densities measured for each dimension with the default pool
-/// ratio and 30 to 30,000 samples (host/docs/boxes.md). An estimate where sides are shorter than a
-/// few distances, and a poor one where some are much shorter than one.
+/// Returns the expected number of samples, from densities measured for each dimension with the
+/// default pool ratio and 30 to 30,000 samples (host/docs/boxes.md). A rough estimate for sides
+/// shorter than a few distances, and a poor one for sides much shorter than one.
 GEODISK_API double expected_count(const BoxParams& box) noexcept;
 
-/// The distance that should give about `count` samples, at least 1; `box.min_distance` does not
-/// enter. A periodic box with much shorter sides than others may be too thin for it, as pool_size()
-/// tells. 0 for a box without sides, or with one that is no positive finite number.
+/// Returns the distance that should give about `count` samples, at least 1; ignores
+/// `box.min_distance`. A periodic box with a very short side may be too thin for the distance, see
+/// pool_size(). Returns 0 for a box without sides, or with a side that is not positive and finite.
 GEODISK_API double distance_for_count(const BoxParams& box, double count) noexcept;
 
-/// Candidates of a job: `throws`, or those that a pool expects, about pool_ratio times the expected
-/// count, at least 64. They are as dense in every box, but that boxes with much border have 2, 4,
-/// ... times as many, so that a larger box has those of a smaller one with the same lower corner.
+/// Returns the candidates of a job: `throws`, or about pool_ratio times the expected count, at
+/// least
+/// 64. Their density is the same in every box, so a larger box has the candidates of a smaller one
+/// with the same lower corner; boxes with much border have 2, 4, ... times as many.
 ///
-/// Fails with `invalid_argument` when a parameter is out of range; when a side is more than 2^24
-/// distances long, or the pool cannot be indexed with 32 bits; and when the minimum distance
-/// exceeds a side of a periodic box.
+/// Errors: `invalid_argument` for a parameter out of range, a side longer than 2^24 distances, a
+/// pool of more than 2^32 candidates, and a distance longer than a side of a periodic box.
 GEODISK_API Result<std::uint32_t> pool_size(const BoxParams& box) noexcept;
 
 } // namespace geodisk
