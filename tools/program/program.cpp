@@ -125,7 +125,7 @@ int run(const char* name, const char* description, SetUp set_up, int argc, char*
         set_up(program);
         return parse(app, program, argc, argv, rewrite);
     } catch (const std::bad_alloc&) {
-        return fail(name, ExitCode::out_of_memory, "the memory of this machine does not suffice");
+        return fail(name, ExitCode::out_of_memory, "out of memory");
     } catch (const std::exception& error) {
         return fail(name, ExitCode::internal, error.what());
     }

@@ -118,7 +118,7 @@ class BatchRun {
             entry.error = error.what();
         } catch (const std::bad_alloc&) {
             entry.exit_code = static_cast<int>(ExitCode::out_of_memory);
-            entry.error = "the memory of this machine does not suffice";
+            entry.error = "out of memory";
         } catch (const std::exception& error) {
             entry.exit_code = static_cast<int>(ExitCode::internal);
             entry.error = error.what();

@@ -135,8 +135,8 @@ void run_analyze(const AnalyzeOptions& options) {
 } // namespace
 
 void add_analyze_command(Command app) {
-    const Command command = app.add_command(
-        "analyze", "Tell how samples are spread, by exact distances and without a device");
+    const Command command =
+        app.add_command("analyze", "Measure spacing and evenness of samples (exact, CPU only)");
     const auto options = std::make_shared<AnalyzeOptions>();
     add_mesh_argument(command, options->mesh, "Mesh that the samples were made on");
     command

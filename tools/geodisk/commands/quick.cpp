@@ -230,9 +230,9 @@ CommandFacts quick_facts(Command app) {
 } // namespace
 
 void add_quick_command(Command app) {
-    const Command command = app.add_command(
-        "quick", "What geodisk MESH does: about 10,000 samples into NAME-samples.ply\n"
-                 "and a picture beside it, replacing nothing");
+    const Command command =
+        app.add_command("quick", "Same as geodisk MESH: write about 10,000 samples to\n"
+                                 "NAME-samples.ply, and a picture; never replace a file");
     const auto options = std::make_shared<QuickOptions>();
     add_mesh_arguments(command, options->meshes, "Meshes to sample");
     add_sample_options(command, options->sample);

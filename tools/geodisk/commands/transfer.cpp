@@ -156,8 +156,8 @@ void run_transfer(const TransferOptions& options) {
 
 void add_transfer_command(Command app) {
     const Command command = app.add_command(
-        "transfer", "Carry samples over to another pose of their mesh: the same faces,\n"
-                    "elsewhere; tells their smallest distance there");
+        "transfer", "Move samples to another pose of their mesh, with identical faces,\n"
+                    "and report their minimum distance there");
     const auto options = std::make_shared<TransferOptions>();
     command
         .add_option("SAMPLES", options->samples, "",

@@ -262,7 +262,7 @@ void add_verify_command(Command app) {
                        "program, also *.obj and *.xyz; those of geodisk box stand\n"
                        "alone, without a mesh");
     command.add_option("-d,--min-distance", options->min_distance, "D",
-                       "Least distance along the surface, in mesh units,\n"
+                       "Minimum distance along the surface, in mesh units,\n"
                        "or with % of the bounding-box diagonal;\n"
                        "without it, the radii of the file where it has them,\n"
                        "else the distance of its header");

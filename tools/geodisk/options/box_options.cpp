@@ -67,7 +67,7 @@ void add_box_options(Command command, BoxOptions& options) {
                      "Glue opposite sides together: distances go around", box);
     const char* const distance = "Distance, give one";
     command.add_option("-d,--min-distance", options.min_distance, "D",
-                       "Least distance, in the units of the sides, or with %\n"
+                       "Minimum distance, in the units of the sides, or with %\n"
                        "of the diagonal",
                        distance);
     command.add_option("-n,--count", options.count, "N",

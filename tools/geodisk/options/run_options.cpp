@@ -20,8 +20,8 @@ void add_output_argument(Command command, OutputOptions& options, const std::str
 void add_output_or_dry_run(Command command, OutputOptions& options, const std::string& summary) {
     command.add_option("-o,--output", options.output, "OUT", summary);
     command.add_flag("--dry-run", options.is_dry_run,
-                     "Write no samples; tell how many to expect, and what memory\n"
-                     "and time they take, by a pilot of about two seconds");
+                     "Write no samples; estimate their number, memory and time\n"
+                     "in a pilot run of about two seconds");
 }
 
 void check_output_or_dry_run(const OutputOptions& options) {
@@ -83,7 +83,7 @@ void add_validate_option(Command command, DeviceOptions& options) {
 
 void add_verbose_option(Command command, DeviceOptions& options) {
     command.add_flag("-v,--verbose", options.verbose,
-                     "Tell on standard error what the device does");
+                     "Print to standard error what the device does");
 }
 
 void add_device_options(Command command, DeviceOptions& options) {
@@ -100,11 +100,11 @@ void add_seed_option(Command command, RunOptions& options) {
 
 void add_limit_options(Command command, RunOptions& options) {
     command.add_option("--memory", options.memory, "BYTES",
-                       "Most bytes to take on the device, with K, M or G;\n"
-                       "does not change the samples");
+                       "Maximum bytes on the device, with K, M or G; does not\n"
+                       "change the samples");
     command.add_option("--stall-timeout", options.stall_timeout, "SECONDS",
-                       "Give the device up when it has not answered for so long\n"
-                       "(120 s, and 600 s on a CPU)");
+                       "Abort if the device does not respond for SECONDS\n"
+                       "(default 120; CPU 600)");
 }
 
 void add_run_options(Command command, RunOptions& options) {

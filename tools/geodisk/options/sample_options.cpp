@@ -115,11 +115,11 @@ void add_sample_options(Command command, SampleOptions& options) {
 void add_subject_options(Command command, SampleOptions& options) {
     const char* const distance = "Distance, give one";
     command.add_option("-d,--min-distance", options.min_distance, "D",
-                       "Least distance along the surface, in mesh units,\n"
+                       "Minimum distance along the surface, in mesh units,\n"
                        "or with % of the bounding-box diagonal",
                        distance);
     command.add_option("-r,--radius", options.radius, "R",
-                       "Half the least distance; where radii vary, the largest", distance);
+                       "Half the minimum distance; the largest one if radii vary", distance);
     command.add_option("-n,--count", options.count, "N",
                        "Choose the distance that should give about N samples;\n"
                        "with --method darts, stop at exactly N",

@@ -35,7 +35,7 @@ class NoDevice(Error):
 
 
 class OutOfMemory(Error, MemoryError):
-    """The host's or the device's memory does not suffice."""
+    """The host or the device is out of memory."""
 
 
 class DeviceLost(Error):
