@@ -86,7 +86,7 @@ TEST_CASE("each command has a manual page with its options") {
     CHECK_FALSE(contains(main, "completion"));
     const std::string page = bytes_of(folder / "geodisk-sample.1");
     CHECK(contains(page, "geodisk\\-sample \\- put samples on a mesh"));
-    CHECK(contains(page, ".TP\n\\fB\\-d\\fR, \\fB\\-\\-min\\-distance\\fR \\fID\\fR\nLeast"));
+    CHECK(contains(page, ".TP\n\\fB\\-d\\fR, \\fB\\-\\-min\\-distance\\fR \\fID\\fR\nMinimum"));
     CHECK(contains(page, "Default: pool.\n"));
     for (const char* const command : {"batch", "verify", "analyze", "spectrum", "render", "report",
                                       "transfer", "box", "shapes", "info", "quick"}) {
