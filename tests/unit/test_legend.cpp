@@ -128,7 +128,8 @@ TEST_CASE("a small view has a short legend, a tiny one an error") {
     const LegendFacts facts{400, 0.01, 0.2, Style::density, true};
     for (const auto& [width, height] : {std::pair(1920u, 1080u), std::pair(640u, 480u),
                                         std::pair(320u, 240u), std::pair(160u, 160u)}) {
-        CAPTURE(width);
+        const std::uint32_t shown = width; // Before Clang 16 lambdas capture no bindings.
+        CAPTURE(shown);
         const Legend legend(facts, width, height);
         CHECK(legend.height() <= height / 2);
     }

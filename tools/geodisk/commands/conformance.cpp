@@ -33,6 +33,7 @@ void run_conformance(const ConformanceOptions& options) {
     ProgressLine progress(options.out.quiet);
     RunDevice device(options.device, {});
     std::vector<FoundSet> found;
+    found.reserve(sets.size());
     for (const GoldenSet& set : sets) {
         found.push_back(find_set(set, options.device, device, progress));
     }
