@@ -18,6 +18,15 @@ std::string percent(double share) {
     return rounded(100 * share, 2) + " % of the area";
 }
 
+/// What to say where darts ran out before there were as many samples as asked for; else "".
+std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
+    return samples >= stop_count
+               ? ""
+               : "only " + grouped(samples) + " of " + grouped(stop_count) +
+                     " samples found room before the darts ran out; lower the count or the "
+                     "distance, or raise --darts";
+}
+
 /// Where a count chooses the distance, or stops the darts.
 void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
     if (std::string text = shortfall(set.samples, set.stop_count); !text.empty()) {
@@ -61,14 +70,6 @@ std::vector<MeshWarning> set_warnings(const SampledSet& set) {
              ""});
     }
     return warnings;
-}
-
-std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
-    return samples >= stop_count
-               ? ""
-               : "only " + grouped(samples) + " of " + grouped(stop_count) +
-                     " samples found room before the darts ran out; lower the count or the "
-                     "distance, or raise --darts";
 }
 
 } // namespace geodisk::tools

@@ -26,7 +26,4 @@ struct SampledSet {
 /// distance that leaves one sample to each part.
 std::vector<MeshWarning> set_warnings(const SampledSet& set);
 
-/// Returns what to say where darts ran out before there were as many samples as asked for; else "".
-std::string shortfall(std::uint64_t samples, std::uint32_t stop_count);
-
 } // namespace geodisk::tools

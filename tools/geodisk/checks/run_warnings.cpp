@@ -21,10 +21,6 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
     return warnings;
 }
 
-std::string shortfall(const Method& method, std::uint64_t samples) {
-    return shortfall(samples, method.stop_count);
-}
-
 void print_warnings(const std::vector<MeshWarning>& warnings) {
     for (const MeshWarning& warning : warnings) {
         print_warning(warning.file + ": " + warning.message);

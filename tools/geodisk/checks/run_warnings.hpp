@@ -1,8 +1,6 @@
 // What users should know about the samples of a job besides what they asked for.
 #pragma once
 
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "geodisk/sample_run.hpp"
@@ -13,9 +11,6 @@ namespace geodisk::tools {
 /// Returns the warnings of set_warnings() about the samples of a job.
 std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mesh,
                                       const SampleResult& result);
-
-/// The same shortfall() for a box.
-std::string shortfall(const Method& method, std::uint64_t samples);
 
 /// Prints the warnings.
 void print_warnings(const std::vector<MeshWarning>& warnings);

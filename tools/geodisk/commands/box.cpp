@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "geodisk/box_run.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/device_run.hpp"
@@ -13,8 +12,8 @@
 #include "geodisk/options/box_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/box_report.hpp"
+#include "geometry/set_warnings.hpp"
 #include "program/command.hpp"
-#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -53,13 +52,14 @@ void run_box(const BoxOptions& options) {
     const auto [set, done] = sample_box(job, device, progress);
     const std::vector<SampleRow> rows = to_rows(set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
-    if (const std::string text = shortfall(job.method, rows.size()); !text.empty()) {
-        print_warning(text);
-    }
-    const bool is_full = job.wanted_count == 0 && !job.method.throws_darts;
-    if (is_full && rows.size() == 1) {
-        print_warning("there is a single sample: the minimum distance of " +
-                      rounded(job.box.min_distance, 6) + " is larger than the box has room for");
+    if (job.wanted_count == 0) {
+        for (const MeshWarning& warning : set_warnings({.samples = rows.size(),
+                                          .min_distance = job.box.min_distance,
+                                          .stop_count = job.method.stop_count,
+                                          .has_throws = job.method.throws > 0,
+                                          .domain = "box"})) {
+            print_warning(warning.message);
+        }
     }
     if (const auto note = rounding_note(job.out.target(), rows, dimension, job.box.min_distance)) {
         print_warning(job.out.output + ": " + *note);
