@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "constants.h"
-#include "engine/stages.hpp"
+#include "engine/domain/stages.hpp"
 #include "kernels/poisson.hpp"
 #include "lib/rng.hpp"
 #include "lib/scalar.hpp"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/trim.hpp"

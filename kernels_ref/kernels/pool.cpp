@@ -5,7 +5,7 @@
 #include <span>
 #include <tuple>
 
-#include "engine/stages.hpp"
+#include "engine/domain/stages.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/dart_order.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/stages.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/stages.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "lib/scalar.hpp"
 
 namespace geodisk::ref {

@@ -4,7 +4,7 @@
 #include <geodisk/device.hpp>
 
 #include "c/api.hpp"
-#include "c/handles.hpp"
+#include "c/c_handles.hpp"
 
 namespace geodisk::test {
 

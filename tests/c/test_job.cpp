@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "c/api.hpp"
-#include "c/job.hpp"
+#include "c/c_job.hpp"
 #include "c/lent.hpp"
 #include "device_run.hpp"
 #include "embed/workshop.hpp"

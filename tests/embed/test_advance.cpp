@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/plan.hpp"
-#include "engine/stages.hpp"
+#include "engine/domain/stages.hpp"
+#include "engine/job/plan.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"
 #include "support/meshes.hpp"

@@ -11,7 +11,7 @@
 #include <geodisk/context.hpp>
 #include <geodisk/runner.hpp>
 
-#include "engine/stages.hpp"
+#include "engine/domain/stages.hpp"
 #include "fake_driver.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/pace.hpp"
-#include "engine/runner_impl.hpp"
+#include "engine/run/pace.hpp"
+#include "engine/run/runner_impl.hpp"
 #include "watched_bench.hpp"
 
 namespace geodisk::test {

@@ -12,8 +12,8 @@
 #include <geodisk/context.hpp>
 #include <geodisk/runner.hpp>
 
-#include "engine/box_grid.hpp"
-#include "engine/stages.hpp"
+#include "engine/domain/box_grid.hpp"
+#include "engine/domain/stages.hpp"
 #include "engine_job.hpp"
 #include "gpu/device_run.hpp"
 #include "kernels/grid.hpp"

@@ -11,7 +11,7 @@
 #include <geodisk/context.hpp>
 #include <geodisk/sampler.hpp>
 
-#include "engine/submitter.hpp"
+#include "engine/run/submitter.hpp"
 #include "vk/buffer.hpp"
 
 namespace geodisk::test {

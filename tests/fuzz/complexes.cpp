@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "fuzz/complex_input.hpp"
 #include "support/geodesic_query.hpp"
 

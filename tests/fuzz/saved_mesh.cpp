@@ -6,7 +6,7 @@
 
 #include <geodisk/mesh.hpp>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "support/geodesic_query.hpp"
 
 #define DOCTEST_CONFIG_IMPLEMENT

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/plan.hpp"
+#include "engine/job/plan.hpp"
 #include "kernels/resolve.hpp"
 #include "vk/barriers.hpp"
 

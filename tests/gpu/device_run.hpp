@@ -12,8 +12,8 @@
 #include <geodisk/context.hpp>
 #include <geodisk/sampler.hpp>
 
-#include "engine/sampler_impl.hpp"
-#include "engine/submitter.hpp"
+#include "engine/job/sampler_impl.hpp"
+#include "engine/run/submitter.hpp"
 #include "records.h"
 #include "vk/buffer.hpp"
 

@@ -1,9 +1,9 @@
 #include "sets.hpp"
 
 #include "device_run.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
-#include "run.hpp"
+#include "throw_darts.hpp"
 
 namespace geodisk::test {
 namespace {

@@ -15,7 +15,7 @@
 #include "baselines/box_darts.hpp"
 #include "constants.h"
 #include "device_run.hpp"
-#include "engine/box_grid.hpp"
+#include "engine/domain/box_grid.hpp"
 #include "kernels/grid.hpp"
 #include "kernels/resolve.hpp"
 #include "support/device_abilities.hpp"

@@ -8,7 +8,7 @@
 
 #include "constants.h"
 #include "device_run.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"

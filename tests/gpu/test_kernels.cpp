@@ -8,9 +8,9 @@
 
 #include "constants.h"
 #include "device_run.hpp"
-#include "engine/plan.hpp"
-#include "engine/stages.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/capacity.hpp"
+#include "engine/domain/stages.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "kernels/count_calls.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "engine/kernel_table.hpp"
+#include "engine/kernels/kernel_table.hpp"
 #include "push.h"
 #include "records.h"
 #include "spirv.hpp"

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "device_run.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "sets.hpp"
 #include "support/device_abilities.hpp"
 #include "support/meshes.hpp"

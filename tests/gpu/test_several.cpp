@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "device_run.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "sets.hpp"
 #include "support/radius_fields.hpp"
 

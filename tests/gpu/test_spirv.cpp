@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/kernel_table.hpp"
+#include "engine/kernels/kernel_table.hpp"
 #include "spirv.hpp"
 
 namespace doctest {

@@ -10,9 +10,9 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
-#include "run.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "support/oracle_geodesic.hpp"
+#include "throw_darts.hpp"
 
 namespace geodisk::test {
 namespace {

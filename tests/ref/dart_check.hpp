@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "support/meshes.hpp"
 

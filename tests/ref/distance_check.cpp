@@ -1,5 +1,5 @@
 #include "ref/distance_check.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,13 +9,13 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "ref/chi_square.hpp"
-#include "run.hpp"
 #include "support/geodesic_query.hpp"
 #include "support/oracle_geodesic.hpp"
 #include "support/radius_fields.hpp"
 #include "support/replay.hpp"
+#include "throw_darts.hpp"
 
 using namespace geodisk;
 using namespace geodisk::test;

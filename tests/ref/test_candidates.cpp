@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/stages.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/stages.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/poisson.hpp"
 #include "kernels/pool.hpp"

@@ -9,11 +9,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "mesh/candidate_share.hpp"
 #include "ref/chi_square.hpp"
-#include "run.hpp"
 #include "support/radius_fields.hpp"
+#include "throw_darts.hpp"
 
 using namespace geodisk;
 using namespace geodisk::test;

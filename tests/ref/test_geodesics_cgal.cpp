@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "ref/distance_check.hpp"
 #include "support/oracle_geodesic.hpp"
 

@@ -9,11 +9,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "ref/dart_check.hpp"
-#include "run.hpp"
 #include "support/radius_fields.hpp"
+#include "throw_darts.hpp"
 
 using namespace geodisk;
 using namespace geodisk::test;

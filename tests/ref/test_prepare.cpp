@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "support/meshes.hpp"
 #include "support/oracle_geodesic.hpp"

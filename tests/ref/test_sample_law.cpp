@@ -7,10 +7,10 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "ref/dart_check.hpp"
-#include "run.hpp"
+#include "throw_darts.hpp"
 
 using namespace geodisk;
 using namespace geodisk::test;

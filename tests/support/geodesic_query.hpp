@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"

@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"
 

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "bench/statistics.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/stopwatch.hpp"
-#include "run.hpp"
+#include "throw_darts.hpp"
 
 namespace geodisk::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "baselines/random.hpp"
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "files/mesh_file.hpp"
 #include "kernels/pool.hpp"
 #include "program/failure.hpp"

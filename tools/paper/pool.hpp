@@ -9,7 +9,7 @@
 #include <geodisk/params.hpp>
 #include <geodisk/runner.hpp>
 
-#include "engine/tolerances.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "geometry/mesh.hpp"
 #include "lib/surface.hpp"
 

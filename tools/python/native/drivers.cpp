@@ -1,4 +1,4 @@
-#include "c/call.hpp"
+#include "c/c_call.hpp"
 #include "files/vulkan_environment.hpp"
 #include "geodisk_python.h"
 

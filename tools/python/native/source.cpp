@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "c/call.hpp"
+#include "c/c_call.hpp"
 #include "files/mesh_file.hpp"
 #include "files/part_columns.hpp"
 #include "files/polygon_mesh.hpp"

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "c/call.hpp"
-#include "c/mesh.hpp"
+#include "c/c_call.hpp"
+#include "c/c_mesh.hpp"
 #include "geometry/set_warnings.hpp"
 #include "geometry/shape_warnings.hpp"
 #include "geometry/surface_warnings.hpp"

@@ -1,0 +1,227 @@
+#include "c/c_domain.hpp"
+
+#include <span>
+#include <string>
+#include <utility>
+
+#include <geodisk/box.hpp>
+
+#include "c/c_call.hpp"
+
+namespace geodisk::c {
+namespace {
+
+/// Its params refer to what the part owns, so it must not move afterwards.
+Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& given, Part& part) {
+    if (mesh == nullptr) {
+        return wrong("mesh is NULL");
+    }
+    part.mesh = mesh->shared;
+    part.params.min_distance = given.min_distance;
+    part.params.seed = given.seed;
+    if (given.pool_ratio != 0) {
+        part.params.pool_ratio = given.pool_ratio;
+    }
+    part.params.throws = given.throws;
+    part.params.stop_count = given.stop_count;
+    if (given.radii != nullptr) {
+        part.radii = given.radii->shared;
+        if (part.radii->mesh != part.mesh->prepared.identity()) {
+            return wrong("params->radii are of another mesh");
+        }
+        part.params.radii = &part.radii->field;
+    }
+    if (given.face_keys != nullptr) {
+        part.face_keys.assign(given.face_keys, given.face_keys + part.mesh->prepared.face_count());
+        part.params.face_keys = part.face_keys;
+    }
+    return Done{};
+}
+
+Result<Domain> make_surface(const Part& part, geodisk_metric metric) {
+    if (metric == GEODISK_GEODESIC) {
+        return Domain::surface(part.mesh->prepared, part.params);
+    }
+    if (metric != GEODISK_EUCLIDEAN && metric != GEODISK_APPROXIMATE) {
+        return wrong("params->metric is none of the three");
+    }
+    if (part.mesh->dimension == 0) {
+        return wrong("params->metric needs coordinates, which the mesh has not");
+    }
+    return Domain::surface_in_space(part.mesh->view(), part.mesh->prepared, part.params,
+                                    metric == GEODISK_EUCLIDEAN ? Metric::euclidean
+                                                                : Metric::approximate);
+}
+
+Result<Done> keep(Result<Domain> made, std::shared_ptr<DomainState> state,
+                  geodisk_domain** domain) {
+    if (!made) {
+        return made.error();
+    }
+    state->domain = std::move(*made);
+    *domain = new geodisk_domain{std::move(state)};
+    return Done{};
+}
+
+Result<BoxParams> box_of(const geodisk_box_params* params) {
+    const auto given = taken(params, "params");
+    if (!given) {
+        return given.error();
+    }
+    if (given->extents == nullptr) {
+        return wrong("params->extents is NULL");
+    }
+    if (given->dimension < 1 || given->dimension > kMostBoxDimensions) {
+        return wrong("params->dimension is not from 1 to 6");
+    }
+    BoxParams box;
+    box.extents.assign(given->extents, given->extents + given->dimension);
+    box.is_periodic = given->is_periodic != 0;
+    box.min_distance = given->min_distance;
+    box.seed = given->seed;
+    if (given->pool_ratio != 0) {
+        box.pool_ratio = given->pool_ratio;
+    }
+    box.throws = given->throws;
+    box.stop_count = given->stop_count;
+    return box;
+}
+
+Result<Done> check_count(double count) {
+    if (!(count >= 1) || !(count <= kMostCandidates)) {
+        return wrong("count is not from 1 to 4294967295");
+    }
+    return Done{};
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_domain_surface(const geodisk_mesh* mesh,
+                                      const geodisk_surface_params* params, geodisk_domain** domain,
+                                      geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (domain == nullptr) {
+            return wrong("domain is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        const auto state = std::make_shared<DomainState>();
+        state->parts.resize(1);
+        if (const auto filled = fill_part(mesh, *given, state->parts[0]); !filled) {
+            return filled.error();
+        }
+        state->min_distance = given->min_distance;
+        return keep(make_surface(state->parts[0], given->metric), state, domain);
+    });
+}
+
+geodisk_status geodisk_domain_surfaces(const geodisk_surface_part* parts, size_t count,
+                                       geodisk_domain** domain, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (domain == nullptr) {
+            return wrong("domain is NULL");
+        }
+        if (count == 0) {
+            return wrong("there are no parts");
+        }
+        const auto state = std::make_shared<DomainState>();
+        state->parts.resize(count);
+        std::vector<SurfacePart> surfaces;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::string name = "parts[" + std::to_string(i) + "]";
+            const auto part =
+                taken(parts != nullptr ? element_of(parts, i) : nullptr, name.c_str());
+            if (!part) {
+                return part.error();
+            }
+            const auto given = taken(part->params, (name + ".params").c_str());
+            if (!given) {
+                return given.error();
+            }
+            if (given->metric != GEODISK_GEODESIC) {
+                return wrong(name + ": several surfaces take geodesic distances only");
+            }
+            Part& own = state->parts[i];
+            if (const auto filled = fill_part(part->mesh, *given, own); !filled) {
+                return wrong(name + ": " + filled.error().message);
+            }
+            surfaces.push_back(
+                {&own.mesh->prepared, own.params, part->scale != 0 ? part->scale : 1});
+        }
+        state->min_distance = state->parts[0].params.min_distance;
+        return keep(Domain::surfaces(surfaces), state, domain);
+    });
+}
+
+geodisk_status geodisk_domain_box(const geodisk_box_params* params, geodisk_domain** domain,
+                                  geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (domain == nullptr) {
+            return wrong("domain is NULL");
+        }
+        const auto box = box_of(params);
+        if (!box) {
+            return box.error();
+        }
+        const auto state = std::make_shared<DomainState>();
+        state->min_distance = box->min_distance;
+        return keep(Domain::box(*box), state, domain);
+    });
+}
+
+void geodisk_domain_release(geodisk_domain* domain) {
+    delete domain;
+}
+
+geodisk_status geodisk_distance_for_count(const geodisk_mesh* mesh, const geodisk_radii* radii,
+                                          double count, double* distance, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || distance == nullptr) {
+            return wrong("mesh or distance is NULL");
+        }
+        const PreparedMesh& prepared = mesh->shared->prepared;
+        if (radii != nullptr && radii->shared->mesh != prepared.identity()) {
+            return wrong("radii are of another mesh");
+        }
+        if (const auto checked = check_count(count); !checked) {
+            return checked.error();
+        }
+        *distance =
+            distance_for_count(prepared, radii != nullptr ? &radii->shared->field : nullptr, count);
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_box_distance_for_count(const geodisk_box_params* params, double count,
+                                              double* distance, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (distance == nullptr) {
+            return wrong("distance is NULL");
+        }
+        auto box = box_of(params);
+        if (!box) {
+            return box.error();
+        }
+        if (const auto checked = check_count(count); !checked) {
+            return checked.error();
+        }
+        const double found = distance_for_count(*box, count);
+        box->min_distance = found; // All else of it is checked, so that none comes of a wrong box.
+        box->throws = 1;
+        if (const auto size = pool_size(*box); !size) {
+            return size.error();
+        }
+        *distance = found;
+        return Done{};
+    });
+}
+
+} // extern "C"

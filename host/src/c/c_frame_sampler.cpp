@@ -1,0 +1,151 @@
+#include <geodisk/frame_sampler.hpp>
+
+#include <atomic>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <geodisk/geodisk.h>
+
+#include "c/c_call.hpp"
+#include "c/c_device.hpp"
+#include "c/c_domain.hpp"
+#include "c/c_handles.hpp"
+#include "c/c_sampler.hpp"
+
+struct geodisk_frame_sampler {
+    std::shared_ptr<const geodisk::c::Device> device;
+    std::shared_ptr<const geodisk::c::DomainState> domain;
+    geodisk::FrameSampler recorded;
+    std::atomic<bool> is_held = false; ///< A call has it.
+};
+
+namespace geodisk::c {
+namespace {
+
+FrameSamplerOptions options_of(const geodisk_frame_options& given) {
+    FrameSamplerOptions options;
+    const auto set = [](auto& field, auto value) { field = value != 0 ? value : field; };
+    set(options.pool_bytes, given.pool_bytes);
+    set(options.frames, given.frames);
+    set(options.dispatches, given.dispatches);
+    set(options.rounds, given.rounds);
+    set(options.vertices_each, given.vertices_each);
+    if (given.reader_stages != 0 || given.reader_access != 0) {
+        options.readers = {given.reader_stages, given.reader_access};
+    }
+    return options;
+}
+
+/// Runs `body(*frames)` unless another call has the object.
+template <class Body>
+geodisk_status with_frames(geodisk_frame_sampler* frames, geodisk_error* error, const Body& body) {
+    return answer(error, [&]() -> Result<Done> {
+        if (frames == nullptr) {
+            return wrong("frames is NULL");
+        }
+        return hold(frames->is_held, "the frame sampler",
+                    [&]() -> Result<Done> { return body(*frames); });
+    });
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
+                                            const geodisk_domain* domain,
+                                            const geodisk_frame_options* options,
+                                            geodisk_frame_sampler** frames, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (device == nullptr || domain == nullptr || frames == nullptr) {
+            return wrong("device, domain or frames is NULL");
+        }
+        const auto wanted = taken_if_any(options, "options");
+        if (!wanted) {
+            return wanted.error();
+        }
+        auto sampler = device->shared->sampler(false);
+        if (!sampler) {
+            return sampler.error();
+        }
+        std::vector<MeshView> meshes;
+        for (const Part& part : domain->shared->parts) {
+            meshes.push_back(part.mesh->view());
+        }
+        auto made = FrameSampler::create(std::move(*sampler), *domain->shared->domain, meshes,
+                                         options_of(*wanted));
+        if (!made) {
+            return made.error();
+        }
+        *frames = new geodisk_frame_sampler{device->shared, domain->shared, std::move(*made)};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_frame_sampler_record(geodisk_frame_sampler* frames, void* command_buffer,
+                                            int32_t* is_complete, geodisk_error* error) {
+    return with_frames(frames, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+        const auto recorded = own.recorded.record(static_cast<VkCommandBuffer>(command_buffer));
+        if (!recorded) {
+            return recorded.error();
+        }
+        if (is_complete != nullptr) {
+            *is_complete = *recorded ? 1 : 0;
+        }
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_frame_sampler_wait(geodisk_frame_sampler* frames, geodisk_sampler* sampler,
+                                          geodisk_error* error) {
+    return with_frames(frames, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+        if (sampler == nullptr) {
+            return wrong("sampler is NULL");
+        }
+        const auto state = sampler->shared;
+        return hold(state->is_held, "the sampler", [&]() -> Result<Done> {
+            state->is_cancelled = false;
+            const auto go_on = [&](const Progress&) { return !state->is_cancelled; };
+            return own.recorded.sample_and_wait(state->runner, go_on);
+        });
+    });
+}
+
+geodisk_status geodisk_frame_sampler_describe(const geodisk_frame_sampler* frames,
+                                              geodisk_frame_samples* samples,
+                                              geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (frames == nullptr) {
+            return wrong("frames is NULL");
+        }
+        const FrameSamples found = frames->recorded.samples();
+        geodisk_frame_samples told{};
+        told.buffer = number_of(found.buffer);
+        told.placed_offset = found.placed_offset;
+        told.arguments_offset = found.arguments_offset;
+        told.device_bytes = frames->recorded.device_bytes();
+        told.capacity = found.capacity;
+        told.ready = found.ready;
+        told.is_complete = found.is_complete ? 1 : 0;
+        return give(samples, "samples", told);
+    });
+}
+
+geodisk_status geodisk_frame_sampler_set_seed(geodisk_frame_sampler* frames, uint64_t seed,
+                                              geodisk_error* error) {
+    return with_frames(frames, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+        own.recorded.set_seed(seed);
+        return Done{};
+    });
+}
+
+void geodisk_frame_sampler_release(geodisk_frame_sampler* frames) {
+    delete frames;
+}
+
+} // extern "C"

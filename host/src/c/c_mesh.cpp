@@ -1,0 +1,332 @@
+#include "c/c_mesh.hpp"
+
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <geodisk/weld.hpp>
+
+#include "c/c_call.hpp"
+
+namespace geodisk::c {
+namespace {
+
+template <class Number>
+bool is_aligned(const void* data, std::size_t stride) noexcept {
+    return reinterpret_cast<std::uintptr_t>(data) % alignof(Number) == 0 &&
+           stride % alignof(Number) == 0;
+}
+
+template <class Number>
+Result<PositionView> position_view(const geodisk_mesh_params& params, std::uint32_t dimension) {
+    const std::size_t stride =
+        params.position_stride != 0 ? params.position_stride : dimension * sizeof(Number);
+    if (!is_aligned<Number>(params.positions, stride)) {
+        return wrong("params->positions are not aligned as their type asks");
+    }
+    return PositionView(static_cast<const Number*>(params.positions), params.vertex_count, stride);
+}
+
+Result<PositionView> positions_of(const geodisk_mesh_params& params, std::uint32_t dimension) {
+    switch (params.position_type) {
+    case GEODISK_FLOAT64:
+        return position_view<double>(params, dimension);
+    case GEODISK_FLOAT32:
+        return position_view<float>(params, dimension);
+    default:
+        return wrong("params->position_type is neither GEODISK_FLOAT64 nor GEODISK_FLOAT32");
+    }
+}
+
+template <class Number>
+Result<IndexView> index_view(const geodisk_mesh_params& params) {
+    const std::size_t stride = params.index_stride != 0 ? params.index_stride : sizeof(Number);
+    if (!is_aligned<Number>(params.indices, stride)) {
+        return wrong("params->indices are not aligned as their type asks");
+    }
+    if (params.face_count > SIZE_MAX / 3) {
+        return wrong("params->face_count is too large");
+    }
+    return IndexView(static_cast<const Number*>(params.indices), 3 * params.face_count, stride);
+}
+
+Result<IndexView> indices_of(const geodisk_mesh_params& params) {
+    switch (params.index_type) {
+    case 0:
+    case GEODISK_UINT32:
+        return index_view<std::uint32_t>(params);
+    case GEODISK_UINT16:
+        return index_view<std::uint16_t>(params);
+    default:
+        return wrong("params->index_type is neither GEODISK_UINT32 nor GEODISK_UINT16");
+    }
+}
+
+Result<Mesh> make_by_lengths(const geodisk_mesh_params& params, const IndexView& indices,
+                             const ThreadOptions& threads) {
+    if (params.weld != 0) {
+        return wrong("params->weld needs positions");
+    }
+    if (params.vertex_count > UINT32_MAX) {
+        return wrong("params->vertex_count is too large");
+    }
+    auto prepared = PreparedMesh::prepare(
+        LengthMeshView{indices, std::span(params.edge_lengths, 3 * params.face_count),
+                       static_cast<std::uint32_t>(params.vertex_count)},
+        threads);
+    if (!prepared) {
+        return prepared.error();
+    }
+    return Mesh{std::move(*prepared)};
+}
+
+Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexView& indices,
+                               const ThreadOptions& threads) {
+    if (params.weld != 0 && params.keep_seams != 0) {
+        return wrong("params->weld and params->keep_seams contradict each other");
+    }
+    const std::uint32_t dimension = params.dimension != 0 ? params.dimension : 3;
+    const auto positions = positions_of(params, dimension);
+    if (!positions) {
+        return positions.error();
+    }
+    MeshView view{*positions, indices, dimension};
+    std::optional<WeldedMesh> welded;
+    if (params.keep_seams == 0) {
+        auto result = params.weld != 0 ? weld(view, params.weld_distance) : join_seams(view);
+        if (!result) {
+            return result.error();
+        }
+        welded = std::move(*result);
+        view.triangles = welded->triangles;
+    }
+    auto prepared = PreparedMesh::prepare(view, threads);
+    if (!prepared) {
+        return prepared.error();
+    }
+    Mesh mesh{std::move(*prepared), dimension};
+    mesh.positions.reserve(params.vertex_count * dimension);
+    for (std::size_t vertex = 0; vertex < params.vertex_count; ++vertex) {
+        for (std::uint32_t axis = 0; axis < dimension; ++axis) {
+            mesh.positions.push_back(view.coordinate(vertex, axis));
+        }
+    }
+    if (welded) {
+        mesh.merged_vertices = welded->merged_vertices;
+        mesh.joined_edges = welded->joined_edges;
+        mesh.triangles = std::move(welded->triangles);
+        if (mesh.merged_vertices > 0) {
+            mesh.joined = std::move(welded->vertices);
+        }
+    } else {
+        mesh.triangles.reserve(indices.size());
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            mesh.triangles.push_back(indices[i]);
+        }
+    }
+    return mesh;
+}
+
+Result<Mesh> make_mesh(const geodisk_mesh_params& params) {
+    if (params.indices == nullptr) {
+        return wrong("params->indices is NULL");
+    }
+    if ((params.positions == nullptr) == (params.edge_lengths == nullptr)) {
+        return wrong("one of params->positions and params->edge_lengths must be given");
+    }
+    const auto indices = indices_of(params);
+    if (!indices) {
+        return indices.error();
+    }
+    ThreadOptions threads;
+    if (params.most_threads != 0) {
+        threads.most_threads = params.most_threads;
+    }
+    return params.positions != nullptr ? make_by_positions(params, *indices, threads)
+                                       : make_by_lengths(params, *indices, threads);
+}
+
+/// One value for each vertex, which an error calls `name`.
+Result<std::vector<double>> values_of(const void* values, geodisk_type type, std::size_t count,
+                                      const std::string& name) {
+    if (values == nullptr) {
+        return wrong(name + " is NULL");
+    }
+    if (type == GEODISK_FLOAT64 && is_aligned<double>(values, 0)) {
+        const auto* const first = static_cast<const double*>(values);
+        return std::vector<double>(first, first + count);
+    }
+    if (type == GEODISK_FLOAT32 && is_aligned<float>(values, 0)) {
+        const auto* const first = static_cast<const float*>(values);
+        return std::vector<double>(first, first + count);
+    }
+    return wrong(name + " are not aligned GEODISK_FLOAT64 or GEODISK_FLOAT32");
+}
+
+/// What joined vertices have is the mean of values from `least` to `most`.
+Result<std::vector<double>> values_on(const Mesh& mesh, const std::vector<double>& given,
+                                      double least, double most) {
+    if (mesh.joined.empty()) {
+        return given;
+    }
+    for (std::size_t v = 0; v < given.size(); ++v) {
+        if (mesh.joined[v] != v && !(given[v] >= least && given[v] <= most)) {
+            return Error{Status::invalid_argument,
+                         most > 1 ? "the density of vertex " + std::to_string(v) +
+                                        " is not 0 or positive, and finite"
+                                  : "the radius factor of vertex " + std::to_string(v) +
+                                        " is not from 0.001 to 1",
+                         v};
+        }
+    }
+    return means_of_joined(mesh.joined, given);
+}
+
+/// The radii by a density or factors.
+geodisk_status create_radii(bool is_density, const geodisk_mesh* mesh, const void* values,
+                            geodisk_type type, size_t count, geodisk_radii** radii,
+                            geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || radii == nullptr) {
+            return wrong("mesh or radii is NULL");
+        }
+        const PreparedMesh& prepared = mesh->shared->prepared;
+        const std::string name = is_density ? "densities" : "factors";
+        if (count != prepared.vertex_count()) { // Before so many are read.
+            return wrong("there are " + std::to_string(count) + " " + name + " for " +
+                         std::to_string(prepared.vertex_count()) + " vertices");
+        }
+        const auto given = values_of(values, type, count, name);
+        if (!given) {
+            return given.error();
+        }
+        const auto used =
+            is_density ? values_on(*mesh->shared, *given, 0, std::numeric_limits<double>::max())
+                       : values_on(*mesh->shared, *given, RadiusField::kLeastFactor, 1);
+        if (!used) {
+            return used.error();
+        }
+        auto field = is_density ? RadiusField::from_density(prepared, *used)
+                                : RadiusField::prepare(prepared, *used);
+        if (!field) {
+            return field.error();
+        }
+        *radii = new geodisk_radii{
+            std::make_shared<const Radii>(Radii{std::move(*field), prepared.identity()})};
+        return Done{};
+    });
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_mesh_create(const geodisk_mesh_params* params, geodisk_mesh** mesh,
+                                   geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr) {
+            return wrong("mesh is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        auto made = make_mesh(*given);
+        if (!made) {
+            return made.error();
+        }
+        *mesh = new geodisk_mesh{std::make_shared<const Mesh>(std::move(*made))};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_mesh_save(const geodisk_mesh* mesh, void* bytes, size_t capacity,
+                                 size_t* size, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || size == nullptr) {
+            return wrong("mesh or size is NULL");
+        }
+        const auto saved = mesh->shared->prepared.save();
+        if (!saved) {
+            return saved.error();
+        }
+        *size = saved->size();
+        if (bytes != nullptr && capacity >= saved->size()) {
+            std::memcpy(bytes, saved->data(), saved->size());
+        }
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_mesh_load(const void* bytes, size_t size, geodisk_mesh** mesh,
+                                 geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || bytes == nullptr) {
+            return wrong("bytes or mesh is NULL");
+        }
+        auto loaded = PreparedMesh::load(std::span(static_cast<const std::byte*>(bytes), size));
+        if (!loaded) {
+            return loaded.error();
+        }
+        *mesh = new geodisk_mesh{std::make_shared<const Mesh>(Mesh{std::move(*loaded)})};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_mesh_describe(const geodisk_mesh* mesh, geodisk_mesh_info* info,
+                                     geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr) {
+            return wrong("mesh is NULL");
+        }
+        const MeshStatistics& found = mesh->shared->prepared.statistics();
+        geodisk_mesh_info value{};
+        value.dimension = mesh->shared->dimension;
+        value.vertices = found.vertices;
+        value.faces = found.triangles;
+        value.components = found.components;
+        value.boundary_edges = found.boundary_edges;
+        value.coinciding_border_edges = found.coinciding_border_edges;
+        value.nonmanifold_edges = found.nonmanifold_edges;
+        value.repeated_index_faces = found.repeated_index_faces;
+        value.zero_area_faces = found.zero_area_faces;
+        value.merged_vertices = mesh->shared->merged_vertices;
+        value.area = found.area;
+        value.diagonal = found.diagonal;
+        value.longest_edge = found.longest_edge;
+        value.joined_edges = mesh->shared->joined_edges;
+        return give(info, "info", value);
+    });
+}
+
+void geodisk_mesh_release(geodisk_mesh* mesh) {
+    delete mesh;
+}
+
+geodisk_status geodisk_radii_create(const geodisk_mesh* mesh, const void* factors,
+                                    geodisk_type type, size_t count, geodisk_radii** radii,
+                                    geodisk_error* error) {
+    return create_radii(false, mesh, factors, type, count, radii, error);
+}
+
+geodisk_status geodisk_density_create(const geodisk_mesh* mesh, const void* density,
+                                      geodisk_type type, size_t count, geodisk_radii** radii,
+                                      geodisk_error* error) {
+    return create_radii(true, mesh, density, type, count, radii, error);
+}
+
+double geodisk_radii_least_factor(const geodisk_radii* radii) {
+    return radii == nullptr ? 1 : radii->shared->field.least_factor();
+}
+
+void geodisk_radii_release(geodisk_radii* radii) {
+    delete radii;
+}
+
+} // extern "C"

@@ -1,0 +1,181 @@
+#include "c/c_sampler.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "c/c_call.hpp"
+#include "c/c_samples.hpp"
+
+namespace geodisk::c {
+namespace {
+
+/// Runs `body(state)` with a sampler that no other call has.
+template <class Body>
+geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, const Body& body) {
+    return answer(error, [&]() -> Result<Done> {
+        if (sampler == nullptr) {
+            return wrong("sampler is NULL");
+        }
+        const std::shared_ptr<SamplerState> state = sampler->shared;
+        return hold(state->is_held, "the sampler", [&]() -> Result<Done> { return body(*state); });
+    });
+}
+
+Error run_in_progress() {
+    return Error{Status::busy, "the sampler has a run in progress, for geodisk_poll"};
+}
+
+geodisk_progress progress_of(const Progress& state) {
+    return {sizeof(geodisk_progress), state.decided, state.candidates,
+            state.accepted,           state.disks,   state.windows};
+}
+
+Result<Done> hand_over(const SamplerState& state, std::shared_ptr<const DomainState> domain,
+                       SampleSet set, geodisk_samples** samples) {
+    if (const auto checked = state.device->check_validation(); !checked) {
+        return checked.error();
+    }
+    *samples = new geodisk_samples{std::move(domain), std::move(set)};
+    return Done{};
+}
+
+RunnerOptions options_of(const geodisk_sampler_options& given) {
+    RunnerOptions options;
+    options.device_bytes = given.device_bytes;
+    options.submission_seconds = given.submission_seconds;
+    options.stall_seconds = given.stall_seconds;
+    return options;
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_sampler_create(const geodisk_device* device,
+                                      const geodisk_sampler_options* options,
+                                      geodisk_sampler** sampler, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (device == nullptr || sampler == nullptr) {
+            return wrong("device or sampler is NULL");
+        }
+        const auto wanted = taken_if_any(options, "options");
+        if (!wanted) {
+            return wanted.error();
+        }
+        const auto shared = device->shared->sampler(wanted->count_calls != 0);
+        if (!shared) {
+            return shared.error();
+        }
+        auto runner = Runner::create(*shared, device->shared->queue(), options_of(*wanted));
+        if (!runner) {
+            return runner.error();
+        }
+        *sampler =
+            new geodisk_sampler{std::make_shared<SamplerState>(device->shared, std::move(*runner))};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_sample(geodisk_sampler* sampler, const geodisk_domain* domain,
+                              geodisk_progress_fn progress, void* user, geodisk_samples** samples,
+                              geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (domain == nullptr || samples == nullptr) {
+            return wrong("domain or samples is NULL");
+        }
+        if (state.running) {
+            return run_in_progress();
+        }
+        state.is_cancelled = false;
+        const auto go_on = [&](const Progress& so_far) {
+            if (state.is_cancelled) {
+                return false;
+            }
+            if (progress == nullptr) {
+                return true;
+            }
+            const geodisk_progress told = progress_of(so_far);
+            return progress(user, &told) == 0;
+        };
+        auto set = state.runner.sample_and_wait(*domain->shared->domain, go_on);
+        if (!set) {
+            return set.error();
+        }
+        return hand_over(state, domain->shared, std::move(*set), samples);
+    });
+}
+
+geodisk_status geodisk_start(geodisk_sampler* sampler, const geodisk_domain* domain,
+                             geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (domain == nullptr) {
+            return wrong("domain is NULL");
+        }
+        if (state.running) {
+            return run_in_progress();
+        }
+        state.is_cancelled = false;
+        const auto go_on = [&state](const Progress&) { return !state.is_cancelled; };
+        if (const auto started = state.runner.start(*domain->shared->domain, go_on); !started) {
+            return started.error();
+        }
+        state.running = domain->shared;
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
+                            geodisk_samples** samples, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (samples == nullptr) {
+            return wrong("samples is NULL");
+        }
+        if (!state.running) {
+            return wrong("the sampler has no run in progress");
+        }
+        auto polled = state.runner.poll(std::chrono::milliseconds(milliseconds));
+        if (polled && !*polled) {
+            *samples = nullptr;
+            return Done{};
+        }
+        const auto domain = std::exchange(state.running, nullptr);
+        if (!polled) {
+            return polled.error();
+        }
+        return hand_over(state, domain, std::move(**polled), samples);
+    });
+}
+
+geodisk_status geodisk_sampler_progress(geodisk_sampler* sampler, geodisk_progress* progress,
+                                        geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) {
+        return give(progress, "progress",
+                    state.running ? progress_of(state.runner.progress()) : geodisk_progress{});
+    });
+}
+
+void geodisk_cancel(geodisk_sampler* sampler) {
+    if (sampler != nullptr) {
+        sampler->shared->is_cancelled = true;
+    }
+}
+
+geodisk_status geodisk_sampler_trim(geodisk_sampler* sampler, geodisk_error* error) {
+    return with_sampler(sampler, error, [](SamplerState& state) -> Result<Done> {
+        if (state.running) {
+            return run_in_progress();
+        }
+        state.runner.release_memory();
+        return Done{};
+    });
+}
+
+void geodisk_sampler_release(geodisk_sampler* sampler) {
+    delete sampler;
+}
+
+} // extern "C"

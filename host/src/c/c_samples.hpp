@@ -1,0 +1,15 @@
+// The samples of the C API.
+#pragma once
+
+#include <memory>
+
+#include <geodisk/geodisk.h>
+#include <geodisk/runner.hpp>
+
+#include "c/c_domain.hpp"
+
+/// Not changed once made, and used without being copied.
+struct geodisk_samples {
+    std::shared_ptr<const geodisk::c::DomainState> of;
+    geodisk::SampleSet set;
+};

@@ -1,0 +1,77 @@
+#include "engine/capacity.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <thread>
+
+#include "constants.h"
+#include "samples.h"
+
+namespace geodisk {
+namespace {
+
+// Of candidates: deviations from what a stage expects that there is room for.
+constexpr double kDeviations = 8;
+// Candidates for each range of orders by which samples are sorted.
+constexpr std::uint32_t kCandidatesPerBucket = 16;
+constexpr std::uint32_t kLeastBuckets = 256;
+constexpr std::uint32_t kMostBuckets = 1u << 22;
+
+} // namespace
+
+// Of darts the largest stage there may be.
+std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept {
+    double expected = std::min(at_once * stages.expected(0), stages.pool());
+    if (stages.throws != 0) {
+        double all = 0;
+        for (std::uint32_t s = 0; all < 2.0 * stages.throws && s < gpu::kMostDartStages; ++s) {
+            expected = stages.expected(s);
+            all += expected;
+        }
+    }
+    const double most = std::ceil(expected + kDeviations * std::sqrt(expected) + 64);
+    return static_cast<std::uint32_t>(std::min<double>(most, kMostCandidates));
+}
+
+std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept {
+    if (stages.throws != 0) {
+        return 1;
+    }
+    std::uint32_t at_once = stages.pool_stages();
+    while (at_once > 1 && capacity_for(stages, at_once) > most_candidates) {
+        --at_once;
+    }
+    return at_once;
+}
+
+std::uint64_t state_words(std::uint32_t candidates) noexcept {
+    return ((std::uint64_t{candidates} + 31) / 32 + 1) * 2;
+}
+
+std::uint32_t bucket_count(std::uint32_t capacity) noexcept {
+    return std::clamp(std::bit_ceil(capacity / kCandidatesPerBucket), kLeastBuckets, kMostBuckets);
+}
+
+std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept {
+    const VkDeviceSize records = VkDeviceSize{capacity} * sizeof(gpu::SampleRec);
+    return {records, records, (VkDeviceSize{buckets} + 2 + capacity) * 4};
+}
+
+std::uint32_t cpu_lanes(const DeviceReport& report) {
+    return std::max(1u, std::thread::hardware_concurrency()) *
+           std::max(1u, report.limits.subgroup_size);
+}
+
+double samples_to_expect(double full, std::uint32_t throws, std::uint32_t stop_count) noexcept {
+    for (const std::uint32_t bound : {throws, stop_count}) {
+        full = bound != 0 ? std::min<double>(full, bound) : full;
+    }
+    return full;
+}
+
+std::uint32_t pow2_at_least(double x) {
+    return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(x, 1.0, double{1u << 25})));
+}
+
+} // namespace geodisk

@@ -1,0 +1,61 @@
+// Boxes, and whatever else has its candidates in a grid, with straight-line distances.
+#pragma once
+
+#include "engine/domain/box_grid.hpp"
+#include "engine/domain/domain_impl.hpp"
+
+namespace geodisk {
+
+/// Candidates with coordinates in a box.
+class GridDomain : public Domain::Impl {
+  public:
+    std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
+    void plan_disks(RunPlan& plan, std::uint32_t candidates,
+                    const DeviceReport& report) const override;
+    double disk_steps(const RunPlan& plan, std::uint32_t candidates) const override;
+    double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
+    std::uint32_t most_steps(const DeviceReport& report,
+                             const KernelVariant& variant) const override;
+    std::uint64_t cells(std::uint32_t candidates, double error_bound) const override;
+    void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
+                   const RunPlan& plan) const override;
+    const char* name_of(BufferRole role) const override;
+    void set_push(gpu::Push& push, const RunPlan& plan) const override;
+    std::size_t upload_size(BufferRole role) const override;
+    Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
+                              std::span<std::byte> out) const override;
+    double guard_for(double error_bound) const override { return error_bound; }
+
+  protected:
+    /// Points of so many words, with coordinates on `lattice`. A disk holds about `crowd` of them
+    /// for each candidate that a full domain has per sample. The other members of Impl are left to
+    /// the caller.
+    GridDomain(BoxParams box, const DrawAxes& lattice, std::uint32_t words_per_point, double crowd,
+               double guard);
+
+    const BoxParams& box() const { return box_; }
+    const DrawAxes& lattice() const { return lattice_; }
+
+  private:
+    BoxGrid grid(std::uint32_t candidates, double guard) const {
+        return BoxGrid(box_, lattice_, candidates, guard);
+    }
+    /// Candidates in a disk, of those drawn at once.
+    double in_disk(const RunPlan& plan, std::uint32_t candidates) const;
+
+    BoxParams box_;
+    DrawAxes lattice_;
+    std::uint32_t words_per_point_;
+    double crowd_;
+    double guard_;
+};
+
+/// A box that pool_size() finds no fault with.
+class BoxDomain : public GridDomain {
+  public:
+    explicit BoxDomain(const BoxParams& box);
+    std::string beside_candidates() const override;
+    void coordinates(const gpu::SampleRec& sample, std::span<double> point) const override;
+};
+
+} // namespace geodisk

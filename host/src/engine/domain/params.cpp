@@ -1,0 +1,143 @@
+#include "geodisk/params.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/domain/stages.hpp"
+#include "support/guard.hpp"
+#include "support/number_text.hpp"
+
+namespace geodisk {
+namespace {
+
+const double kTwoRootThree = 2 * std::sqrt(3.0);
+// Packing density that is reached on average, by which counts of 300 to 10,000 samples on scanned
+// and modelled meshes come out as asked for. Stages keep to kExpectedRho, so that a distance keeps
+// its samples.
+constexpr double kCountedRho = 0.721;
+// Of candidates to the samples expected of a surface much smaller than a disk.
+constexpr double kLargestRatio = 1e12;
+// Edges longer than this many distances would need a guard of a percent.
+constexpr double kLongestEdge = 4000;
+
+/// No face may expect more candidates than the kernels can count.
+Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& params) {
+    const Stages stages = stages_of(mesh, params);
+    const double most = std::max(stages.expected(0), stages.expected(kLastOtherStage)) /
+                        effective_area(mesh, params);
+    const double longest = mesh.statistics().longest_edge;
+    const double densest = params.radii != nullptr ? params.radii->largest_density() : 1;
+    if (longest * longest * densest * most < kMostPerFace) {
+        return Done{};
+    }
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        const double expected = expected_in_face(mesh, params, face, most);
+        if (!(expected <= kMostPerFace)) {
+            return Error{Status::invalid_argument,
+                         "the minimum distance is too small for this mesh: face " +
+                             std::to_string(face) + " alone expects " + number_text(expected) +
+                             " candidates at once, the most is " + number_text(kMostPerFace) +
+                             "; split it",
+                         face};
+        }
+    }
+    return Done{};
+}
+
+/// The length of all borders, where radii vary in multiples of the largest one.
+double border_length(const PreparedMesh& mesh, const RadiusField* radii) {
+    double length = 0;
+    const auto edges = mesh.half_edges();
+    for (std::uint32_t h = 0; h < edges.size(); ++h) {
+        const std::uint32_t a = edges[h].origin, b = edges[next_in_face(h)].origin,
+                            c = edges[previous_in_face(h)].origin;
+        const bool takes_part = a != b && b != c && c != a;
+        if (!takes_part || around_half_edge(edges[h].around) != h) {
+            continue;
+        }
+        const double factor =
+            radii == nullptr
+                ? 1
+                : 0.5 * (double{radii->factors()[h]} + double{radii->factors()[next_in_face(h)]});
+        const double share =
+            radii == nullptr ? 1 : 0.5 * (radii->share_at(h) + radii->share_at(next_in_face(h)));
+        length += edges[h].length / factor * share;
+    }
+    return length;
+}
+
+} // namespace
+
+double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    return params.radii != nullptr ? params.radii->effective_area() : mesh.statistics().area;
+}
+
+double expected_count(double area, double min_distance) noexcept {
+    const double radius = min_distance / 2;
+    return kExpectedRho * kExpectedRho * area / (kTwoRootThree * radius * radius);
+}
+
+double distance_for_count(double area, double count) noexcept {
+    return 2 * kExpectedRho * std::sqrt(area / (kTwoRootThree * count));
+}
+
+double distance_for_count(const PreparedMesh& mesh, const RadiusField* radii,
+                          double count) noexcept {
+    const double area = radii != nullptr ? radii->effective_area() : mesh.statistics().area;
+    // count = a / D^2 + b / D.
+    const double a =
+        kCountedRho / kExpectedRho * (kCountedRho / kExpectedRho) * expected_count(area, 1);
+    const double b = kBorderSamples * border_length(mesh, radii);
+    return (b + std::sqrt(b * b + 4 * count * a)) / (2 * count);
+}
+
+double packing_density(double area, double min_distance, double count) noexcept {
+    return min_distance / 2 * std::sqrt(kTwoRootThree * count / area);
+}
+
+Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    return guarded([&]() -> Result<std::uint32_t> {
+        const auto invalid = [](std::string message) {
+            return Error{Status::invalid_argument, std::move(message)};
+        };
+        if (!(params.min_distance > 0) || !std::isfinite(params.min_distance)) {
+            return invalid("the minimum distance must be a positive finite number");
+        }
+        if (!(params.pool_ratio >= 1 && params.pool_ratio <= 10000)) {
+            return invalid("the pool ratio must be 1 to 10,000");
+        }
+        if (params.radii != nullptr && params.radii->face_count() != mesh.face_count()) {
+            return invalid("the radii are of a mesh with " +
+                           std::to_string(params.radii->face_count()) + " faces, this one has " +
+                           std::to_string(mesh.face_count()));
+        }
+        if (!params.face_keys.empty() && params.face_keys.size() != mesh.face_count()) {
+            return invalid("there are " + std::to_string(params.face_keys.size()) +
+                           " face keys for " + std::to_string(mesh.face_count()) + " faces");
+        }
+        const Stages stages = stages_of(mesh, params);
+        if (!(stages.ratio <= kLargestRatio)) {
+            return invalid("the minimum distance is too large for this surface, where radii vary");
+        }
+        const double wanted = std::ceil(stages.candidates());
+        if (!(wanted <= kMostCandidates)) {
+            return invalid(
+                "the minimum distance is too small for this surface: the pool would take " +
+                number_text(wanted) + " candidates, the most is " + number_text(kMostCandidates));
+        }
+        const double longest = mesh.statistics().longest_edge / params.min_distance;
+        if (!(longest <= kLongestEdge)) {
+            return invalid("the minimum distance is too small for this mesh: its longest edge is " +
+                           number_text(longest) +
+                           " times as long, and single precision resolves at most " +
+                           number_text(kLongestEdge) + " times; split long edges");
+        }
+        if (auto checked = check_largest_face(mesh, params); !checked) {
+            return checked.error();
+        }
+        return static_cast<std::uint32_t>(wanted);
+    });
+}
+
+} // namespace geodisk

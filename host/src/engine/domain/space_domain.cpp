@@ -1,0 +1,191 @@
+#include "engine/domain/space_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "bindings.h"
+#include "engine/capacity.hpp"
+#include "engine/domain/device_mesh.hpp"
+#include "engine/domain/stages.hpp"
+#include "engine/domain/tolerances.hpp"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+// Candidates in a disk, for each that a full surface has per sample: several sheets may pass
+// through one.
+constexpr double kCrowd = 4;
+// At a box of a million distances.
+constexpr double kWidestGuard = 0x1p-10;
+
+using Vector = std::array<double, 3>;
+
+/// Normal of a face, of twice its area in length.
+Vector face_normal(const MeshView& view, std::size_t face) {
+    std::array<Vector, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = view.triangles[3 * face + k];
+        corners[k] = {view.coordinate(v, 0), view.coordinate(v, 1), view.coordinate(v, 2)};
+    }
+    Vector u, v;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        u[axis] = corners[1][axis] - corners[0][axis];
+        v[axis] = corners[2][axis] - corners[0][axis];
+    }
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// Of unit length, weighted by the areas of the faces; zero where those cancel out.
+std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
+    std::vector<Vector> sums(view.vertex_count(), Vector{});
+    for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
+        const Vector normal = face_normal(view, corner / 3);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            sums[view.triangles[corner]][axis] += normal[axis];
+        }
+    }
+    std::vector<std::array<float, 3>> normals;
+    normals.reserve(sums.size());
+    for (const Vector& n : sums) {
+        const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        std::array<float, 3> unit{};
+        for (std::size_t axis = 0; axis < 3 && length > 0; ++axis) {
+            // What is too small to be told from zero is zero, against denormal numbers.
+            const double part = n[axis] / length;
+            unit[axis] = static_cast<float>(std::abs(part) < 0x1p-40 ? 0.0 : part);
+        }
+        normals.push_back(unit);
+    }
+    return normals;
+}
+
+Result<Done> check_view(const MeshView& view, const PreparedMesh& mesh) {
+    if (view.dimension != 3) {
+        return Error{Status::invalid_argument,
+                     "straight-line distances need three coordinates per vertex, not " +
+                         std::to_string(view.dimension)};
+    }
+    if (view.face_count() != mesh.face_count() || view.vertex_count() != mesh.vertex_count()) {
+        return Error{Status::invalid_argument, "the view is not of the mesh that was prepared"};
+    }
+    return Done{};
+}
+
+} // namespace
+
+SpaceFrame::SpaceFrame(const MeshView& view, const SampleParams& params)
+    : normals(vertex_normals(view)) {
+    box.min_distance = params.min_distance;
+    box.seed = params.seed;
+    box.extents.assign(3, 0);
+    vertices.resize(view.vertex_count());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double least = std::numeric_limits<double>::infinity();
+        double most = -least;
+        // Corners of faces alone: a vertex without faces may be anywhere.
+        for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
+            const double x = view.coordinate(view.triangles[corner], axis);
+            least = std::min(least, x);
+            most = std::max(most, x);
+        }
+        // A flat surface is given some thickness; the farthest vertices lie inside.
+        double& side = box.extents[axis];
+        side = std::max((most - least) * (1 + 0x1p-30), 0x1p-10 * params.min_distance);
+        for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
+            const std::uint32_t v = view.triangles[corner];
+            const double x = view.coordinate(v, axis);
+            vertices[v][axis] = static_cast<std::uint32_t>((x - least) / side * 0x1p32);
+        }
+    }
+}
+
+double SpaceFrame::guard() const {
+    // Coordinates of two candidates are each less than two units too small, so their difference is
+    // off by less than two, and a distance by twice that at most.
+    const double longest = *std::max_element(box.extents.begin(), box.extents.end());
+    return kBoxGuard + 0x1p-30 * longest / box.min_distance;
+}
+
+Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh& mesh,
+                                        const SampleParams& params, Metric metric) noexcept {
+    return guarded([&]() -> Result<Domain> {
+        if (auto checked = pool_size(mesh, params); !checked) {
+            return checked.error();
+        }
+        if (params.radii != nullptr) {
+            return Error{Status::invalid_argument,
+                         "SampleParams::radii is for geodesic distances alone"};
+        }
+        if (auto checked = check_view(view, mesh); !checked) {
+            return checked.error();
+        }
+        SpaceFrame frame(view, params);
+        if (!(frame.guard() <= kWidestGuard)) {
+            return Error{Status::invalid_argument,
+                         "the minimum distance is too small beside the bounding box of the mesh"};
+        }
+        return Domain(std::make_unique<SpaceDomain>(view, mesh, params, metric, std::move(frame)));
+    });
+}
+
+SpaceDomain::SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
+                         Metric metric, SpaceFrame frame)
+    : GridDomain(frame.box, finest_axes(frame.box),
+                 metric == Metric::approximate ? 6 : 3, // Normals as well.
+                 kCrowd, frame.guard()),
+      view_(view), mesh_(mesh), params_(params), frame_(std::move(frame)) {
+    kernels.domain = DomainKind::space;
+    kernels.curved = metric == Metric::approximate;
+    stages = stages_of(mesh, params);
+    samples_per_measure = samples_per_area();
+    samples = samples_to_expect(stages.samples, params.throws, params.stop_count);
+    stop_count = params.stop_count;
+    units = mesh.face_count();
+    first_faces = {0, mesh.face_count()};
+}
+
+void SpaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
+                            const RunPlan& plan) const {
+    GridDomain::add_needs(needs, candidates, plan);
+    needs.bytes[gpu::kBindFaces] = upload_size(BufferRole::corners);
+}
+
+std::string SpaceDomain::beside_candidates() const {
+    return " and " + std::to_string(mesh_.face_count()) + " faces in space";
+}
+
+std::size_t SpaceDomain::upload_size(BufferRole role) const {
+    return role == BufferRole::corners ? std::size_t{mesh_.face_count()} * gpu::kSpaceRows * 16
+                                       : GridDomain::upload_size(role);
+}
+
+Result<Done> SpaceDomain::write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
+                                       std::span<std::byte> out) const {
+    if (role != BufferRole::corners) {
+        return GridDomain::write_upload(plan, role, from, out);
+    }
+    std::fill(out.begin(), out.end(), std::byte{0});
+    for (std::size_t corner = 0; corner < view_.triangles.size(); ++corner) {
+        const std::uint32_t vertex = view_.triangles[corner];
+        const std::size_t row = corner / 3 * gpu::kSpaceRows + corner % 3;
+        std::memcpy(out.data() + row * 16, frame_.vertices[vertex].data(), 12);
+        std::memcpy(out.data() + (row + 3) * 16, frame_.normals[vertex].data(), 12);
+    }
+    const double unit = working_distance(mesh_, params_);
+    for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
+        std::byte* const row = out.data() + std::size_t{face} * gpu::kSpaceRows * 16;
+        const float area = face_area(mesh_, face, unit);
+        const std::uint32_t key = params_.face_keys.empty() ? face : params_.face_keys[face];
+        std::memcpy(row + 12, &area, 4);
+        std::memcpy(row + 28, &key, 4);
+    }
+    return Done{};
+}
+
+} // namespace geodisk

@@ -1,0 +1,82 @@
+#include "engine/domain/stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/domain/tolerances.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr double kMostDartsOfStage = 0x1p23;
+constexpr double kMostDartsPerSample = 640;
+// Candidates of a small face, in the mean over all candidates. By measurement.
+constexpr double kMostInSmallFace = 24;
+
+} // namespace
+
+std::uint32_t Stages::pool_stages() const noexcept {
+    if (most_stages != 0) {
+        return most_stages;
+    }
+    return static_cast<std::uint32_t>(
+        std::clamp(std::ceil(ratio / kStageRatio), 1.0, double{kMostPoolStages}));
+}
+
+double Stages::per_sample(std::uint32_t stage) const noexcept {
+    if (throws == 0) {
+        return ratio / pool_stages();
+    }
+    double darts = kStageRatio;
+    const double most = std::min(kMostDartsPerSample, kMostDartsOfStage / samples);
+    while (darts > most) { // By powers of two, so that an edit of the mesh hardly ever changes it.
+        darts /= 2;
+    }
+    for (std::uint32_t s = 0; s < stage && 2 * darts <= most; ++s) {
+        darts *= 2;
+    }
+    return std::max(darts, kLeastPool / samples);
+}
+
+Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
+    // A distance beyond all those of the mesh is as good as one just beyond.
+    const double samples =
+        expected_count(effective_area(mesh, params), working_distance(mesh, params));
+    return {samples, std::max(params.pool_ratio, kLeastPool / samples), params.throws};
+}
+
+double samples_per_area() noexcept {
+    return expected_count(1, 1);
+}
+
+float stage_intensity(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t stage) {
+    return static_cast<float>(stages_of(mesh, params).per_sample(stage) * samples_per_area());
+}
+
+double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
+                        double per_area) {
+    const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
+    const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
+    return per_area * 0.5 * edge.length * edge.apex_y * density;
+}
+
+void FaceCrowding::add(const PreparedMesh& mesh, const SampleParams& params) {
+    const double per_area = stages_of(mesh, params).candidates() / effective_area(mesh, params);
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        const double expected = expected_in_face(mesh, params, face, per_area);
+        sum_ += expected;
+        squares_ += expected * expected;
+    }
+}
+
+bool FaceCrowding::is_small() const noexcept {
+    return squares_ <= kMostInSmallFace * sum_;
+}
+
+bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params) {
+    FaceCrowding crowding;
+    crowding.add(mesh, params);
+    return crowding.is_small();
+}
+
+} // namespace geodisk

@@ -1,0 +1,310 @@
+#include "engine/domain/surface_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bindings.h"
+#include "constants.h"
+#include "engine/capacity.hpp"
+#include "engine/domain/device_mesh.hpp"
+#include "engine/domain/stages.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+// llvmpipe ends all loops of a shader after so many iterations per SIMD group, silently.
+constexpr std::uint32_t kLlvmpipeIterations = 65535;
+// Elsewhere the budget keeps a dispatch well under the watchdogs.
+constexpr std::uint32_t kDefaultSteps = 128;
+// Conflicts to provide for, per candidate that a full surface has for each sample.
+constexpr double kListPerCrowd = 8;
+constexpr double kLeastList = 8;
+// Disks from so many faces on take vertex events by distance. The rule must not look at the device:
+// with the order of work the longest window chain may change, and with it the guard.
+constexpr double kHeapFaces = 1u << 14;
+
+// Of several surfaces, as of one.
+constexpr std::uint64_t kMostHalfEdges = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMostVertices = gpu::kVertexMask;
+
+/// Steps of a disk that covers so many faces, by measurement.
+double steps_over(double faces) {
+    return (12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces)) / gpu::kTripsPerStep;
+}
+
+/// The stages of all: each has those of its own.
+Stages stages_of(PlacedSurfaces surfaces) {
+    Stages all = stages_of(*surfaces[0].mesh, surfaces[0].params);
+    if (surfaces.size() == 1) {
+        return all;
+    }
+    all = {};
+    double pool = 0;
+    for (const PlacedSurface& surface : surfaces) {
+        const Stages own = stages_of(*surface.mesh, surface.params);
+        all.samples += own.samples;
+        pool += own.pool();
+        all.most_stages = std::max(all.most_stages, own.pool_stages());
+        all.most_expected += own.expected(0);
+    }
+    all.ratio = pool / all.samples;
+    return all;
+}
+
+Result<Domain> wrapped(Result<std::unique_ptr<const Domain::Impl>> made) {
+    return made ? Result<Domain>(Domain::Impl::wrap(std::move(*made)))
+                : Result<Domain>(made.error());
+}
+
+PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params) {
+    return {&mesh, params, working_distance(mesh, params), 0, 0, 0};
+}
+
+Error in_part(std::size_t part, Error error) {
+    error.message = "surface " + std::to_string(part) + ": " + error.message;
+    return error;
+}
+
+/// A part, with the distance in units of its mesh.
+Result<PlacedSurface> place(const SurfacePart& part) {
+    if (part.mesh == nullptr) {
+        return invalid("there is no mesh");
+    }
+    if (!(part.scale > 0) || !std::isfinite(part.scale)) {
+        return invalid("the scale must be a positive finite number");
+    }
+    SampleParams params = part.params;
+    params.min_distance /= part.scale;
+    if (auto checked = pool_size(*part.mesh, params); !checked) {
+        return checked.error();
+    }
+    if (params.throws != 0 || params.stop_count != 0) {
+        return invalid("of several surfaces, darts and samples are not counted");
+    }
+    return placed(*part.mesh, params);
+}
+
+} // namespace
+
+Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    return guarded([&]() -> Result<Domain> {
+        if (auto checked = pool_size(mesh, params); !checked) {
+            return checked.error();
+        }
+        return wrapped(SurfaceDomain::make({placed(mesh, params)}));
+    });
+}
+
+Result<Domain> Domain::surfaces(std::span<const SurfacePart> parts) noexcept {
+    return guarded([&]() -> Result<Domain> {
+        if (parts.empty()) {
+            return invalid("there are no surfaces");
+        }
+        std::vector<PlacedSurface> surfaces;
+        std::uint64_t half_edges = 0, vertices = 0, corners = 0;
+        double candidates = 0;
+        for (const SurfacePart& part : parts) {
+            auto next = place(part);
+            if (next && (next->params.radii != nullptr) != (parts[0].params.radii != nullptr)) {
+                next = invalid("some surfaces have radii that vary, others have not");
+            }
+            if (!next) {
+                return in_part(surfaces.size(), next.error());
+            }
+            next->first_face = static_cast<std::uint32_t>(half_edges / 3);
+            next->first_vertex = static_cast<std::uint32_t>(vertices);
+            next->first_corner = static_cast<std::uint32_t>(corners);
+            half_edges += part.mesh->half_edges().size();
+            vertices += part.mesh->vertex_count();
+            corners += part.mesh->corners().size();
+            candidates += stages_of(*part.mesh, next->params).candidates();
+            if (half_edges > kMostHalfEdges || vertices > kMostVertices ||
+                candidates > kMostCandidates) {
+                return in_part(surfaces.size(),
+                               invalid("with those before it is too large for one job, which may "
+                                       "have 2^30 half-edges, 2^30 vertices and 2^32 candidates"));
+            }
+            surfaces.push_back(*next);
+        }
+        return wrapped(SurfaceDomain::make(std::move(surfaces)));
+    });
+}
+
+Result<std::unique_ptr<const Domain::Impl>>
+SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
+    const auto cells = count_cells(surfaces);
+    if (!cells) {
+        return cells.error();
+    }
+    return std::unique_ptr<const Impl>(
+        std::make_unique<SurfaceDomain>(std::move(surfaces), *cells));
+}
+
+SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t cells)
+    : surfaces_(std::move(surfaces)), cells_(cells) {
+    stages = stages_of(surfaces_);
+    for (const PlacedSurface& surface : surfaces_) {
+        const PreparedMesh& mesh = *surface.mesh;
+        const SampleParams& params = surface.params;
+        full_ += std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance));
+        first_error_ = std::max(first_error_, first_error(mesh, params));
+        error.widen(ErrorModel(mesh, params));
+        meshes.push_back(mesh.identity());
+        first_faces.push_back(surface.first_face);
+    }
+    first_faces.push_back(face_count(surfaces_));
+    kernels.domain = DomainKind::surface;
+    kernels.adaptive = has_radii(surfaces_);
+    kernels.several = surfaces_.size() > 1;
+    kernels.many_rows = cells_ != 0;
+    kernels.event_heap = faces_per_disk() >= kHeapFaces;
+    samples_per_measure = samples_per_area();
+    // Several have neither, and seeds of their own.
+    const SampleParams& params = surfaces_[0].params;
+    samples = samples_to_expect(full_, params.throws, params.stop_count);
+    stop_count = params.stop_count;
+    seed = kernels.several ? 0 : params.seed;
+    units = face_count(surfaces_);
+    largest_radius = params.min_distance / 2;
+    bytes_per_candidate = 16;
+}
+
+std::uint64_t SurfaceDomain::most_candidates(const DeviceLimits& limits, std::uint32_t) const {
+    // States are the largest buffer: a weight each, and two bits.
+    return (limits.max_storage_buffer_range - 16) / 17 * 4;
+}
+
+void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
+                               const DeviceReport& report) const {
+    const double faces = faces_per_disk();
+    const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    // A CPU runs as many lanes as it has; a GPU is to have one for every slot.
+    plan.lanes = cpu ? std::min(plan.slots, cpu_lanes(report)) : plan.slots;
+    // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
+    plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces);
+    plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces);
+    plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * candidates / full_));
+    plan.error_bound = first_error_;
+}
+
+double SurfaceDomain::disk_steps(const RunPlan&, std::uint32_t) const {
+    return steps_over(faces_per_disk());
+}
+
+double SurfaceDomain::all_steps() const {
+    if (!kernels.adaptive) {
+        return samples * steps_over(faces_per_disk());
+    }
+    double steps = 0;
+    for (const PlacedSurface& surface : surfaces_) {
+        const PreparedMesh& mesh = *surface.mesh;
+        const double room = expected_count(1, surface.params.min_distance);
+        const double largest = 2.0 * mesh.face_count() / (room * mesh.statistics().area);
+        for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+            const double faces = largest / surface.params.radii->densities()[face];
+            steps += expected_in_face(mesh, surface.params, face, room) *
+                     steps_over(std::min<double>(faces, mesh.face_count()));
+        }
+    }
+    return steps * samples / full_;
+}
+
+double SurfaceDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {
+    const double disks = std::ceil(static_cast<double>(plan.slots) / plan.lanes);
+    return disks * disk_steps(plan, candidates) / plan.step_budget + 2;
+}
+
+std::uint32_t SurfaceDomain::most_steps(const DeviceReport& report,
+                                        const KernelVariant& variant) const {
+    if (report.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE) {
+        return kDefaultSteps;
+    }
+    const std::uint32_t in_heaps = variant.trims        ? gpu::kTrimIterationsPerStep
+                                   : variant.event_heap ? gpu::kHeapIterationsPerStep
+                                                        : 0;
+    return kLlvmpipeIterations / (gpu::kIterationsPerStep + in_heaps);
+}
+
+std::uint64_t SurfaceDomain::cells(std::uint32_t, double) const {
+    return cells_;
+}
+
+void SurfaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
+                              const RunPlan&) const {
+    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::keys}) {
+        needs.bytes[static_cast<std::size_t>(role)] = upload_size(role);
+    }
+    needs.bytes[gpu::kBindStates] += std::uint64_t{candidates} * 4;
+    needs.bytes[gpu::kBindWeights] = std::uint64_t{candidates} * 4;
+}
+
+std::string SurfaceDomain::beside_candidates() const {
+    return " and " + std::to_string(units) + " faces";
+}
+
+void SurfaceDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
+    const Tolerances tolerances = error.tolerances(plan.error_bound);
+    push.limit = tolerances.limit;
+    push.margin = tolerances.margin;
+    push.slack = tolerances.slack;
+    push.has_keys = surfaces_[0].params.face_keys.empty() ? 0 : 1;
+    push.all_single = cells_ == 0 ? 1 : 0;
+    push.vertices = vertex_count(surfaces_);
+    push.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
+    for (const PlacedSurface& surface : surfaces_) {
+        const MeshStatistics& mesh = surface.mesh->statistics();
+        push.path_rules &= (mesh.nonmanifold_edges == 0 ? ~0u : ~gpu::kRuleSplitsOnce) &
+                           (mesh.diagonal > 0 ? ~0u : ~gpu::kRuleStraightFaces);
+    }
+}
+
+std::size_t SurfaceDomain::upload_size(BufferRole role) const {
+    switch (role) {
+    case BufferRole::faces:
+        return half_edge_bytes(surfaces_) + length_bytes(surfaces_);
+    case BufferRole::fans:
+        return fan_bytes(surfaces_) + radii_bytes(surfaces_);
+    case BufferRole::keys:
+        return key_bytes(surfaces_);
+    default:
+        return 0;
+    }
+}
+
+std::size_t SurfaceDomain::mesh_bytes(BufferRole role) const {
+    switch (role) {
+    case BufferRole::faces:
+        return half_edge_bytes(surfaces_);
+    case BufferRole::fans:
+        return fan_bytes(surfaces_);
+    default:
+        return 0;
+    }
+}
+
+Result<Done> SurfaceDomain::write_upload(const RunPlan&, BufferRole role, std::size_t from,
+                                         std::span<std::byte> out) const {
+    const std::size_t of_mesh = from == 0 ? mesh_bytes(role) : 0;
+    const auto rest = out.subspan(of_mesh);
+    switch (role) {
+    case BufferRole::faces:
+        if (of_mesh > 0) {
+            write_half_edges(surfaces_, out.first(of_mesh));
+        }
+        write_lengths(surfaces_, cells_ == 0, rest);
+        return Done{};
+    case BufferRole::fans:
+        if (of_mesh > 0) {
+            write_fans(surfaces_, out.first(of_mesh));
+        }
+        return rest.empty() ? Result<Done>(Done{}) : write_radii(surfaces_, rest);
+    default:
+        write_keys(surfaces_, out);
+        return Done{};
+    }
+}
+
+} // namespace geodisk

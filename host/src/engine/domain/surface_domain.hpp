@@ -1,0 +1,48 @@
+// Surfaces with geodesic distances.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/domain/domain_impl.hpp"
+#include "engine/domain/placed_surface.hpp"
+#include "engine/domain/tolerances.hpp"
+
+namespace geodisk {
+
+/// Meshes and what is asked of each, which pool_size() finds no fault with; all must outlive it.
+class SurfaceDomain : public Domain::Impl {
+  public:
+    SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t cells);
+    static Result<std::unique_ptr<const Impl>> make(std::vector<PlacedSurface> surfaces);
+
+    std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
+    void plan_disks(RunPlan& plan, std::uint32_t candidates,
+                    const DeviceReport& report) const override;
+    double disk_steps(const RunPlan& plan, std::uint32_t candidates) const override;
+    double all_steps() const override;
+    double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
+    std::uint32_t most_steps(const DeviceReport& report,
+                             const KernelVariant& variant) const override;
+    std::uint64_t cells(std::uint32_t candidates, double error_bound) const override;
+    void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
+                   const RunPlan& plan) const override;
+    std::string beside_candidates() const override;
+    void set_push(gpu::Push& push, const RunPlan& plan) const override;
+    std::size_t upload_size(BufferRole role) const override;
+    std::size_t mesh_bytes(BufferRole role) const override;
+    Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
+                              std::span<std::byte> out) const override;
+    double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
+
+  private:
+    double faces_per_disk() const { return 2.0 * face_count(surfaces_) / full_; }
+
+    std::vector<PlacedSurface> surfaces_;
+    double first_error_ = 0;
+    std::uint32_t cells_; ///< Of all faces; 0 where each has one.
+    double full_ = 0;     ///< Samples that full surfaces hold, at least two each: no disk covers
+                          ///< more than all faces.
+};
+
+} // namespace geodisk

@@ -1,0 +1,94 @@
+#include "engine/domain/tolerances.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/extent.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr double kRounding = 0x1p-22;
+constexpr double kLeastSlack = 16; // In roundings.
+// Factors are floats, and radii are summed in float: each errs by 2^-23 at most.
+constexpr double kRadiiRounding = 0x1p-21;
+constexpr double kLeastChain = 64;
+constexpr double kMostChain = 1u << 16;
+// Where radii vary: what is added to a small radius matters more.
+constexpr double kRadiiLeastGuard = 0x1p-15;
+
+double power_of_two_from(double x, double least) {
+    double power = least;
+    while (power < x) {
+        power *= 2;
+    }
+    return power;
+}
+
+/// A straight path crosses about the square root of the faces of a disk, which are 2 F / N.
+std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance) {
+    const double faces = 2.0 * mesh.face_count() /
+                         std::max(1.0, expected_count(mesh.statistics().area, min_distance));
+    return static_cast<std::uint32_t>(
+        std::clamp(8 + 4 * std::sqrt(faces), kLeastChain, kMostChain));
+}
+
+} // namespace
+
+double working_distance(const PreparedMesh& mesh, double min_distance) {
+    if (!(min_distance > mesh.statistics().diagonal)) {
+        return min_distance;
+    }
+    // A little more than the bound, so that what is within it conflicts beyond doubt.
+    return std::min(min_distance, 1.01 * distance_bound(mesh));
+}
+
+double working_distance(const PreparedMesh& mesh, const SampleParams& params) {
+    return params.radii != nullptr ? params.min_distance
+                                   : working_distance(mesh, params.min_distance);
+}
+
+ErrorModel::ErrorModel(const PreparedMesh& mesh, double min_distance)
+    : longest_(mesh.statistics().longest_edge / working_distance(mesh, min_distance)),
+      per_crossing_(kRounding) {}
+
+ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params)
+    : longest_(mesh.statistics().longest_edge / working_distance(mesh, params)),
+      per_crossing_(kRounding) {
+    if (params.radii != nullptr) {
+        further_ = kRadiiRounding;
+        least_guard_ = kRadiiLeastGuard;
+    }
+}
+
+void ErrorModel::widen(const ErrorModel& other) noexcept {
+    longest_ = std::max(longest_, other.longest_);
+    further_ = std::max(further_, other.further_);
+    least_guard_ = std::min(least_guard_, other.least_guard_);
+    per_crossing_ = std::max(per_crossing_, other.per_crossing_);
+}
+
+double ErrorModel::error_of(std::uint32_t chain) const noexcept {
+    return per_crossing_ * (chain + 4 * std::ceil(longest_)) + further_;
+}
+
+double ErrorModel::guard_for(double error_bound) const noexcept {
+    return power_of_two_from(error_bound - further_, least_guard_) + further_;
+}
+
+Tolerances ErrorModel::tolerances(double error_bound) const noexcept {
+    const double guard = guard_for(error_bound);
+    return {static_cast<float>(1 + guard), static_cast<float>(error_bound),
+            static_cast<float>(kRounding * power_of_two_from(2 + longest_, kLeastSlack)), guard,
+            error_bound};
+}
+
+double first_error(const PreparedMesh& mesh, double min_distance) {
+    return ErrorModel(mesh, min_distance).error_of(guessed_chain(mesh, min_distance));
+}
+
+double first_error(const PreparedMesh& mesh, const SampleParams& params) {
+    return ErrorModel(mesh, params).error_of(guessed_chain(mesh, params.min_distance));
+}
+
+} // namespace geodisk

@@ -1,0 +1,148 @@
+// What comes next for a job, by what the device reports.
+#include <algorithm>
+#include <string>
+
+#include <geodisk/sampler.hpp>
+
+#include "constants.h"
+#include "engine/job/plan.hpp"
+#include "engine/job/sampler_impl.hpp"
+#include "records.h"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+/// Room for half as many samples again, and a batch.
+Result<std::uint32_t> larger_capacity(const gpu::ControlRec& control, std::uint32_t slots,
+                                      const DeviceReport& report) {
+    const std::uint64_t most = report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec);
+    const std::uint64_t least = least_sample_capacity(control, slots);
+    const std::uint64_t capacity = std::min(least + control.accepted / 2, std::max(most, least));
+    if (capacity > most) {
+        return Error{Status::job_too_large,
+                     "the " + std::to_string(control.accepted) + " samples so far take " +
+                         std::to_string(capacity * sizeof(gpu::SampleRec)) + " bytes, but " +
+                         report.name + " binds at most " +
+                         std::to_string(report.limits.max_storage_buffer_range) +
+                         "; raise the minimum distance"};
+    }
+    return static_cast<std::uint32_t>(capacity);
+}
+
+/// Overflows that no memory helps against.
+Result<Done> check_overflow(const gpu::ControlRec& control, const gpu::Push& push) {
+    if ((control.overflow & gpu::kOverflowCandidates) != 0) {
+        return Error{Status::internal, "a stage has " + std::to_string(control.drawn) +
+                                           " candidates, and there is room for " +
+                                           std::to_string(push.capacity)};
+    }
+    if ((control.overflow & gpu::kOverflowEndless) != 0) {
+        const std::uint32_t face = control.endless_face - 1;
+        return Error{
+            Status::mesh_rejected,
+            "the geodesic disk of a candidate on face " + std::to_string(face) +
+                " does not end in any bearable time: it holds edges of many faces all over it, or "
+                "very many triangles far smaller than the minimum distance; coarsen the mesh there "
+                "or lower the distance",
+            face};
+    }
+    return Done{};
+}
+
+/// Candidates to expect from which on there are some: none have the probability e^-60.
+constexpr double kSurelySome = 60;
+
+} // namespace
+
+const char* to_string(Next next) noexcept {
+    constexpr const char* kNames[] = {"begin",          "go_on",      "finish",  "larger_pool",
+                                      "larger_samples", "start_over", "complete"};
+    return kNames[static_cast<std::size_t>(next)];
+}
+
+std::uint32_t Job::Impl::stages_left(const gpu::ControlRec& control) const {
+    if (control.accepted >= push.stop_count) {
+        return 0;
+    }
+    if (stages.throws != 0) {
+        return thrown + darts(control) < stages.throws ? 1 : 0;
+    }
+    return std::min(stages.pool_stages() - push.first_stage - push.stages, plan.stages);
+}
+
+Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes) {
+    // A new seed has the generation of the one before until it begins.
+    const bool is_told =
+        !is_begin_due && control.generation == generation && control.abi == gpu::kAbi;
+    ready = is_told ? std::max(ready, control.ready) : ready;
+    Advice advice{Next::go_on, plan, push.sample_capacity, ready};
+    if (is_begin_due || !begun.is_at_start()) {
+        advice.next = Next::begin;
+        return advice;
+    }
+    if (!finished.is_at_start()) {
+        advice.next = Next::finish;
+        return advice;
+    }
+    if (control.generation != generation || control.abi == 0) {
+        return advice; // Not there yet.
+    }
+    if (control.abi != gpu::kAbi) {
+        return Error{Status::internal, "the control record is not one of this library's"};
+    }
+    if (auto checked = check_overflow(control, push); !checked) {
+        return checked.error();
+    }
+    if ((control.overflow & gpu::kOverflowSamples) != 0) {
+        const auto capacity = larger_capacity(control, plan.slots, sampler->report);
+        if (!capacity) {
+            return capacity.error();
+        }
+        advice.next = Next::larger_samples;
+        advice.sample_capacity = *capacity;
+        return advice;
+    }
+    if (control.overflow != 0) {
+        // As many slots as the job was made with, if the pool may be as large as that takes.
+        RunPlan before = plan;
+        before.slots = most_slots;
+        before.lanes = most_lanes;
+        const std::uint64_t most = pool_bytes != 0 ? pool_bytes : workspace[gpu::kBindPool].size;
+        auto grown = grown_plan(before, control.overflow, most, sampler->report);
+        if (!grown) {
+            return grown.error();
+        }
+        advice.next = Next::larger_pool;
+        advice.plan = *grown;
+        return advice;
+    }
+    if (control.done == 0) {
+        return advice;
+    }
+    if (control.drawn == 0 && push.first_stage == 0 &&
+        stages.expected(0) * push.stages > kSurelySome) {
+        return Error{Status::invalid_argument,
+                     "no candidate was drawn: the buffers hold no mesh; upload what "
+                     "Sampler::write_upload gives before the first commands of the job"};
+    }
+    if (control.ready < std::min(control.accepted, push.stop_count)) {
+        advice.next = Next::finish;
+        return advice;
+    }
+    if (const std::uint32_t count = stages_left(control); count > 0) {
+        thrown += darts(control);
+        begin_stages(push.first_stage + push.stages, count);
+        advice.next = Next::begin;
+        return advice;
+    }
+    advice.plan = widened(plan, error, control.longest_chain);
+    advice.next = advice.plan.error_bound == plan.error_bound ? Next::complete : Next::start_over;
+    return advice;
+}
+
+Result<Advice> Job::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes) noexcept {
+    return guarded([&] { return impl_->advance(control, pool_bytes); });
+}
+
+} // namespace geodisk

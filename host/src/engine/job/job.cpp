@@ -1,0 +1,554 @@
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/sampler.hpp>
+
+#include "bindings.h"
+#include "engine/capacity.hpp"
+#include "engine/domain/domain_impl.hpp"
+#include "engine/job/buffer_ranges.hpp"
+#include "engine/job/plan.hpp"
+#include "engine/job/sampler_impl.hpp"
+#include "records.h"
+#include "support/guard.hpp"
+#include "support/number_text.hpp"
+#include "vk/descriptors.hpp"
+#include "vk/result.hpp"
+
+namespace geodisk {
+namespace {
+
+// Beside a minimum distance of one.
+constexpr double kMostError = 0.5;
+
+/// Whether a buffer of a workspace will do, beside the first `others` buffers of it.
+Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
+                          std::size_t others, const auto& name, const Sampler::Impl& sampler) {
+    if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {
+        return checked;
+    }
+    for (std::size_t k = 0; k < others; ++k) {
+        if (k != role && overlap(workspace[role], workspace[k])) {
+            return overlap_error(name(role), name(k));
+        }
+    }
+    return Done{};
+}
+
+Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
+                             const Domain::Impl& of, const Sampler::Impl& sampler) {
+    const auto name = [&of](std::size_t i) { return of.name_of(static_cast<BufferRole>(i)); };
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs.bytes[i] == 0) {
+            continue;
+        }
+        if (auto checked = check_buffer(workspace, i, needs.bytes[i], i, name, sampler); !checked) {
+            return checked;
+        }
+    }
+    return Done{};
+}
+
+/// Whether a range may take the place of one of a workspace that is in use.
+Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
+                               const Sampler::Impl& sampler) {
+    const auto name = [](std::size_t i) { return to_string(static_cast<BufferRole>(i)); };
+    return check_buffer(workspace, role, needed, kBufferRoles, name, sampler);
+}
+
+/// What the shaders rely on without looking.
+Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
+    constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
+    const bool fine =
+        plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
+        std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
+        plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
+        plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
+        plan.dispatch_items >= 1 && plan.detect_passes <= 4096 &&
+        plan.sample_capacity > plan.slots && plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
+        plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed && plan.slots <= kMost &&
+        plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
+        plan.list_capacity <= kMost;
+    if (!fine) {
+        return Error{Status::invalid_argument,
+                     "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
+                     "detect_passes, stages, idle_capacity and dispatch_items at least 1, stages "
+                     "at most 15, "
+                     "sample_capacity more than slots, window_capacity and table_capacity powers "
+                     "of two, list_capacity a "
+                     "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
+    }
+    // The vertex table tags distances by the bits that those below 2 leave clear.
+    if (!(plan.error_bound > 0 && plan.error_bound <= kMostError)) {
+        return Error{Status::invalid_argument,
+                     "the plan's error_bound of " + number_text(plan.error_bound) +
+                         " is not above 0 and at most half of the minimum distance"};
+    }
+    const std::uint64_t most_slots = std::uint64_t{kMostGroups} * tuning.slot_local_size;
+    if (plan.slots > most_slots) {
+        return Error{Status::invalid_argument,
+                     "the plan's " + std::to_string(plan.slots) + " slots are more than the " +
+                         std::to_string(most_slots) + " that work groups of " +
+                         std::to_string(tuning.slot_local_size) + " reach"};
+    }
+    if (plan.pool_block != tuning.pool_block && plan.pool_block != 1) {
+        return Error{Status::invalid_argument, "the plan's pool_block is " +
+                                                   std::to_string(plan.pool_block) +
+                                                   ", which is neither 1 nor the sampler's " +
+                                                   std::to_string(tuning.pool_block)};
+    }
+    return Done{};
+}
+
+/// The same for a plan of a job that exists.
+Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize pool) {
+    if (auto checked = check_plan(plan, job.sampler->choices.tuning); !checked) {
+        return checked;
+    }
+    if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
+        plan.sample_capacity != job.plan.sample_capacity ||
+        plan.error_bound != job.plan.error_bound) {
+        return Error{Status::invalid_argument,
+                     "the plan has another error_bound, or other stages, idle_capacity or "
+                     "sample_capacity than the job was made for"};
+    }
+    const std::uint32_t most_slots = job.most_slots;
+    if (plan.pool_bytes() > pool || plan.slots > most_slots) {
+        return Error{Status::workspace_too_small,
+                     "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
+                         " bytes and " + std::to_string(plan.slots) + " slots; the workspace has " +
+                         std::to_string(pool) + " bytes and " + std::to_string(most_slots) +
+                         " slots"};
+    }
+    return Done{};
+}
+
+/// The buffer that a binding names, be it a second time, as texels.
+std::uint32_t buffer_of(std::uint32_t binding) {
+    switch (binding) {
+    case gpu::kBindPoolTexels:
+        return gpu::kBindPool;
+    case gpu::kBindStatesTexels:
+        return gpu::kBindStates;
+    case gpu::kBindOrdersTexels:
+        return gpu::kBindOrders;
+    case gpu::kBindCellsTexels:
+        return gpu::kBindCells;
+    default:
+        return binding;
+    }
+}
+
+/// The buffer behind a binding; the scan kernels work on whatever is bound as cells.
+std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
+    const std::uint32_t buffer = buffer_of(binding);
+    if (buffer == gpu::kBindCells) {
+        switch (role) {
+        case SetRole::workspace:
+        case SetRole::cell_scan:
+            return all_single ? gpu::kBindStarts : gpu::kBindCells;
+        case SetRole::start_scan:
+            return gpu::kBindStarts;
+        case SetRole::bucket_scan:
+            return gpu::kBindBuckets;
+        }
+    }
+    return buffer;
+}
+
+/// Whether some kernel reads this buffer as texels, by whatever binding.
+bool read_as_texels(std::size_t buffer) {
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
+            for (std::size_t role = 0; role < 2 * kSetRoles; ++role) {
+                const bool all_single = role >= kSetRoles;
+                if (binding.access != Access::storage &&
+                    bound_as(static_cast<SetRole>(role % kSetRoles), binding.number, all_single) ==
+                        buffer) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+Job::Job(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Job::Job(Job&&) noexcept = default;
+Job& Job::operator=(Job&&) noexcept = default;
+Job::~Job() = default;
+
+const RunPlan& Job::plan() const noexcept {
+    return impl_->plan;
+}
+
+Job::Impl::~Impl() {
+    if (sampler->abandoned) {
+        return;
+    }
+    sampler->vk.vkDestroyDescriptorPool(sampler->device.device, descriptor_pool,
+                                        sampler->device.host_allocator);
+    for (const VkBufferView view : views) {
+        destroy_view(view);
+    }
+}
+
+Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_plan) {
+    const bool has_slices = wanted.domain == DomainKind::surface;
+    wanted.trims = for_plan.trims && has_slices;
+    wanted.lanes_apart = for_plan.pool_block != sampler->choices.tuning.pool_block && has_slices;
+    const auto pipelines = sampler->pipelines.of(wanted);
+    if (!pipelines) {
+        return pipelines.error();
+    }
+    own_pipelines = *pipelines;
+    variant = wanted;
+    return Done{};
+}
+
+void Job::Impl::apply_plan(const RunPlan& new_plan) {
+    plan = new_plan;
+    push.slots = plan.slots;
+    push.window_capacity = plan.window_capacity;
+    push.table_capacity = plan.table_capacity;
+    push.list_capacity = plan.list_capacity;
+    push.lanes = has_lane_per_slot ? plan.slots : plan.lanes;
+    push.lane_rows = plan.lane_rows();
+    push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
+    push.step_budget = std::min(plan.step_budget, most_steps);
+    push.sample_capacity = plan.sample_capacity;
+    push.idle_capacity = plan.idle_capacity;
+    push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, kMostGroups);
+}
+
+Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (auto checked = check_plan(plan, *impl_, impl_->workspace[gpu::kBindPool].size);
+            !checked) {
+            return checked;
+        }
+        if (auto chosen = impl_->choose_kernels(impl_->variant, plan); !chosen) {
+            return chosen;
+        }
+        impl_->apply_plan(plan);
+        return Done{};
+    });
+}
+
+Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcept {
+    return guarded([&]() -> Result<Done> {
+        Workspace changed = impl_->workspace;
+        changed[gpu::kBindPool] = pool;
+        if (auto checked =
+                check_replacement(changed, gpu::kBindPool, plan.pool_bytes(), *impl_->sampler);
+            !checked) {
+            return checked;
+        }
+        if (auto checked = check_plan(plan, *impl_, pool.size); !checked) {
+            return checked;
+        }
+        if (auto chosen = impl_->choose_kernels(impl_->variant, plan); !chosen) {
+            return chosen;
+        }
+        if (auto replaced = impl_->replace_buffer(gpu::kBindPool, pool); !replaced) {
+            return replaced;
+        }
+        impl_->apply_plan(plan);
+        return Done{};
+    });
+}
+
+Result<Done> Job::set_stages(std::uint32_t first, std::uint32_t count) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (count == 0 || count > impl_->plan.stages) {
+            return Error{Status::invalid_argument,
+                         std::to_string(count) + " stages are not of 1 to " +
+                             std::to_string(impl_->plan.stages) + ", which the workspace holds"};
+        }
+        if (std::uint64_t{first} + count > std::uint64_t{1} << 32) {
+            return Error{Status::invalid_argument, "stages go beyond the last one, 4294967295"};
+        }
+        if (first != 0 && !impl_->finished.is_at_start()) {
+            return Error{Status::invalid_argument,
+                         "record_finish of the stages before is recorded in part"};
+        }
+        impl_->begin_stages(first, count);
+        return Done{};
+    });
+}
+
+void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
+    begun = finished = {};
+    is_begin_due = true;
+    thrown = first == 0 ? 0 : thrown;
+    ready = first == 0 ? 0 : ready;
+    cut_darts = 0;
+    push.first_stage = first;
+    push.stages = count;
+    push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
+    push.end_order = count << gpu::kPriorityBits;
+    push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(push.end_order - 1u)) -
+                        static_cast<std::uint32_t>(std::countr_zero(push.buckets));
+}
+
+std::array<VkDeviceSize, 3> Job::sample_bytes(std::uint32_t capacity) const noexcept {
+    return geodisk::sample_bytes(capacity, impl_->push.buckets);
+}
+
+Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples,
+                              const BufferRange& accepted, const BufferRange& buckets) noexcept {
+    return guarded([&]() -> Result<Done> {
+        const auto bytes = sample_bytes(capacity);
+        const std::array<std::pair<std::size_t, BufferRange>, 3> ranges{
+            {{gpu::kBindSamples, samples},
+             {gpu::kBindAccepted, accepted},
+             {gpu::kBindBuckets, buckets}}};
+        if (capacity <= impl_->plan.slots) {
+            return Error{Status::invalid_argument, "room for " + std::to_string(capacity) +
+                                                       " samples is not more than the plan's " +
+                                                       std::to_string(impl_->plan.slots) +
+                                                       " slots"};
+        }
+        Workspace changed = impl_->workspace;
+        for (const auto& [role, range] : ranges) {
+            changed[role] = range;
+        }
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            if (auto checked =
+                    check_replacement(changed, ranges[i].first, bytes[i], *impl_->sampler);
+                !checked) {
+                return checked;
+            }
+        }
+        for (const auto& [role, range] : ranges) {
+            if (auto replaced = impl_->replace_buffer(role, range); !replaced) {
+                return replaced;
+            }
+        }
+        impl_->plan.sample_capacity = capacity;
+        impl_->push.sample_capacity = capacity;
+        return Done{};
+    });
+}
+
+std::uint32_t next_number() noexcept {
+    static std::atomic<std::uint32_t> last = 0;
+    return ++last;
+}
+
+Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
+                              const Workspace& workspace) const noexcept {
+    return guarded([&]() -> Result<Job> {
+        auto job = std::make_unique<Job::Impl>();
+        job->sampler = impl_.get();
+        if (auto made = job->set_out(domain, plan, workspace); !made) {
+            return made.error();
+        }
+        return Job(std::move(job));
+    });
+}
+
+Result<Done> Job::renew(const Domain& domain, const RunPlan& plan) noexcept {
+    return guarded([&] { return impl_->set_out(domain, plan, impl_->workspace); });
+}
+
+void Job::set_seed(std::uint64_t seed) noexcept {
+    impl_->set_seed(seed);
+    impl_->begin_first_stages();
+}
+
+void Job::Impl::set_seed(std::uint64_t seed) {
+    push.seed_low = static_cast<std::uint32_t>(seed);
+    push.seed_high = static_cast<std::uint32_t>(seed >> 32);
+}
+
+Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan,
+                                const Workspace& ranges) {
+    if (auto checked = check_plan(new_plan, sampler->choices.tuning); !checked) {
+        return checked;
+    }
+    const auto needs = needs_of(of_domain, new_plan, sampler->report);
+    if (!needs) {
+        return needs.error();
+    }
+    const Domain::Impl& of = Domain::Impl::of(of_domain);
+    if (auto checked = check_workspace(ranges, *needs, of, *sampler); !checked) {
+        return checked;
+    }
+    if (auto chosen = choose_kernels(sampler->variant_for(of_domain), new_plan); !chosen) {
+        return chosen;
+    }
+    number = next_number();
+    const bool has_sets = sets_for == variant.domain;
+    const bool had_single = push.all_single != 0;
+    most_slots = new_plan.slots;
+    most_lanes = new_plan.lanes;
+    most_steps = of.most_steps(sampler->report, variant);
+    has_lane_per_slot = of.has_lane_per_slot;
+    stages = of.stages;
+    samples_per_measure = of.samples_per_measure;
+    error = of.error;
+    dispatches = 0;
+    push = {};
+    push.capacity = capacity_for(of.stages, new_plan.stages);
+    push.buckets = bucket_count(push.capacity);
+    push.faces = static_cast<std::uint32_t>(of.units);
+    push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, new_plan.error_bound));
+    set_seed(of.seed);
+    push.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
+    of.set_push(push, new_plan);
+    apply_plan(new_plan);
+    begin_first_stages();
+    const bool is_bound = has_sets && had_single == (push.all_single != 0);
+    if (!is_bound) {
+        sets_for.reset(); // Until all is bound.
+    }
+    if (!has_sets) {
+        if (auto allocated = allocate_sets(); !allocated) {
+            return allocated;
+        }
+    }
+    if (auto bound = bind(ranges, !is_bound); !bound) {
+        return bound;
+    }
+    sets_for = variant.domain;
+    return Done{};
+}
+
+/// Binds what has changed, or all.
+Result<Done> Job::Impl::bind(const Workspace& ranges, bool all) {
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (ranges[i] != workspace[i]) {
+            if (auto replaced = replace_buffer(i, ranges[i]); !replaced) {
+                return replaced;
+            }
+        } else if (all && ranges[i].buffer != VK_NULL_HANDLE) {
+            write_buffer(i);
+        }
+    }
+    return Done{};
+}
+
+void Job::Impl::begin_first_stages() {
+    const std::uint32_t all = stages.throws != 0 ? plan.stages : stages.pool_stages();
+    begin_stages(0, std::min(plan.stages, all));
+}
+
+Result<Done> Job::Impl::allocate_sets() {
+    const DeviceTable& vk = sampler->vk;
+    const VkDevice device = sampler->device.device;
+    constexpr std::uint32_t kSets = kSetRoles * kKernels;
+    // Kernels bind at most eight buffers in any of these ways, and one as their own texels.
+    const std::array<VkDescriptorPoolSize, 3> sizes{{
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSets},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 8 * kSets},
+        {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, kSets},
+    }};
+    if (descriptor_pool != VK_NULL_HANDLE) {
+        vk.vkDestroyDescriptorPool(device, std::exchange(descriptor_pool, VK_NULL_HANDLE),
+                                   sampler->device.host_allocator);
+        sets = {};
+    }
+    if (auto created = create_descriptor_pool(sampler->device, vk, sizes, kSets, descriptor_pool);
+        !created) {
+        return created;
+    }
+    std::vector<std::size_t> kernels;
+    std::vector<VkDescriptorSetLayout> layouts;
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        if (has(k)) {
+            kernels.push_back(k);
+            layouts.push_back(sampler->pipelines.set_layout(k));
+        }
+    }
+    for (std::uint32_t role = 0; role < kSetRoles; ++role) {
+        std::vector<VkDescriptorSet> allocated(layouts.size());
+        if (auto done =
+                allocate_descriptor_sets(sampler->device, vk, descriptor_pool, layouts, allocated);
+            !done) {
+            return done;
+        }
+        for (std::size_t i = 0; i < kernels.size(); ++i) {
+            sets[role][kernels[i]] = allocated[i];
+        }
+    }
+    return Done{};
+}
+
+Result<VkBufferView> Job::Impl::create_view(std::size_t buffer, const BufferRange& range) const {
+    if (range.buffer == VK_NULL_HANDLE || !sampler->reads_texels() || !read_as_texels(buffer)) {
+        return VkBufferView{VK_NULL_HANDLE};
+    }
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = range.buffer;
+    info.format = texel_format(static_cast<std::uint32_t>(buffer));
+    info.offset = range.offset;
+    info.range = range.size / texel_bytes(info.format) * texel_bytes(info.format);
+    VkBufferView view = VK_NULL_HANDLE;
+    const VkResult result =
+        null_unless_success(sampler->vk.vkCreateBufferView(sampler->device.device, &info,
+                                                           sampler->device.host_allocator, &view),
+                            view);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreateBufferView", result);
+    }
+    return view;
+}
+
+void Job::Impl::destroy_view(VkBufferView view) const {
+    sampler->vk.vkDestroyBufferView(sampler->device.device, view, sampler->device.host_allocator);
+}
+
+Result<Done> Job::Impl::replace_buffer(std::size_t buffer, const BufferRange& range) {
+    auto view = create_view(buffer, range);
+    if (!view) {
+        return view.error();
+    }
+    workspace[buffer] = range;
+    const VkBufferView before = std::exchange(views[buffer], *view);
+    if (range.buffer != VK_NULL_HANDLE) {
+        write_buffer(buffer);
+    }
+    if (before != VK_NULL_HANDLE) {
+        destroy_view(before);
+    }
+    return Done{};
+}
+
+void Job::Impl::write_buffer(std::size_t buffer) const {
+    const VkDescriptorBufferInfo info{workspace[buffer].buffer, workspace[buffer].offset,
+                                      workspace[buffer].size};
+    const auto write = [&](SetRole role, std::size_t kernel, const Binding& binding) {
+        VkWriteDescriptorSet set{};
+        set.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        set.dstSet = sets[static_cast<std::size_t>(role)][kernel];
+        set.dstBinding = binding.number;
+        set.descriptorCount = 1;
+        set.descriptorType = descriptor_type(binding.access, sampler->reads_texels());
+        set.pBufferInfo = &info;
+        set.pTexelBufferView = &views[buffer];
+        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &set, 0, nullptr);
+    };
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
+            if (!has(k) || !has_binding(binding.access, sampler->reads_texels())) {
+                continue;
+            }
+            for (std::size_t role = 0; role < kSetRoles; ++role) {
+                if (bound_as(static_cast<SetRole>(role), binding.number, push.all_single != 0) ==
+                    buffer) {
+                    write(static_cast<SetRole>(role), k, binding);
+                }
+            }
+        }
+    }
+}
+
+} // namespace geodisk

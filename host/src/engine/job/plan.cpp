@@ -1,0 +1,331 @@
+// How a job is cut into work, and how large its buffers get.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include <geodisk/sampler.hpp>
+
+#include "bindings.h"
+#include "constants.h"
+#include "engine/capacity.hpp"
+#include "engine/domain/domain_impl.hpp"
+#include "engine/job/buffer_ranges.hpp"
+#include "engine/job/plan.hpp"
+#include "engine/job/sampler_impl.hpp"
+#include "records.h"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+// Even one to a work group, they are no more groups than any device takes.
+constexpr double kMostSlots = (1u << 16) - 512;
+// Of a CPU, whose caches the lists of more would leave.
+constexpr double kMostCpuSlots = 1u << 13;
+constexpr double kMostPasses = 32;
+constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMostLevels;
+// Some milliseconds for each dispatch.
+constexpr std::uint32_t kCpuDispatchItems = 1u << 19;
+constexpr std::uint32_t kDispatchItems = 1u << 21;
+// Slots besides those that a batch aims at, in square roots of their number, see lib/schedule.glsl.
+constexpr double kSlotMargin = 1.5;
+// Idle candidates listed at once, for each slot, and candidates for each of them: the more, the
+// fewer times all candidates are gone through.
+constexpr std::uint32_t kIdlePerSlot = 32;
+constexpr std::uint32_t kCandidatesPerIdle = 16;
+constexpr std::uint32_t kLeastIdle = 4096;
+
+std::uint64_t blocks_of(std::uint64_t words) {
+    return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
+}
+
+/// Bytes of the least pool that the plan can run with: the fewest lists and a block of lanes.
+std::uint64_t least_pool(const RunPlan& plan) {
+    return std::uint64_t{plan.pool_block} * plan.lane_rows() * 16 +
+           std::uint64_t{kLeastSlots} * plan.list_capacity * 4;
+}
+
+/// Slots and lanes as they fit the pool: the fewest lists and a block of lanes before all, then
+/// lists for the slots in at most half of it. Lanes apart where no block of several fits; no lanes
+/// if not even one does.
+void fit(RunPlan& plan, std::uint64_t pool_bytes) {
+    if (pool_bytes < least_pool(plan)) {
+        plan.pool_block = 1;
+    }
+    if (pool_bytes < least_pool(plan)) {
+        plan.lanes = 0;
+        return;
+    }
+    const std::uint64_t block = std::uint64_t{plan.pool_block} * plan.lane_rows() * 16;
+    const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
+    const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - block);
+    plan.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+        for_lists / list, kLeastSlots, std::max(kLeastSlots, plan.slots)));
+    const std::uint64_t blocks = (pool_bytes - plan.slots * list) / block;
+    plan.lanes = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
+}
+
+/// As many slots as the tuning's batches ask for with this many disks, and enough to fill the
+/// device.
+// Where both cannot be had, a CPU rather waits than computes disks for losers.
+std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
+    const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const double least =
+        cpu ? std::clamp<double>(disks / 8, kLeastSlots, std::max(kLeastSlots, cpu_lanes(report)))
+            : 64;
+    auto aim = static_cast<std::uint32_t>(
+        std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
+    // No lane is to wait for the others with its last one.
+    const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
+    aim = aim < lanes ? aim : (aim + lanes - 1) / lanes * lanes;
+    return aim <= gpu::kMostRanked ? aim
+                                   : aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
+}
+
+/// Room for the samples of a run that expects so many, and may stop at `stop_count` unless that is
+/// 0: half as many again where the device can bind that, and a batch.
+// Borders, creases and thin parts hold more samples than their area tells. Where the device cannot
+// bind that much, as many as it can, but never fewer than are expected. A batch begins only where
+// there is room for all of it.
+std::uint32_t wanted_sample_capacity(double samples, std::uint32_t stop_count, std::uint32_t slots,
+                                     const DeviceReport& report) {
+    const std::uint64_t most = report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec);
+    double capacity = std::ceil(1.5 * samples) + 64;
+    capacity = stop_count != 0 ? std::min<double>(capacity, stop_count) : capacity;
+    return static_cast<std::uint32_t>(std::min(
+        capacity + slots, std::max(static_cast<double>(most), std::ceil(samples) + slots)));
+}
+
+/// Idle candidates to list at once.
+std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) noexcept {
+    const std::uint32_t wanted = std::max(kIdlePerSlot * slots, capacity / kCandidatesPerIdle);
+    return std::clamp(wanted, kLeastIdle, gpu::kMostListed);
+}
+
+Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
+                         std::uint32_t candidates, const DeviceReport& report) {
+    const std::uint64_t limit = report.limits.max_storage_buffer_range;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindKeys;
+        if (needs.bytes[i] > limit) {
+            return Error{
+                Status::job_too_large,
+                std::string("the buffer ") + of.name_of(static_cast<BufferRole>(i)) + " for " +
+                    std::to_string(candidates) + " candidates" + of.beside_candidates() +
+                    " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
+                    " binds at most " + std::to_string(limit) +
+                    (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
+        }
+    }
+    return Done{};
+}
+
+Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
+    return Error{
+        Status::workspace_too_small,
+        "the disk of one candidate takes " + std::to_string(std::uint64_t{plan.lane_rows()} * 16) +
+            " bytes of the pool and each of the least " + std::to_string(kLeastSlots) +
+            " lists of conflicts " + std::to_string(std::uint64_t{plan.list_capacity} * 4) +
+            ", but the pool may take only " + std::to_string(pool_bytes)};
+}
+
+} // namespace
+
+const char* to_string(BufferRole role) noexcept {
+    constexpr const char* kNames[kBufferRoles] = {
+        "faces", "fans",    "keys", "cells", "states",  "weights",  "orders", "starts",
+        "pool",  "control", "list", "sums",  "samples", "accepted", "buckets"};
+    return kNames[static_cast<std::size_t>(role)];
+}
+
+std::uint64_t least_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept {
+    return std::uint64_t{control.accepted} + slots + 1;
+}
+
+RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
+    const auto replace = [](std::uint32_t& field, std::uint32_t value) {
+        field = value != 0 ? value : field;
+    };
+    // A batch needs room for all of its samples.
+    plan.sample_capacity += wanted.slots;
+    replace(plan.slots, wanted.slots);
+    replace(plan.window_capacity, wanted.window_capacity);
+    replace(plan.table_capacity, wanted.table_capacity);
+    replace(plan.list_capacity, wanted.list_capacity);
+    replace(plan.step_budget, wanted.step_budget);
+    replace(plan.lanes, wanted.lanes);
+    replace(plan.detect_passes, wanted.detect_passes);
+    replace(plan.sample_capacity, wanted.sample_capacity);
+    replace(plan.pool_block, wanted.pool_block);
+    replace(plan.stages, wanted.stages);
+    replace(plan.idle_capacity, wanted.idle_capacity);
+    replace(plan.dispatch_items, wanted.dispatch_items);
+    plan.trims = plan.trims || wanted.trims;
+    plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
+    return plan;
+}
+
+std::uint32_t RunPlan::lane_rows() const noexcept {
+    return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity +
+           (trims ? gpu::kTrimRows + (window_capacity + 3) / 4 : 0);
+}
+
+std::uint64_t RunPlan::first_list_row() const noexcept {
+    const std::uint64_t block = std::max(pool_block, 1u);
+    return (lanes + block - 1) / block * block * lane_rows();
+}
+
+std::uint64_t RunPlan::pool_bytes() const noexcept {
+    return first_list_row() * 16 + std::uint64_t{slots} * list_capacity * 4;
+}
+
+VkDeviceSize WorkspaceNeeds::total() const noexcept {
+    VkDeviceSize sum = 0;
+    for (const VkDeviceSize size : bytes) {
+        sum += size;
+    }
+    return sum;
+}
+
+Workspace WorkspaceLayout::in(VkBuffer buffer, VkDeviceSize offset) const noexcept {
+    Workspace workspace;
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs.bytes[i] > 0) {
+            workspace[i] = {buffer, offset + offsets[i], needs.bytes[i]};
+        }
+    }
+    return workspace;
+}
+
+WorkspaceLayout Sampler::lay_out(const WorkspaceNeeds& needs) const noexcept {
+    WorkspaceLayout layout;
+    layout.needs = needs;
+    layout.alignment = range_alignment(impl_->report.limits);
+    RangeCutter cutter(layout.alignment);
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        layout.offsets[i] = cutter.cut(needs.bytes[i]);
+    }
+    layout.bytes = cutter.end();
+    return layout;
+}
+
+Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes) const noexcept {
+    return guarded([&]() -> Result<RunPlan> {
+        const DeviceReport& report = impl_->report;
+        const Domain::Impl& of = Domain::Impl::of(domain);
+        RunPlan plan;
+        plan.pool_block = tuning().pool_block;
+        plan.slots = wanted_slots(of.samples, tuning().batches, report);
+        plan.stages = stages_at_once(of.stages, of.most_candidates(report.limits, plan.slots));
+        const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
+        plan.sample_capacity =
+            wanted_sample_capacity(of.samples, of.stop_count, plan.slots, report);
+        plan.idle_capacity = wanted_idle_capacity(plan.slots, candidates);
+        plan.dispatch_items =
+            report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuDispatchItems : kDispatchItems;
+        of.plan_disks(plan, candidates, report);
+        plan.step_budget = of.most_steps(report, impl_->variant_for(domain));
+        pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
+        fit(plan, pool_bytes);
+        if (plan.lanes == 0) {
+            return slice_error(plan, pool_bytes);
+        }
+        plan.detect_passes = static_cast<std::uint32_t>(
+            std::clamp(of.detect_passes(plan, candidates), 1.0, kMostPasses));
+        return plan;
+    });
+}
+
+Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
+                           const DeviceReport& report) {
+    RunPlan grown = plan;
+    const auto grow = [overflow](std::uint32_t bit, std::uint32_t& capacity) {
+        capacity = (overflow & bit) != 0 ? std::min(2 * capacity, kLargestCapacity) : capacity;
+    };
+    grow(gpu::kOverflowWindows, grown.window_capacity);
+    grow(gpu::kOverflowVertices, grown.table_capacity);
+    grow(gpu::kOverflowConflicts, grown.list_capacity);
+    grown.trims = plan.trims || (overflow & gpu::kOverflowTrims) != 0;
+    pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
+    fit(grown, pool_bytes);
+    const bool same =
+        grown.lane_rows() == plan.lane_rows() && grown.list_capacity == plan.list_capacity;
+    if (grown.lanes == 0 || same) {
+        return slice_error(grown, pool_bytes);
+    }
+    return grown;
+}
+
+Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
+                                   std::uint64_t pool_bytes) const noexcept {
+    return guarded([&] { return grown_plan(plan, overflow, pool_bytes, impl_->report); });
+}
+
+RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain) {
+    if (error.error_of(longest_chain) > plan.error_bound) {
+        plan.error_bound = error.error_of(2 * longest_chain);
+    }
+    return plan;
+}
+
+RunPlan Sampler::widen_plan(const Domain& domain, RunPlan plan,
+                            std::uint32_t longest_chain) const noexcept {
+    return widened(plan, Domain::Impl::of(domain).error, longest_chain);
+}
+
+Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
+                                const DeviceReport& report) {
+    const Domain::Impl& of = Domain::Impl::of(domain);
+    if (of.stages.throws != 0 && plan.stages > 1) {
+        return Error{Status::invalid_argument,
+                     "darts are drawn one stage at a time; RunPlan::stages is " +
+                         std::to_string(plan.stages) + ", set it to 1"};
+    }
+    const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
+    const std::uint32_t buckets = bucket_count(candidates);
+    const std::uint64_t starts = of.units * plan.stages + 1;
+    const std::uint64_t cells = of.cells(candidates, plan.error_bound);
+    const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
+    WorkspaceNeeds needs;
+    needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
+    needs.bytes[gpu::kBindStates] = state_words(candidates) * 4;
+    needs.bytes[gpu::kBindOrders] = std::uint64_t{candidates} * 4;
+    needs.bytes[gpu::kBindStarts] = starts * 4;
+    needs.bytes[gpu::kBindPool] = plan.pool_bytes();
+    needs.bytes[gpu::kBindControl] =
+        sizeof(gpu::ControlRec) + std::uint64_t{plan.slots} * sizeof(gpu::SlotRec);
+    needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
+    needs.bytes[gpu::kBindSums] =
+        blocks_of(std::max({starts, cells + 2, std::uint64_t{buckets} + 2})) * 4;
+    const auto samples = sample_bytes(plan.sample_capacity, buckets);
+    needs.bytes[gpu::kBindSamples] = samples[0];
+    needs.bytes[gpu::kBindAccepted] = samples[1];
+    needs.bytes[gpu::kBindBuckets] = samples[2];
+    of.add_needs(needs, candidates, plan);
+    if (auto checked = check_needs(needs, of, candidates, report); !checked) {
+        return checked.error();
+    }
+    return needs;
+}
+
+Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain, const RunPlan& plan,
+                                                std::uint32_t regrowths) const noexcept {
+    return guarded([&]() -> Result<WorkspaceNeeds> {
+        constexpr std::uint32_t kAll =
+            gpu::kOverflowWindows | gpu::kOverflowVertices | gpu::kOverflowConflicts;
+        RunPlan larger = plan;
+        for (std::uint32_t i = 0; i < regrowths; ++i) {
+            const auto grown = grown_plan(larger, kAll, ~std::uint64_t{0}, impl_->report);
+            if (!grown) {
+                return grown.error();
+            }
+            larger = *grown;
+            larger.sample_capacity += std::min(larger.sample_capacity / 2, ~larger.sample_capacity);
+        }
+        return needs_of(domain, larger, impl_->report);
+    });
+}
+
+} // namespace geodisk

@@ -1,0 +1,366 @@
+// What a job records. Every step depends on the one before it, so one barrier serves them all.
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+
+#include <geodisk/sampler.hpp>
+
+#include "constants.h"
+#include "engine/job/record.hpp"
+#include "engine/job/stage_clock.hpp"
+#include "records.h"
+#include "vk/barriers.hpp"
+#include "vk/debug.hpp"
+
+namespace geodisk {
+namespace {
+
+// Of memory that is cleared, to an item.
+constexpr VkDeviceSize kClearBytes = 64;
+
+/// Records dispatches, and clears of memory, one after the other. Sequences of them may be cut
+/// anywhere: a cursor tells where the next recording goes on.
+class Recorder {
+  public:
+    Recorder(VkCommandBuffer commands, Job::Impl& job) : Recorder(commands, job, whole_, all_) {}
+    /// From the cursor on, as much as the budget allows.
+    Recorder(VkCommandBuffer commands, Job::Impl& job, Cursor& cursor, Budget& budget)
+        : commands_(commands), sampler_(*job.sampler), job_(job), cursor_(cursor), budget_(budget) {
+    }
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+    ~Recorder() { mark(); }
+
+    /// A pass over `count` items, `per_group` to a work group. Dispatches of it are bounded.
+    void pass(Kernel kernel, std::uint64_t count, std::uint32_t per_group, const gpu::Push& push,
+              SetRole role = SetRole::workspace) {
+        in_parts(count, per_group, [&](std::uint64_t first, std::uint64_t part) {
+            gpu::Push own = push;
+            own.first_group = static_cast<std::uint32_t>(first / per_group);
+            bind(kernel, own, role);
+            sampler_.vk.vkCmdDispatch(
+                commands_, static_cast<std::uint32_t>((part + per_group - 1) / per_group), 1, 1);
+            barrier_compute_to_compute(sampler_.vk, commands_);
+        });
+    }
+
+    void pass_over_faces(Kernel kernel) {
+        pass(kernel, job_.push.faces, sampler_.choices.tuning.local_size, job_.push);
+    }
+
+    void pass_over_candidates(Kernel kernel, std::uint32_t per_group, const gpu::Push& push) {
+        pass(kernel, push.capacity, per_group, push);
+    }
+
+    void pass_over_samples(Kernel kernel) {
+        pass(kernel, std::max(job_.push.sample_capacity, job_.push.slots),
+             sampler_.choices.tuning.local_size, job_.push);
+    }
+
+    void single(Kernel kernel, const gpu::Push& push, SetRole role = SetRole::workspace) {
+        pass(kernel, 1, 1, push, role);
+    }
+
+    /// The size is what `select` left at this offset of the control record.
+    void dispatch_indirect(Kernel kernel, VkDeviceSize offset) {
+        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) {
+            bind(kernel, job_.push, SetRole::workspace);
+            const BufferRange& control = range(BufferRole::control);
+            sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset + offset);
+            barrier_compute_to_compute(sampler_.vk, commands_);
+        });
+    }
+
+    /// Exclusive scan of `count` words.
+    void scan(std::uint32_t count, SetRole role) {
+        gpu::Push push = job_.push;
+        push.scan_count = count;
+        pass(Kernel::sum_blocks, count, gpu::kScanBlock, push, role);
+        single(Kernel::scan_sums, push, role);
+        pass(Kernel::scan_blocks, count, gpu::kScanBlock, push, role);
+    }
+
+    void clear(BufferRole role, VkDeviceSize size) {
+        const BufferRange& target = range(role);
+        const std::uint64_t items = (size + kClearBytes - 1) / kClearBytes;
+        in_parts(items, 1, [&](std::uint64_t first, std::uint64_t part) {
+            const VkDeviceSize begin = first * kClearBytes;
+            const VkDeviceSize end = std::min((first + part) * kClearBytes, size);
+            transfer([&] {
+                sampler_.vk.vkCmdFillBuffer(commands_, target.buffer, target.offset + begin,
+                                            end - begin, 0);
+            });
+        });
+    }
+
+    /// What `change` does to the control record by the three functions that follow.
+    template <class Change>
+    void change_control(const Change& change) {
+        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) { transfer(change); });
+    }
+    void fill(std::size_t first, std::size_t size, std::uint32_t word) const {
+        const BufferRange& control = range(BufferRole::control);
+        sampler_.vk.vkCmdFillBuffer(commands_, control.buffer, control.offset + first, size, word);
+    }
+    /// Zeros but for the generation, which is the job's.
+    void fill_below(std::size_t end) const {
+        constexpr std::size_t kAt = offsetof(gpu::ControlRec, generation);
+        fill(0, kAt, 0);
+        fill(kAt, 4, job_.generation);
+        fill(kAt + 4, end - kAt - 4, 0);
+    }
+    void copy(std::size_t from, std::size_t to) const {
+        const BufferRange& control = range(BufferRole::control);
+        const VkBufferCopy copy{control.offset + from, control.offset + to, 4};
+        sampler_.vk.vkCmdCopyBuffer(commands_, control.buffer, control.buffer, 1, &copy);
+    }
+
+    /// What is recorded from now on belongs to this stage.
+    void stage(Stage stage) {
+        mark();
+        stage_ = stage;
+    }
+
+    /// Whether the sequence was recorded to its end; the next one begins anew then.
+    bool is_complete() {
+        if (cursor_.step < step_) {
+            return false;
+        }
+        cursor_ = {};
+        return true;
+    }
+
+  private:
+    /// Calls record(first, count) for parts of `count` items, of whole work groups but the last.
+    template <class Record>
+    void in_parts(std::uint64_t count, std::uint64_t per_group, const Record& record) {
+        if (step_++ != cursor_.step) {
+            return; // Recorded before, or to come.
+        }
+        const bool is_new = cursor_.done == 0;
+        while (cursor_.done < count) {
+            budget_.is_in_new = is_new && cursor_.done >= budget_.items_of_new;
+            if (budget_.is_spent()) {
+                return;
+            }
+            const std::uint64_t groups = std::clamp<std::uint64_t>(
+                std::min<std::uint64_t>(
+                    {job_.plan.dispatch_items, budget_.items, budget_.items_of_new}) /
+                    per_group,
+                1, kMostGroups);
+            const std::uint64_t part = std::min(count - cursor_.done, groups * per_group);
+            label();
+            record(cursor_.done, part);
+            cursor_.done += part;
+            --budget_.dispatches;
+            budget_.items -= std::min(budget_.items, part);
+            ++job_.dispatches;
+            has_unmarked_ = true;
+        }
+        cursor_ = {cursor_.step + 1, 0};
+    }
+
+    template <class Commands>
+    void transfer(const Commands& commands) {
+        barrier_compute_to_transfer(sampler_.vk, commands_);
+        commands();
+        barrier_transfer_to_compute(sampler_.vk, commands_);
+    }
+
+    /// Begins that of the stage, with the first it has.
+    void label() {
+        if (stage_ && !is_labelled_) {
+            begin_label(sampler_.vk, commands_, to_string(*stage_));
+            is_labelled_ = true;
+        }
+    }
+
+    /// Ends what is recorded of a stage.
+    void mark() {
+        if (is_labelled_) {
+            end_label(sampler_.vk, commands_);
+            is_labelled_ = false;
+        }
+        if (job_.clock != nullptr && has_unmarked_ && stage_) {
+            job_.clock->mark(commands_, *stage_);
+        }
+        has_unmarked_ = false;
+    }
+
+    const BufferRange& range(BufferRole role) const {
+        return job_.workspace[static_cast<std::size_t>(role)];
+    }
+
+    void bind(Kernel kernel, const gpu::Push& push, SetRole role) {
+        // A round repeats small dispatches; binding anew what is bound costs as much as they do.
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the device gets bits, not values.
+        const bool same_push = std::memcmp(&push, &bound_push_, sizeof push) == 0;
+        if (kernel == bound_ && role == bound_role_ && same_push) {
+            return;
+        }
+        bound_ = kernel;
+        bound_role_ = role;
+        bound_push_ = push;
+        const auto k = static_cast<std::size_t>(kernel);
+        const DeviceTable& vk = sampler_.vk;
+        const VkPipelineLayout layout = sampler_.pipelines.layout(k);
+        vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, job_.pipeline(k));
+        vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
+                                   &job_.sets[static_cast<std::size_t>(role)][k], 0, nullptr);
+        vk.vkCmdPushConstants(commands_, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push,
+                              &push);
+    }
+
+    VkCommandBuffer commands_;
+    const Sampler::Impl& sampler_;
+    Job::Impl& job_;
+    Cursor whole_;
+    Budget all_;
+    Cursor& cursor_;
+    Budget& budget_;
+    std::uint32_t step_ = 0; ///< Of the sequence, whether recorded or not.
+    std::optional<Stage> stage_;
+    bool has_unmarked_ = false;
+    bool is_labelled_ = false;
+    std::optional<Kernel> bound_;
+    SetRole bound_role_ = SetRole::workspace;
+    gpu::Push bound_push_{};
+};
+
+} // namespace
+
+bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
+    if (job.begun.is_at_start() && !budget.is_spent()) {
+        job.generation = next_number();
+        job.is_begin_due = false;
+    }
+    Recorder recorder(commands, job, job.begun, budget);
+    const gpu::Push& push = job.push;
+    const DomainKernels own = kernels_of(job.variant.domain);
+    const bool has_cells = push.all_single == 0;
+    recorder.stage(Stage::count);
+    recorder.change_control([&] {
+        if (push.first_stage == 0) {
+            recorder.fill_below(sizeof(gpu::ControlRec));
+            return;
+        }
+        // What was accepted so far is settled, and in order.
+        recorder.copy(offsetof(gpu::ControlRec, accepted), offsetof(gpu::ControlRec, settled));
+        recorder.copy(offsetof(gpu::ControlRec, accepted), offsetof(gpu::ControlRec, ordered));
+        recorder.fill_below(offsetof(gpu::ControlRec, accepted));
+    });
+    recorder.clear(BufferRole::pool,
+                   push.first_stage == 0 ? VkDeviceSize{push.first_list_row} * 16 : 0);
+    recorder.clear(BufferRole::cells, has_cells ? (VkDeviceSize{push.cells} + 2) * 4 : 0);
+    recorder.pass_over_faces(own.count);
+    recorder.scan(push.faces * push.stages + 1, SetRole::start_scan);
+    if (has_cells) {
+        recorder.stage(Stage::bin);
+        recorder.pass_over_candidates(own.bin, gpu::kDrawBlock, push);
+        recorder.scan(push.cells + 2, SetRole::cell_scan);
+    }
+    recorder.stage(Stage::draw);
+    recorder.pass_over_candidates(own.draw, gpu::kDrawBlock, push);
+    recorder.single(Kernel::begin_chunk, push);
+    return recorder.is_complete();
+}
+
+bool record_finish(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
+    Recorder recorder(commands, job, job.finished, budget);
+    const gpu::Push& push = job.push;
+    recorder.stage(Stage::gather);
+    recorder.change_control(
+        [&] { recorder.fill(offsetof(gpu::ControlRec, first_open), 4, gpu::kNoOrder); });
+    recorder.clear(BufferRole::buckets, (VkDeviceSize{push.buckets} + 2) * 4);
+    recorder.pass_over_samples(Kernel::order_count);
+    recorder.scan(push.buckets + 2, SetRole::bucket_scan);
+    recorder.pass_over_samples(Kernel::order_place);
+    recorder.pass_over_samples(Kernel::order_write);
+    recorder.change_control([&] {
+        recorder.copy(offsetof(gpu::ControlRec, next_ordered), offsetof(gpu::ControlRec, ordered));
+    });
+    return recorder.is_complete();
+}
+
+namespace {
+
+/// What is left of a begin or a finish: nothing else may come between.
+void record_rest(VkCommandBuffer commands, Job::Impl& job) {
+    Budget all;
+    if (!job.begun.is_at_start()) {
+        record_begin(commands, job, all);
+    }
+    if (!job.finished.is_at_start()) {
+        record_finish(commands, job, all);
+    }
+}
+
+} // namespace
+
+bool Sampler::record_begin(VkCommandBuffer commands, Job& job,
+                           std::uint32_t dispatches) const noexcept {
+    if (!job.impl_->finished.is_at_start()) {
+        record_rest(commands, *job.impl_);
+    }
+    Budget budget{dispatches};
+    return geodisk::record_begin(commands, *job.impl_, budget);
+}
+
+void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
+                            std::uint32_t rounds) const noexcept {
+    record_rest(commands, *job.impl_);
+    Recorder recorder(commands, *job.impl_);
+    const DomainKernels own = kernels_of(job.impl_->variant.domain);
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+        recorder.stage(Stage::select);
+        recorder.dispatch_indirect(own.select, offsetof(gpu::ControlRec, select_x));
+        recorder.stage(Stage::detect);
+        for (std::uint32_t pass = 0; pass < job.impl_->plan.detect_passes; ++pass) {
+            recorder.dispatch_indirect(own.detect, offsetof(gpu::ControlRec, detect_x));
+        }
+        recorder.stage(Stage::resolve);
+        recorder.dispatch_indirect(Kernel::resolve, offsetof(gpu::ControlRec, groups_x));
+        for (std::uint32_t pass = 0; pass < impl_->count_passes(); ++pass) {
+            recorder.dispatch_indirect(Kernel::count_calls, offsetof(gpu::ControlRec, count_x));
+        }
+    }
+}
+
+void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
+    record_rest(commands, *job.impl_);
+    job.impl_->generation = next_number();
+    // The batch was selected with the slots of an earlier plan, never fewer than now.
+    Recorder recorder(commands, *job.impl_);
+    const gpu::Push& push = job.impl_->push;
+    recorder.change_control(
+        [&] { recorder.fill(offsetof(gpu::ControlRec, generation), 4, job.impl_->generation); });
+    // No lane has a slot, and no row of a table a disk.
+    recorder.clear(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
+    recorder.pass(Kernel::rewind, job.impl_->most_slots, impl_->choices.tuning.slot_local_size,
+                  push);
+    recorder.single(Kernel::resume, push);
+}
+
+bool Sampler::record_finish(VkCommandBuffer commands, Job& job,
+                            std::uint32_t dispatches) const noexcept {
+    if (!job.impl_->begun.is_at_start()) {
+        record_rest(commands, *job.impl_);
+    }
+    Budget budget{dispatches};
+    return geodisk::record_finish(commands, *job.impl_, budget);
+}
+
+void Job::Impl::record_restart(VkCommandBuffer commands) {
+    Recorder(commands, *this).single(Kernel::begin_chunk, push);
+}
+
+void Job::Impl::record_count(VkCommandBuffer commands, std::uint32_t end_order) {
+    Recorder recorder(commands, *this);
+    gpu::Push counted = push;
+    counted.end_order = end_order;
+    recorder.change_control([&] { recorder.fill(offsetof(gpu::ControlRec, below), 4, 0); });
+    recorder.pass_over_candidates(Kernel::count_orders, gpu::kSelectBlock, counted);
+}
+
+} // namespace geodisk

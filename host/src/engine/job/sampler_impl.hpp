@@ -1,0 +1,139 @@
+// What Sampler and Job hold; shared by the files that implement them.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <geodisk/sampler.hpp>
+
+#include "engine/domain/tolerances.hpp"
+#include "engine/kernels/pipelines.hpp"
+#include "push.h"
+#include "records.h"
+#include "vk/dispatch.hpp"
+
+namespace geodisk {
+
+struct Sampler::Impl {
+    DeviceRefs device;
+    DeviceReport report;
+    DeviceTable vk;
+    KernelChoices choices;
+    Events events;
+    mutable Pipelines pipelines; ///< Compiled on first use.
+    /// The device may be using the pipelines and what jobs hold for ever: destroy none.
+    std::atomic<bool> abandoned = false;
+    /// Whether its arithmetic was found to be as decisions need.
+    mutable std::atomic<bool> rounds_well = false;
+
+    Impl(const DeviceRefs& refs, DeviceReport of_device, const DeviceTable& table,
+         const KernelChoices& chosen, Events order)
+        : device(refs), report(std::move(of_device)), vk(table), choices(chosen), events(order),
+          pipelines(device, vk, choices) {}
+
+    static const Impl& of(const Sampler& sampler) { return *sampler.impl_; }
+    void abandon() {
+        abandoned = true;
+        pipelines.abandon();
+    }
+    /// Of the kernels for a domain.
+    KernelVariant variant_for(const Domain& domain) const;
+    /// Of the two variants of the kernels, which.
+    bool reads_texels() const { return choices.tuning.reads == Reads::texels; }
+    /// Dispatches of count_calls per round: as for resolve, the next round goes on.
+    std::uint32_t count_passes() const { return choices.count_calls ? 2 : 0; }
+};
+
+/// Work groups of a dispatch: Vulkan promises no more.
+inline constexpr std::uint32_t kMostGroups = 65535;
+
+/// A descriptor set of a job: a kernel over the workspace, or a scan kernel over another buffer.
+enum class SetRole : std::uint32_t { workspace, cell_scan, start_scan, bucket_scan };
+inline constexpr std::size_t kSetRoles = 4;
+
+class StageClock;
+
+/// Where a sequence of dispatches stands that is recorded in parts.
+struct Cursor {
+    std::uint32_t step = 0; ///< Passes recorded.
+    std::uint64_t done = 0; ///< Of the one at hand, work groups or bytes.
+    bool is_at_start() const { return step == 0 && done == 0; }
+};
+
+/// Numbers that no two jobs of the process have, nor what they begin: memory of one may become
+/// another's, and a copy of the control record there is then to tell nothing.
+std::uint32_t next_number() noexcept;
+
+struct Job::Impl {
+    const Sampler::Impl* sampler = nullptr;
+    std::uint32_t number = 0;    ///< Of next_number(), another one with each domain.
+    StageClock* clock = nullptr; ///< Where recording marks the stages, if anywhere.
+    VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
+    std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
+    std::optional<DomainKind> sets_for; ///< Once they are allocated and bound.
+    Workspace workspace{};
+    /// Of the workspace's buffers that some kernel reads as texels.
+    std::array<VkBufferView, kBufferRoles> views{};
+    const KernelPipelines* own_pipelines = nullptr; ///< Besides those that all jobs have.
+    KernelVariant variant;
+    std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
+    std::uint32_t most_lanes = 0; ///< Of the first plan.
+    // As Domain::Impl has them.
+    std::uint32_t most_steps = 0;
+    bool has_lane_per_slot = false;
+    Stages stages;
+    double samples_per_measure = 0;
+    ErrorModel error;
+    RunPlan plan;
+    gpu::Push push{};
+    Cursor begun, finished;       ///< Of record_begin and record_finish.
+    std::uint32_t generation = 0; ///< See ControlRec.
+    bool is_begin_due = true;     ///< record_begin of the stages at hand.
+    std::uint64_t thrown = 0;     ///< Candidates of the stages before.
+    std::uint64_t cut_darts = 0;  ///< Of these stages, those that take part, unless all do.
+    std::uint64_t dispatches = 0; ///< Recorded, empty ones included.
+    std::uint32_t ready = 0;      ///< Samples known to be in order and final.
+
+    bool has(std::size_t kernel) const {
+        return kernel_info(static_cast<Kernel>(kernel)).serves(variant.domain);
+    }
+    VkPipeline pipeline(std::size_t kernel) const {
+        const VkPipeline own = (*own_pipelines)[kernel];
+        return own != VK_NULL_HANDLE ? own : sampler->pipelines.common()[kernel];
+    }
+    void begin_stages(std::uint32_t first, std::uint32_t count);
+    void begin_first_stages();
+    void set_seed(std::uint64_t seed);
+    /// Candidates of the stages at hand that take part.
+    std::uint64_t darts(const gpu::ControlRec& control) const {
+        return cut_darts != 0 ? cut_darts : control.drawn;
+    }
+    /// Stages to draw next, where all of those at hand are decided.
+    std::uint32_t stages_left(const gpu::ControlRec& control) const;
+    Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes);
+    static Impl& of(Job& job) { return *job.impl_; }
+    static const Impl& of(const Job& job) { return *job.impl_; }
+    ~Impl();
+    /// Sets it out for a domain in a workspace. Of buffers that are as they were, and kernels of
+    /// the same kind of domain, nothing is written anew.
+    Result<Done> set_out(const Domain& of, const RunPlan& new_plan, const Workspace& ranges);
+    Result<Done> allocate_sets();
+    Result<Done> bind(const Workspace& ranges, bool all);
+    Result<VkBufferView> create_view(std::size_t buffer, const BufferRange& range) const;
+    void destroy_view(VkBufferView view) const;
+    /// Binds a buffer wherever kernels use it.
+    void write_buffer(std::size_t buffer) const;
+    Result<Done> replace_buffer(std::size_t buffer, const BufferRange& range);
+    /// Compiles those that it lacks.
+    Result<Done> choose_kernels(KernelVariant wanted, const RunPlan& for_plan);
+    void apply_plan(const RunPlan& new_plan);
+    /// Counts the candidates of lower order into ControlRec::below; none may be active.
+    void record_count(VkCommandBuffer commands, std::uint32_t end_order);
+    /// Sets out the first batch anew, after a change of the push block.
+    void record_restart(VkCommandBuffer commands);
+};
+
+} // namespace geodisk

@@ -1,0 +1,201 @@
+#include "engine/kernels/pipelines.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "constants.h"
+#include "push.h"
+#include "vk/debug.hpp"
+#include "vk/result.hpp"
+
+namespace geodisk {
+
+Pipelines::~Pipelines() {
+    if (abandoned_) {
+        return;
+    }
+    for (const auto& [key, pipeline] : compiled_) {
+        vk_.vkDestroyPipeline(device_.device, pipeline, device_.host_allocator);
+    }
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        vk_.vkDestroyPipelineLayout(device_.device, layouts_[k], device_.host_allocator);
+        vk_.vkDestroyDescriptorSetLayout(device_.device, set_layouts_[k], device_.host_allocator);
+    }
+}
+
+Result<Done> Pipelines::create() {
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        if (auto created = create_layout(k); !created) {
+            return created;
+        }
+    }
+    return compile_all(common_, {DomainKind::any});
+}
+
+Result<const KernelPipelines*> Pipelines::of(const KernelVariant& variant) {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = own_.find(variant); found != own_.end()) {
+        return &found->second;
+    }
+    KernelPipelines pipelines{};
+    if (auto compiled = compile_all(pipelines, variant); !compiled) {
+        drop_unused();
+        return compiled.error();
+    }
+    return &own_.emplace(variant, pipelines).first->second;
+}
+
+void Pipelines::drop_unused() {
+    std::erase_if(compiled_, [this](const auto& entry) {
+        const auto has = [&entry](const KernelPipelines& pipelines) {
+            return pipelines[static_cast<std::size_t>(entry.first.first)] == entry.second;
+        };
+        if (has(common_) ||
+            std::ranges::any_of(own_, [&has](const auto& own) { return has(own.second); })) {
+            return false;
+        }
+        vk_.vkDestroyPipeline(device_.device, entry.second, device_.host_allocator);
+        return true;
+    });
+}
+
+Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVariant& variant) {
+    const bool is_common = variant.domain == DomainKind::any;
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        const auto kernel = static_cast<Kernel>(k);
+        const KernelInfo& info = kernel_info(kernel);
+        if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain) ||
+            !is_used(kernel)) {
+            continue;
+        }
+        const auto compiled = pipeline_of(kernel, variant.of(kernel));
+        if (!compiled) {
+            return compiled.error();
+        }
+        pipelines[k] = *compiled;
+    }
+    return Done{};
+}
+
+Result<VkPipeline> Pipelines::pipeline_of(Kernel kernel, const KernelVariant& variant) {
+    VkPipeline& pipeline = compiled_[{kernel, variant}];
+    if (pipeline == VK_NULL_HANDLE) {
+        const auto compiled = compile(kernel, variant);
+        if (!compiled) {
+            return compiled.error();
+        }
+        pipeline = *compiled;
+    }
+    return pipeline;
+}
+
+Result<Done> Pipelines::create_layout(std::size_t kernel) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const Binding& binding : kernel_info(static_cast<Kernel>(kernel)).bindings) {
+        if (has_binding(binding.access, reads_texels())) {
+            bindings.push_back({binding.number, descriptor_type(binding.access, reads_texels()), 1,
+                                VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        }
+    }
+    VkDescriptorSetLayoutCreateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set_info.pBindings = bindings.data();
+    VkDescriptorSetLayout& set_layout = set_layouts_[kernel];
+    VkResult result =
+        null_unless_success(vk_.vkCreateDescriptorSetLayout(device_.device, &set_info,
+                                                            device_.host_allocator, &set_layout),
+                            set_layout);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreateDescriptorSetLayout", result);
+    }
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::Push)};
+    VkPipelineLayoutCreateInfo layout_info{};
+    layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layout_info.setLayoutCount = 1;
+    layout_info.pSetLayouts = &set_layout;
+    layout_info.pushConstantRangeCount = 1;
+    layout_info.pPushConstantRanges = &range;
+    result =
+        null_unless_success(vk_.vkCreatePipelineLayout(device_.device, &layout_info,
+                                                       device_.host_allocator, &layouts_[kernel]),
+                            layouts_[kernel]);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreatePipelineLayout", result);
+    }
+    return Done{};
+}
+
+Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& variant) const {
+    const KernelInfo& info = kernel_info(kernel);
+    VkShaderModuleCreateInfo module_info{};
+    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    const std::span<const std::uint32_t> spirv = info.words(reads_texels());
+    module_info.codeSize = spirv.size_bytes();
+    module_info.pCode = spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    VkResult result =
+        vk_.vkCreateShaderModule(device_.device, &module_info, device_.host_allocator, &module);
+    if (result != VK_SUCCESS) {
+        return vk_error("vkCreateShaderModule", result);
+    }
+    constexpr std::uint32_t kWord = sizeof(std::uint32_t);
+    const Tuning& tuning = choices_.tuning;
+    const std::array<std::uint32_t, 12> constants{info.per_slot ? tuning.slot_local_size
+                                                                : tuning.local_size,
+                                                  choices_.native_rounding ? VK_TRUE : VK_FALSE,
+                                                  variant.lanes_apart ? 1 : tuning.pool_block,
+                                                  choices_.counted_lanes,
+                                                  choices_.count_calls ? VK_TRUE : VK_FALSE,
+                                                  variant.dimension,
+                                                  variant.curved ? VK_TRUE : VK_FALSE,
+                                                  variant.adaptive ? VK_TRUE : VK_FALSE,
+                                                  variant.event_heap ? VK_TRUE : VK_FALSE,
+                                                  variant.several ? VK_TRUE : VK_FALSE,
+                                                  variant.trims ? VK_TRUE : VK_FALSE,
+                                                  variant.many_rows ? VK_TRUE : VK_FALSE};
+    const std::array<VkSpecializationMapEntry, 12> entries{{
+        {gpu::kSpecLocalSize, 0, kWord},
+        {gpu::kSpecNativeRounding, kWord, kWord},
+        {gpu::kSpecPoolBlock, 2 * kWord, kWord},
+        {gpu::kSpecCountedLanes, 3 * kWord, kWord},
+        {gpu::kSpecCountCalls, 4 * kWord, kWord},
+        {gpu::kSpecDimension, 5 * kWord, kWord},
+        {gpu::kSpecCurved, 6 * kWord, kWord},
+        {gpu::kSpecAdaptive, 7 * kWord, kWord},
+        {gpu::kSpecEventHeap, 8 * kWord, kWord},
+        {gpu::kSpecSeveral, 9 * kWord, kWord},
+        {gpu::kSpecTrims, 10 * kWord, kWord},
+        {gpu::kSpecManyRows, 11 * kWord, kWord},
+    }};
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
+                                              entries.data(), sizeof constants, constants.data()};
+    VkComputePipelineCreateInfo pipeline_info{};
+    pipeline_info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    if (device_.pipeline_statistics) {
+        pipeline_info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
+    }
+    pipeline_info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    pipeline_info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    pipeline_info.stage.module = module;
+    pipeline_info.stage.pName = "main";
+    pipeline_info.stage.pSpecializationInfo = &specialization;
+    pipeline_info.layout = layouts_[static_cast<std::size_t>(kernel)];
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    result = null_unless_success(
+        vk_.vkCreateComputePipelines(device_.device, device_.pipeline_cache, 1, &pipeline_info,
+                                     device_.host_allocator, &pipeline),
+        pipeline);
+    vk_.vkDestroyShaderModule(device_.device, module, device_.host_allocator);
+    if (result != VK_SUCCESS) {
+        Error error = vk_error("vkCreateComputePipelines", result);
+        error.message += std::string(" (kernel ") + info.name + ")";
+        return error;
+    }
+    name_object(vk_, device_.device, VK_OBJECT_TYPE_PIPELINE, pipeline,
+                (std::string("geodisk ") + info.name).c_str());
+    return pipeline;
+}
+
+} // namespace geodisk

@@ -1,0 +1,75 @@
+// The pipelines of a device, compiled when a job first needs them.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include <geodisk/sampler.hpp>
+
+#include "engine/kernels/kernel_table.hpp"
+#include "vk/dispatch.hpp"
+
+namespace geodisk {
+
+/// Null where a job has no use for the kernel.
+using KernelPipelines = std::array<VkPipeline, kKernels>;
+
+/// What the kernels of all jobs are specialized for.
+struct KernelChoices {
+    Tuning tuning; ///< All chosen.
+    bool native_rounding = false;
+    std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
+    bool count_calls = false;
+};
+
+/// Any number of threads may use it at a time.
+class Pipelines {
+  public:
+    Pipelines(const DeviceRefs& device, const DeviceTable& vk, const KernelChoices& choices)
+        : device_(device), vk_(vk), choices_(choices) {}
+    Pipelines(const Pipelines&) = delete;
+    Pipelines& operator=(const Pipelines&) = delete;
+    ~Pipelines();
+
+    /// Makes the layouts of all kernels and compiles those that every domain has.
+    Result<Done> create();
+    /// Those of a job, compiled unless they were before. They stay where they are.
+    Result<const KernelPipelines*> of(const KernelVariant& variant);
+    const KernelPipelines& common() const { return common_; }
+
+    VkDescriptorSetLayout set_layout(std::size_t kernel) const { return set_layouts_[kernel]; }
+    VkPipelineLayout layout(std::size_t kernel) const { return layouts_[kernel]; }
+    /// The device may be using them for ever: destroy none.
+    void abandon() { abandoned_ = true; }
+
+  private:
+    bool reads_texels() const { return choices_.tuning.reads == Reads::texels; }
+    bool is_used(Kernel kernel) const {
+        return kernel != Kernel::count_calls || choices_.count_calls;
+    }
+    Result<Done> create_layout(std::size_t kernel);
+    Result<VkPipeline> compile(Kernel kernel, const KernelVariant& variant) const;
+    /// Compiled unless it was before.
+    Result<VkPipeline> pipeline_of(Kernel kernel, const KernelVariant& variant);
+    /// Compiles the kernels that serve these domains alone.
+    Result<Done> compile_all(KernelPipelines& pipelines, const KernelVariant& variant);
+    /// Destroys those that no job has: a failed call keeps none.
+    void drop_unused();
+
+    DeviceRefs device_;
+    const DeviceTable& vk_;
+    KernelChoices choices_;
+    std::array<VkDescriptorSetLayout, kKernels> set_layouts_{};
+    std::array<VkPipelineLayout, kKernels> layouts_{};
+    KernelPipelines common_{};
+    std::mutex mutex_;                                                ///< Of what follows.
+    std::map<std::pair<Kernel, KernelVariant>, VkPipeline> compiled_; ///< KernelVariant::of.
+    std::map<KernelVariant, KernelPipelines> own_;                    ///< Out of those.
+    std::atomic<bool> abandoned_ = false;
+};
+
+} // namespace geodisk

@@ -1,0 +1,293 @@
+#include "geodisk/frame_sampler.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/job/sampler_impl.hpp"
+#include "engine/run/frame_memory.hpp"
+#include "engine/run/runner_impl.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+#include "vk/barriers.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr std::uint32_t kMostFrames = 16;
+constexpr SyncScope kCopies{VK_PIPELINE_STAGE_TRANSFER_BIT,
+                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
+
+Result<Done> check_options(const FrameSamplerOptions& options) {
+    if (options.frames == 0 || options.frames > kMostFrames) {
+        return invalid("FrameSamplerOptions::frames is " + std::to_string(options.frames) +
+                       ", not from 1 to " + std::to_string(kMostFrames));
+    }
+    if (options.dispatches == 0 || options.rounds == 0 || options.vertices_each == 0) {
+        return invalid("FrameSamplerOptions::dispatches, rounds and vertices_each must not be 0");
+    }
+    if (options.readers.stages == 0) {
+        return invalid("FrameSamplerOptions::readers has no stage");
+    }
+    return Done{};
+}
+
+} // namespace
+
+struct FrameSampler::Impl {
+    struct Retired {
+        std::unique_ptr<FrameMemory> memory;
+        std::uint64_t calls; ///< How many there were when the last frame that uses it was recorded.
+    };
+
+    std::shared_ptr<const Sampler> sampler;
+    const Domain& domain;
+    FrameSamplerOptions options;
+    FrameMesh mesh;
+    std::optional<std::uint64_t> seed; ///< Another than the domain's.
+
+    std::unique_ptr<FrameMemory> now;
+    std::vector<Retired> retired;
+    std::uint64_t calls = 0;      ///< Of record_next().
+    std::uint64_t first_call = 0; ///< The one that uploaded `now`.
+    bool is_uploaded = false;     ///< `now` is.
+    bool is_staged = true;        ///< What `now` has staged is still there.
+    std::uint32_t ready = 0;
+    bool is_complete = false;
+
+    Impl(std::shared_ptr<const Sampler> with, const Domain& of, const FrameSamplerOptions& given)
+        : sampler(std::move(with)), domain(of), options(given) {}
+
+    const Sampler::Impl& engine() const { return Sampler::Impl::of(*sampler); }
+
+    /// Takes the place of the memory at hand. Sampling begins again.
+    Result<Done> replace(const RunPlan& plan);
+    /// Records the next part, where the command buffer of `lag` calls ago has completed.
+    Result<bool> record_next(VkCommandBuffer commands, std::uint32_t lag);
+    Result<Done> record_work(VkCommandBuffer commands, const Advice& advice);
+    /// What comes next by what the device last said, in larger memory where it takes that.
+    Result<Advice> look(std::uint32_t lag);
+    /// Frees what no frame uses any more.
+    void free_unused(std::uint32_t lag);
+};
+
+Result<Done> FrameSampler::Impl::replace(const RunPlan& plan) {
+    auto made = FrameMemory::create(*sampler, domain, mesh, plan, options);
+    if (!made) {
+        return made.error();
+    }
+    if (now) {
+        retired.push_back({std::move(now), calls});
+    }
+    now = std::move(*made);
+    if (seed) {
+        now->job().set_seed(*seed);
+    }
+    is_uploaded = false;
+    is_staged = true;
+    is_complete = false;
+    ready = 0;
+    return Done{};
+}
+
+void FrameSampler::Impl::free_unused(std::uint32_t lag) {
+    std::erase_if(retired, [&](const Retired& old) { return calls - old.calls >= lag; });
+    if (is_staged && is_uploaded && calls - first_call >= lag) {
+        now->free_staging();
+        is_staged = false;
+    }
+}
+
+Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
+    gpu::ControlRec control{}; // Says nothing.
+    if (is_uploaded && calls - first_call >= lag) {
+        control = now->control(static_cast<std::uint32_t>((calls - lag) % options.frames));
+    }
+    const auto advice = now->job().advance(control);
+    const RunPlan& before = now->plan();
+    RunPlan plan = before;
+    if (!advice) {
+        if (advice.error().status != Status::workspace_too_small) {
+            return advice;
+        }
+        options.pool_bytes *= 2;
+        const auto larger = sampler->plan_run(domain, options.pool_bytes);
+        if (!larger) {
+            return larger.error();
+        }
+        if (larger->pool_bytes() <= before.pool_bytes()) { // The device binds no more.
+            return advice;
+        }
+        plan = *larger;
+        plan.error_bound = std::max(plan.error_bound, before.error_bound);
+        plan.sample_capacity = std::max(plan.sample_capacity, before.sample_capacity);
+    } else if (advice->next == Next::larger_samples || advice->next == Next::start_over) {
+        plan.error_bound = advice->plan.error_bound;
+        plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
+    } else {
+        ready = advice->ready;
+        return advice;
+    }
+    if (auto replaced = replace(plan); !replaced) {
+        return replaced.error();
+    }
+    return now->job().advance({});
+}
+
+Result<Done> FrameSampler::Impl::record_work(VkCommandBuffer commands, const Advice& advice) {
+    Job& job = now->job();
+    switch (advice.next) {
+    case Next::begin:
+        if (!sampler->record_begin(commands, job, options.dispatches)) {
+            return Done{}; // There is nothing to put in order yet.
+        }
+        break;
+    case Next::larger_pool: // Within the pool there is: fewer disks at a time, with more each.
+        if (auto set = job.set_plan(advice.plan); !set) {
+            return set;
+        }
+        sampler->record_rewind(commands, job);
+        break;
+    default:
+        sampler->record_rounds(commands, job, options.rounds);
+        break;
+    }
+    sampler->record_finish(commands, job);
+    return now->placement().record(commands, job);
+}
+
+Result<bool> FrameSampler::Impl::record_next(VkCommandBuffer commands, std::uint32_t lag) {
+    free_unused(lag);
+    if (is_complete) {
+        ++calls;
+        return true;
+    }
+    const auto advice = look(lag);
+    if (!advice) {
+        return advice.error();
+    }
+    if (advice->next == Next::complete) {
+        is_complete = true;
+        ++calls;
+        return true;
+    }
+    const DeviceTable& vk = engine().vk;
+    const auto barrier = [&](SyncScope from, SyncScope to) {
+        record_barrier(vk, commands, from.stages, from.access, to.stages, to.access);
+    };
+    barrier({options.readers.stages | kCopies.stages, kCopies.access}, Sampler::kFirstUse);
+    if (!is_uploaded) {
+        now->record_upload(vk, commands);
+        is_uploaded = true;
+        first_call = calls;
+        barrier(kCopies, {Sampler::kFirstUse.stages | options.readers.stages,
+                          Sampler::kFirstUse.access | options.readers.access});
+    }
+    if (auto recorded = record_work(commands, *advice); !recorded) {
+        return recorded.error();
+    }
+    barrier(Sampler::kLastUse,
+            {kCopies.stages | options.readers.stages, kCopies.access | options.readers.access});
+    now->record_control(vk, commands, static_cast<std::uint32_t>(calls % options.frames));
+    barrier_transfer_to_host(vk, commands);
+    ++calls;
+    return false;
+}
+
+Result<FrameSampler> FrameSampler::create(std::shared_ptr<const Sampler> sampler,
+                                          const Domain& domain, std::span<const MeshView> meshes,
+                                          const FrameSamplerOptions& options) noexcept {
+    return guarded([&]() -> Result<FrameSampler> {
+        if (!sampler) {
+            return invalid("the sampler is null");
+        }
+        if (auto checked = check_options(options); !checked) {
+            return checked.error();
+        }
+        auto impl = std::make_unique<Impl>(std::move(sampler), domain, options);
+        auto mesh = FrameMesh::copy(domain, meshes);
+        if (!mesh) {
+            return mesh.error();
+        }
+        impl->mesh = std::move(*mesh);
+        const auto plan = impl->sampler->plan_run(domain, options.pool_bytes);
+        if (!plan) {
+            return plan.error();
+        }
+        if (auto made = impl->replace(*plan); !made) {
+            return made.error();
+        }
+        return FrameSampler(std::move(impl));
+    });
+}
+
+Result<FrameSampler> FrameSampler::create(std::shared_ptr<const Sampler> sampler,
+                                          const Domain& domain, const MeshView& mesh,
+                                          const FrameSamplerOptions& options) noexcept {
+    return create(std::move(sampler), domain, {&mesh, 1}, options);
+}
+
+FrameSampler::FrameSampler(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+FrameSampler::FrameSampler(FrameSampler&&) noexcept = default;
+FrameSampler& FrameSampler::operator=(FrameSampler&&) noexcept = default;
+FrameSampler::~FrameSampler() = default;
+
+Result<bool> FrameSampler::record(VkCommandBuffer commands) noexcept {
+    return guarded([&]() -> Result<bool> {
+        if (commands == VK_NULL_HANDLE) {
+            return invalid("the command buffer is null");
+        }
+        return impl_->record_next(commands, impl_->options.frames);
+    });
+}
+
+Result<Done> FrameSampler::sample_and_wait(Runner& runner,
+                                           const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<Done> {
+        Runner::Impl& with = Runner::Impl::of(runner);
+        if (with.run) {
+            return invalid("a run of the runner is in progress");
+        }
+        while (!impl_->is_complete) {
+            Result<bool> recorded = false;
+            const auto submitted = with.submitter->run(
+                [&](VkCommandBuffer commands) { recorded = impl_->record_next(commands, 1); });
+            if (!submitted) {
+                return submitted.error();
+            }
+            if (!recorded) {
+                return recorded.error();
+            }
+            const auto all = static_cast<std::uint32_t>(impl_->domain.stages().candidates());
+            if (progress && !progress({0, all, impl_->ready, 0, 0})) {
+                return Error{Status::cancelled, "cancelled"};
+            }
+        }
+        return Done{};
+    });
+}
+
+FrameSamples FrameSampler::samples() const noexcept {
+    FrameSamples samples = impl_->now->samples();
+    samples.ready = impl_->ready;
+    samples.is_complete = impl_->is_complete;
+    return samples;
+}
+
+void FrameSampler::set_seed(std::uint64_t seed) noexcept {
+    impl_->seed = seed;
+    impl_->now->job().set_seed(seed);
+    impl_->is_complete = false;
+    impl_->ready = 0;
+}
+
+std::uint64_t FrameSampler::device_bytes() const noexcept {
+    std::uint64_t bytes = impl_->now->device_bytes();
+    for (const Impl::Retired& old : impl_->retired) {
+        bytes += old.memory->device_bytes();
+    }
+    return bytes;
+}
+
+} // namespace geodisk

@@ -1,0 +1,42 @@
+#include "engine/run/run_result.hpp"
+
+#include <algorithm>
+
+namespace geodisk {
+
+void take_counts(const gpu::ControlRec& control, RunReport& report) {
+    report.iterations = control.iterations;
+    report.disks = control.disks;
+    report.windows = wide(control.windows_low, control.windows_high);
+    report.tested = wide(control.tested_low, control.tested_high);
+    report.most_waiting = control.most_waiting;
+    report.longest_chain = control.longest_chain;
+    report.most_vertices = control.most_vertices;
+    report.most_conflicts = control.most_conflicts;
+    report.trips = wide(control.trips_low, control.trips_high);
+    report.lane_trips = wide(control.lane_trips_low, control.lane_trips_high);
+    std::copy(std::begin(control.call_bins), std::end(control.call_bins),
+              report.calls.candidates.begin());
+    report.calls.calls = wide(control.calls_low, control.calls_high);
+}
+
+SampleSet to_set(const Domain::Impl& domain, std::span<const gpu::SampleRec> records,
+                 const RunReport& report) {
+    SampleSet set{{}, {}, report};
+    const std::size_t n = domain.dimension;
+    set.samples.reserve(n == 0 ? records.size() : 0);
+    set.points.resize(n * records.size());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const gpu::SampleRec& record = records[i];
+        if (n > 0) {
+            domain.coordinates(record, std::span(set.points).subspan(n * i, n));
+        } else {
+            set.samples.push_back(
+                {record.face,
+                 {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
+        }
+    }
+    return set;
+}
+
+} // namespace geodisk

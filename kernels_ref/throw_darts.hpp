@@ -1,0 +1,29 @@
+// Sequential dart throwing (paper section 4): what every parallel run must return, and the
+// yardstick for speed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/domain/tolerances.hpp"
+#include "geodisk/params.hpp"
+#include "kernels/detect.hpp"
+#include "kernels/pool.hpp"
+
+namespace geodisk::ref {
+
+struct RunResult {
+    std::vector<std::uint32_t> ranks; ///< Accepted candidates of the pool, ascending.
+    std::uint64_t windows = 0;
+    std::uint64_t tested = 0;
+    std::uint32_t most_waiting = 0;
+    std::uint32_t longest_chain = 0;
+};
+
+/// Walks the ranks upwards and accepts each candidate that no accepted one rejected, until the pool
+/// is used up or `most` are accepted.
+template <class Real>
+RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
+                      const Tolerances& tolerances, std::uint32_t most = kMostCandidates);
+
+} // namespace geodisk::ref
