@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "baselines/disk_query.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "geodisk/mesh.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "geodisk/params.hpp"
 #include "geodisk/uninitialized.hpp"
 #include "kernels/dart_order.hpp"
 #include "kernels/poisson.hpp"
@@ -20,9 +19,10 @@ constexpr std::uint32_t kCellCounter = 0xB0C5;
 constexpr std::uint32_t kCountCounter = 0xffffffff;
 /// Sides shorter than a step of the unit count as that.
 constexpr double kShortestSide = 0x1p-31;
-constexpr double kMinimumPool = 64;
 /// Samples to a box of side D far from any border, by dimension (host/docs/boxes.md).
 constexpr double kDensities[gpu::kMostAxes] = {0.726, 0.601, 0.540, 0.523, 0.545, 0.597};
+/// By how many distances an open box seems wider at each end.
+constexpr double kOverhangs[gpu::kMostAxes] = {0.281, 0.295, 0.280, 0.262, 0.245, 0.237};
 
 /// A width or length as 32 bits hold it.
 std::uint32_t wrapped(std::uint64_t steps) {
@@ -67,17 +67,22 @@ double volume_of(const BoxParams& box) {
 
 /// Samples expected per unit of volume. More than their density in short boxes, whose borders
 /// hold more; by a power of two, so that boxes of about one size have the same candidates.
-double sample_density(BoxParams box, double volume) {
-    box.min_distance = box_unit(box);
-    const double density = kDensities[box.extents.size() - 1];
-    const double more = std::log2(expected_count(box) / (density * volume));
+double sample_density(const BoxParams& box, double volume) {
+    const std::size_t axis = box.extents.size() - 1;
+    const double density = kDensities[axis];
+    const double overhang = box.is_periodic ? 0 : 2 * kOverhangs[axis];
+    double samples = density;
+    for (const double side : box.extents) {
+        samples *= side / box_unit(box) + overhang;
+    }
+    const double more = std::log2(std::max(1.0, samples) / (density * volume));
     return density * std::exp2(std::max(0.0, std::round(more)));
 }
 
 /// How often the cells double their width, so that 2^23 darts, five for each sample of theirs, are
 /// enough for all of them.
 int cell_doublings(const BoxParams& box) {
-    const Stages stages = stages_in(box);
+    const StageRule stages = stages_in(box);
     int halvings = 0;
     while (stages.throws != 0 && std::ldexp(5 * stages.samples, -halvings) > 0x1p23) {
         ++halvings;
@@ -219,10 +224,9 @@ std::uint64_t BoxLattice::cell_count() const {
     return count;
 }
 
-Stages stages_in(const BoxParams& box) {
+StageRule stages_in(const BoxParams& box) {
     const double volume = volume_of(box);
-    const double samples = sample_density(box, volume) * volume;
-    return {samples, std::max(box.pool_ratio, kMinimumPool / samples), box.throws};
+    return StageRule::of(sample_density(box, volume) * volume, box.pool_ratio, box.throws);
 }
 
 float stage_intensity(const BoxParams& box, std::uint32_t stage) {
@@ -232,7 +236,7 @@ float stage_intensity(const BoxParams& box, std::uint32_t stage) {
 
 BoxCandidates draw_in_box(const BoxParams& box) {
     const BoxLattice lattice(box);
-    const Stages stages = stages_in(box);
+    const StageRule stages = stages_in(box);
     BoxCandidates candidates;
     const bool is_pool = stages.throws == 0;
     for (std::uint32_t stage = 0;

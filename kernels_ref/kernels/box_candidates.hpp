@@ -7,6 +7,7 @@
 
 #include "constants.h"
 #include "geodisk/box.hpp"
+#include "lib/stages.hpp"
 
 namespace geodisk::ref {
 
@@ -47,7 +48,7 @@ struct BoxLattice {
 double box_unit(const BoxParams& box);
 
 /// The stages of a job in a box, and the candidates that each expects per unit of volume.
-Stages stages_in(const BoxParams& box);
+StageRule stages_in(const BoxParams& box);
 float stage_intensity(const BoxParams& box, std::uint32_t stage);
 
 /// Candidates by rank, and their order words.

@@ -5,11 +5,9 @@
 #include <cmath>
 
 #include "constants.h"
-#include "engine/domain/stages.hpp"
 #include "kernels/poisson.hpp"
 #include "lib/rng.hpp"
 #include "lib/scalar.hpp"
-#include "mesh/candidate_share.hpp"
 
 namespace geodisk::ref {
 namespace {
@@ -69,10 +67,18 @@ bool propose_by_factors(Draw& draw, const FaceRadii<Real>& radii, float fraction
     return fraction * (g * g) < spread * spread * spread;
 }
 
+/// The share of candidates that gives this share of the samples that fit: those of a nearly full
+/// surface take far more.
+float share_of_candidates(float share) {
+    const float room = 1.14f - share;
+    const float slope = 0.06517f + share * (-0.0582f + share * 0.01263f);
+    return ratio(share * slope, room * room);
+}
+
 /// How dense candidates are at a point of this density and packing.
 float thinned(float density, float packing) {
     const float share = ratio(density, packing);
-    return packing * (share < 1 ? candidates_for_share(share, ratio<float>) : 1.0f);
+    return packing * (share < 1 ? share_of_candidates(share) : 1.0f);
 }
 
 template <class Real>
@@ -114,7 +120,7 @@ std::uint32_t key_of(const SampleParams& params, std::uint32_t face) {
 }
 
 template <class Real>
-float area_of(const Surface<Real>& surface, std::uint32_t face) {
+float face_area(const Surface<Real>& surface, std::uint32_t face) {
     const Edge<Real>& edge = surface.edges[std::size_t{3} * face];
     const Edge<Real>& previous = surface.edges[std::size_t{3} * face + 2];
     const float apex_y = static_cast<float>(previous.length) * static_cast<float>(edge.sine);
@@ -124,12 +130,12 @@ float area_of(const Surface<Real>& surface, std::uint32_t face) {
 } // namespace
 
 template <class Real>
-std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface, const PreparedMesh& mesh,
+std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface,
                                             const SampleParams& params, std::uint32_t stage) {
-    const float intensity = stage_intensity(mesh, params, stage);
+    const float intensity = surface.frame.intensity(stage);
     std::vector<std::uint32_t> counts(surface.face_count());
     for (std::uint32_t face = 0; face < surface.face_count(); ++face) {
-        float mean = intensity * area_of(surface, face);
+        float mean = intensity * face_area(surface, face);
         if (params.radii != nullptr) {
             mean = mean * params.radii->densities()[face];
         }
@@ -153,12 +159,12 @@ void draw_candidates(const Surface<Real>& surface, const SampleParams& params, s
     }
 }
 
-template std::vector<std::uint32_t> count_candidates(const Surface<float>&, const PreparedMesh&,
-                                                     const SampleParams&, std::uint32_t);
+template std::vector<std::uint32_t> count_candidates(const Surface<float>&, const SampleParams&,
+                                                     std::uint32_t);
 template void draw_candidates(const Surface<float>&, const SampleParams&, std::uint32_t,
                               std::uint32_t, std::span<FacePoint<float>>, std::span<std::uint32_t>);
-template std::vector<std::uint32_t> count_candidates(const Surface<double>&, const PreparedMesh&,
-                                                     const SampleParams&, std::uint32_t);
+template std::vector<std::uint32_t> count_candidates(const Surface<double>&, const SampleParams&,
+                                                     std::uint32_t);
 template void draw_candidates(const Surface<double>&, const SampleParams&, std::uint32_t,
                               std::uint32_t, std::span<FacePoint<double>>,
                               std::span<std::uint32_t>);

@@ -11,9 +11,9 @@
 
 namespace geodisk::ref {
 
-/// How many candidates each face has in a stage of a job on `mesh`, whose surface is `surface`.
+/// How many candidates each face has in a stage of a job on the surface.
 template <class Real>
-std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface, const PreparedMesh& mesh,
+std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface,
                                             const SampleParams& params, std::uint32_t stage);
 
 /// Candidates 0, 1, ... of a face in a stage, and their priorities of 28 bits: uniform by the

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "constants.h"
-#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/trim.hpp"
 #include "kernels/waiting.hpp"
+#include "lib/frame.hpp"
 #include "lib/scalar.hpp"
 #include "lib/surface.hpp"
 
@@ -193,7 +193,7 @@ class Detector {
     /// path does not, where faces are straight. One of a long chain remembers one face, that in
     /// which its chain was last a power of two, and so finds every cycle (Brent 1980).
     bool turns_back(std::uint32_t h, const Window& window) const {
-        return surface_.straight_faces && h / 3 == window.remembered / 3;
+        return surface_.frame.straight_faces && h / 3 == window.remembered / 3;
     }
 
     /// What a window with this chain remembers once it has left the face of h, where it began or
@@ -235,7 +235,7 @@ class Detector {
     }
 
     bool shared_by_many(std::uint32_t e) const {
-        if (surface_.splits_once) {
+        if (surface_.frame.splits_once) {
             return false; // No edge of the mesh is.
         }
         const std::uint32_t next = around_half_edge(surface_.edges[e].around);
@@ -427,7 +427,7 @@ class Detector {
     void split_once(std::uint32_t apex, std::uint32_t h, Real crossing, Real distance,
                     bool& to_left, bool& to_right) const {
         const VertexNote& note = vertices_[apex];
-        if (!surface_.splits_once || note.generation != generation_ || note.through != h ||
+        if (!surface_.frame.splits_once || note.generation != generation_ || note.through != h ||
             !to_left || !to_right || !(distance > note.distance + margin_)) {
             return;
         }

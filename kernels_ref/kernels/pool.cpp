@@ -5,7 +5,6 @@
 #include <span>
 #include <tuple>
 
-#include "engine/domain/stages.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/dart_order.hpp"
 
@@ -182,25 +181,24 @@ std::vector<std::uint32_t> Pool<Real>::ranks() const {
 }
 
 template <class Real>
-Pool<Real> draw_stages(const Surface<Real>& surface, const PreparedMesh& mesh,
-                       const SampleParams& params, std::uint32_t first, std::uint32_t stages) {
+Pool<Real> draw_stages(const Surface<Real>& surface, const SampleParams& params,
+                       std::uint32_t first, std::uint32_t stages) {
     Counts counts;
     for (std::uint32_t stage = first; stage < first + stages; ++stage) {
-        counts.push_back(count_candidates(surface, mesh, params, stage));
+        counts.push_back(count_candidates(surface, params, stage));
     }
     return Drawing(surface, params, first, counts).draw();
 }
 
 template <class Real>
-Pool<Real> draw_pool(const Surface<Real>& surface, const PreparedMesh& mesh,
-                     const SampleParams& params) {
+Pool<Real> draw_pool(const Surface<Real>& surface, const SampleParams& params) {
     if (params.throws == 0) {
-        return draw_stages(surface, mesh, params, 0, stages_of(mesh, params).pool_stages());
+        return draw_stages(surface, params, 0, surface.frame.stages.pool_stages());
     }
     Counts counts;
     for (std::size_t darts = 0; darts < params.throws;) {
         const auto stage = static_cast<std::uint32_t>(counts.size());
-        counts.push_back(count_candidates(surface, mesh, params, stage));
+        counts.push_back(count_candidates(surface, params, stage));
         darts = std::accumulate(counts.back().begin(), counts.back().end(), darts);
     }
     Pool<Real> pool = Drawing(surface, params, 0, counts).draw();
@@ -210,9 +208,9 @@ Pool<Real> draw_pool(const Surface<Real>& surface, const PreparedMesh& mesh,
 
 #define GEODISK_POOL_OF(Real)                                                                      \
     template struct Pool<Real>;                                                                    \
-    template Pool<Real> draw_stages(const Surface<Real>&, const PreparedMesh&,                     \
-                                    const SampleParams&, std::uint32_t, std::uint32_t);            \
-    template Pool<Real> draw_pool(const Surface<Real>&, const PreparedMesh&, const SampleParams&);
+    template Pool<Real> draw_stages(const Surface<Real>&, const SampleParams&, std::uint32_t,      \
+                                    std::uint32_t);                                                \
+    template Pool<Real> draw_pool(const Surface<Real>&, const SampleParams&);
 GEODISK_POOL_OF(float)
 GEODISK_POOL_OF(double)
 #undef GEODISK_POOL_OF

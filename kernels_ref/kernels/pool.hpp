@@ -25,15 +25,14 @@ struct Pool {
     std::vector<std::uint32_t> ranks() const;
 };
 
-/// All candidates of `stages` stages of a job on `mesh`, from `first` on. `surface` is that of the
-/// mesh and the parameters.
+/// All candidates of `stages` stages of a job, from `first` on. `surface` is that of the mesh and
+/// the parameters.
 template <class Real>
-Pool<Real> draw_stages(const Surface<Real>& surface, const PreparedMesh& mesh,
-                       const SampleParams& params, std::uint32_t first, std::uint32_t stages);
+Pool<Real> draw_stages(const Surface<Real>& surface, const SampleParams& params,
+                       std::uint32_t first, std::uint32_t stages);
 
 /// All candidates of a job: the stages of a pool, or its first `params.throws` darts.
 template <class Real>
-Pool<Real> draw_pool(const Surface<Real>& surface, const PreparedMesh& mesh,
-                     const SampleParams& params);
+Pool<Real> draw_pool(const Surface<Real>& surface, const SampleParams& params);
 
 } // namespace geodisk::ref

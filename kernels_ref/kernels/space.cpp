@@ -51,7 +51,7 @@ SpacePoints draw_in_space(const MeshView& view, const PreparedMesh& mesh,
     points.box.min_distance = params.min_distance;
     points.box.seed = params.seed;
     const Surface<double> surface(mesh, params);
-    const auto candidates = draw_pool(surface, mesh, params).by_rank();
+    const auto candidates = draw_pool(surface, params).by_rank();
     points.by_rank.resize(candidates.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto coordinate = [&](std::size_t corner) {

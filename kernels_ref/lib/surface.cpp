@@ -4,25 +4,46 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/domain/stages.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "lib/scalar.hpp"
 
 namespace geodisk::ref {
 
+namespace {
+
+/// Whether the candidates of a job have 24 others or fewer in their face, in the mean.
+bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const StageRule& rule) {
+    constexpr double kFew = 24;
+    const auto weight_of = [&](std::uint32_t face) {
+        const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
+        return area_of(mesh, face) * density;
+    };
+    double sum = 0, squares = 0;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        const double weight = weight_of(face);
+        sum += weight;
+        squares += weight * weight;
+    }
+    const double candidates = rule.throws != 0 ? rule.throws : rule.ratio * rule.samples;
+    return squares / sum * (candidates / sum) <= kFew;
+}
+
+} // namespace
+
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
-    : unit(working_distance(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()),
-      splits_once(mesh.statistics().nonmanifold_edges == 0),
-      straight_faces(mesh.statistics().diagonal > 0) {
+    : frame(ref::frame_of(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()) {
     place_edges(mesh);
 }
 
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params)
-    : unit(working_distance(mesh, params)), fans(mesh.fans()), corners(mesh.corners()),
-      splits_once(mesh.statistics().nonmanifold_edges == 0),
-      straight_faces(mesh.statistics().diagonal > 0), one_cell_each(has_small_faces(mesh, params)) {
+    : Surface(mesh, params, ref::frame_of(mesh, params)) {}
+
+template <class Real>
+Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params,
+                       const Frame& frame_of_whole)
+    : frame(frame_of_whole), fans(mesh.fans()), corners(mesh.corners()),
+      one_cell_each(has_small_faces(mesh, params, frame.stages)) {
     place_edges(mesh);
     if (params.radii == nullptr) {
         return;
@@ -55,7 +76,7 @@ template <class Real>
 void Surface<Real>::place_edges(const PreparedMesh& mesh) {
     edges.reserve(mesh.half_edges().size());
     const auto scaled = [this](double length) {
-        const double x = length / unit;
+        const double x = length / frame.unit;
         return static_cast<Real>(x < kSmallestOffset && x > -kSmallestOffset ? 0.0 : x);
     };
     const auto direction = [](double x) {

@@ -1,4 +1,4 @@
-// The prepared mesh in units of the working distance, in the precision of the twin.
+// The prepared mesh in units of its job's frame, in the precision of the twin.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "constants.h"
 #include "geodisk/mesh.hpp"
 #include "geodisk/params.hpp"
+#include "lib/frame.hpp"
 #include "lib/scalar.hpp"
 
 namespace geodisk::ref {
@@ -47,24 +48,22 @@ struct FacePoint {
 /// Owns the scaled half-edges; borrows fans and corners from the PreparedMesh.
 template <class Real>
 struct Surface {
-    double unit; ///< In which lengths are measured: working_distance() of the minimum distance.
+    Frame frame; ///< Its unit is that of all lengths.
     std::vector<Edge<Real>> edges;
     std::span<const VertexFan> fans;
     std::span<const std::uint32_t> corners;
-    /// No edge has three faces. Only then a vertex lies between any two ways into an edge, and the
-    /// order of their rays tells which window serves which side ("one angle, one split").
-    bool splits_once;
-    /// Faces are triangles of a space, so that within a face no way is shorter than the straight
-    /// one: a shortest path enters none twice.
-    bool straight_faces;
-    /// Whatever the size of faces, see has_small_faces().
+    /// Whether each face has one cell for its candidates, whatever its size. Disks then test more
+    /// of them.
     bool one_cell_each = false;
-    /// By face, where radii vary, and in units of `unit`; else empty, and all radii are half of it.
+    /// By face, where radii vary, and in units of the frame; else empty, and all radii are half of
+    /// it.
     std::vector<FaceRadii<Real>> radii;
 
     Surface(const PreparedMesh& mesh, double min_distance);
     /// The surface of a run, with its radii.
     Surface(const PreparedMesh& mesh, const SampleParams& params);
+    /// The same in the frame of a mesh of which this one is a part.
+    Surface(const PreparedMesh& mesh, const SampleParams& params, const Frame& frame_of_whole);
 
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(edges.size() / 3); }
     bool is_adaptive() const { return !radii.empty(); }

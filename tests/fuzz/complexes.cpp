@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/domain/tolerances.hpp"
 #include "fuzz/complex_input.hpp"
+#include "lib/frame.hpp"
 #include "support/geodesic_query.hpp"
 
 #define DOCTEST_CONFIG_IMPLEMENT
@@ -53,12 +53,13 @@ void check(const TestMesh& mesh, const PreparedMesh& surface, const std::vector<
     if (!(surface.statistics().longest_edge > 0) || !(reach < 1e6)) {
         return;
     }
-    GeodesicQuery<double> exact(surface, reach, points, first_tolerances(surface, reach));
-    GeodesicQuery<float> twin(surface, reach, points, first_tolerances(surface, reach));
-    GeodesicQuery<float> trimming(surface, reach, points, first_tolerances(surface, reach));
+    GeodesicQuery<double> exact(surface, reach, points, ref::frame_of(surface, reach).tolerances());
+    GeodesicQuery<float> twin(surface, reach, points, ref::frame_of(surface, reach).tolerances());
+    GeodesicQuery<float> trimming(surface, reach, points,
+                                  ref::frame_of(surface, reach).tolerances());
     trimming.trim_all();
-    const ErrorModel model(surface, reach);
-    const double error = (kExact + model.guard_for(first_error(surface, reach))) * reach;
+    const ref::Frame model = ref::frame_of(surface, reach);
+    const double error = (kExact + model.guard_for(model.first_error())) * reach;
     std::vector<std::vector<double>> d;
     for (const Point& source : points) {
         d.push_back(exact.from(source));
@@ -66,7 +67,7 @@ void check(const TestMesh& mesh, const PreparedMesh& surface, const std::vector<
             const std::vector<double> t = query->from(source);
             const double chain_error = model.error_of(query->count().chain);
             const double guard =
-                model.guard_for(std::max(first_error(surface, reach), chain_error)) * reach;
+                model.guard_for(std::max(model.first_error(), chain_error)) * reach;
             for (std::size_t i = 0; i < points.size(); ++i) {
                 if (d.back()[i] < reach - error - guard || t[i] < reach - error - guard) {
                     require(std::abs(t[i] - d.back()[i]) <= guard + error,

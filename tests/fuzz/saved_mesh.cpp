@@ -6,7 +6,7 @@
 
 #include <geodisk/mesh.hpp>
 
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "support/geodesic_query.hpp"
 
 #define DOCTEST_CONFIG_IMPLEMENT
@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (mesh) {
         const double reach = mesh->statistics().longest_edge;
         const std::vector<Point> targets{face_point(mesh->face_count() - 1, 0.3, 0.3)};
-        GeodesicQuery<float>(*mesh, reach, targets, first_tolerances(*mesh, reach))
+        GeodesicQuery<float>(*mesh, reach, targets, ref::frame_of(*mesh, reach).tolerances())
             .from(face_point(0, 0.3, 0.3));
     }
     return 0;

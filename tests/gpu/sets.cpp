@@ -1,8 +1,8 @@
 #include "sets.hpp"
 
 #include "device_run.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
+#include "lib/frame.hpp"
 #include "throw_darts.hpp"
 
 namespace geodisk::test {
@@ -12,9 +12,9 @@ template <class Real>
 Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
     expect(pool_size(mesh, params));
     const ref::Surface<Real> surface(mesh, params);
-    const ref::Pool<Real> pool = ref::draw_pool(surface, mesh, params);
+    const ref::Pool<Real> pool = ref::draw_pool(surface, params);
     const ref::RunResult result =
-        ref::throw_darts(surface, pool, ErrorModel(mesh, params).tolerances(error_bound),
+        ref::throw_darts(surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
                          params.stop_count != 0 ? params.stop_count : kMostCandidates);
     Points points;
     for (const std::uint32_t rank : result.ranks) {

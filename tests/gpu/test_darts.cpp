@@ -8,7 +8,7 @@
 
 #include "constants.h"
 #include "device_run.hpp"
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
@@ -119,7 +119,7 @@ TEST_SUITE("darts") {
                 CHECK(points_of(set) == want);
                 darts.push_back(set.report.candidates);
             }
-            CHECK(want == double_set(mesh, params, first_error(mesh, params)));
+            CHECK(want == double_set(mesh, params, ref::frame_of(mesh, params).first_error()));
             // Just so many darts it takes, and none less.
             CHECK(darts == std::vector<std::uint32_t>(ways.size(), darts[0]));
             CHECK(sample(mesh, darts_for(mesh, 400, darts[0])).samples.size() == count);

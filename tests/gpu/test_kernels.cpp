@@ -33,10 +33,10 @@ struct Twin {
 
     Twin(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
          std::uint32_t first, std::uint32_t count)
-        : surface(mesh, params), pool(ref::draw_stages(surface, mesh, params, first, count)),
+        : surface(mesh, params), pool(ref::draw_stages(surface, params, first, count)),
           ranks(pool.ranks()),
-          detector(surface, pool.bins, ErrorModel(mesh, params).tolerances(error_bound),
-                   ErrorModel(mesh, params).tolerances(error_bound).limit),
+          detector(surface, pool.bins, ref::frame_of(mesh, params).tolerances(error_bound),
+                   ref::frame_of(mesh, params).tolerances(error_bound).limit),
           states(pool.size(), ref::kIdle) {}
 
     /// `conflicts` are those of higher rank, `above` the active ones of lower rank.

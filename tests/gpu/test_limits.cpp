@@ -6,7 +6,7 @@
 
 #include "constants.h"
 #include "device_run.hpp"
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
 
@@ -115,7 +115,7 @@ TEST_SUITE("limits") {
         options.plan.error_bound = 0x1p-30;
         const SampleSet set = sample(mesh, params, options);
         CHECK(set.report.plan.error_bound > 0x1p-30);
-        CHECK(ErrorModel(mesh, params).error_of(set.report.longest_chain) <=
+        CHECK(ref::frame_of(mesh, params).error_of(set.report.longest_chain) <=
               set.report.plan.error_bound);
         CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }

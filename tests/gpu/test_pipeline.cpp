@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "device_run.hpp"
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "sets.hpp"
 #include "support/device_abilities.hpp"
 #include "support/meshes.hpp"
@@ -20,7 +20,7 @@ namespace {
 SampleSet check_against_reference(const PreparedMesh& mesh, const SampleParams& params) {
     SampleSet set = sample(mesh, params);
     const double bound = set.report.plan.error_bound;
-    CHECK(ErrorModel(mesh, params).error_of(set.report.longest_chain) <= bound);
+    CHECK(ref::frame_of(mesh, params).error_of(set.report.longest_chain) <= bound);
     CHECK(points_of(set) == float_set(mesh, params, bound));
     if (points_of(set) != double_set(mesh, params, bound)) {
         const ReplayReport report = replay(mesh, params, bound);
@@ -146,9 +146,9 @@ TEST_SUITE("pipeline") {
         Runner runner = expect(Runner::create(context.device(), context.queue()));
         for (int i = 0; i < 2; ++i) { // Compiled, and as compiled before.
             CHECK(points_of(expect(runner.sample_and_wait(mesh, one))) ==
-                  float_set(mesh, one, first_error(mesh, one)));
+                  float_set(mesh, one, ref::frame_of(mesh, one).first_error()));
             CHECK(points_of(expect(runner.sample_and_wait(mesh, varying))) ==
-                  float_set(mesh, varying, first_error(mesh, varying)));
+                  float_set(mesh, varying, ref::frame_of(mesh, varying).first_error()));
         }
         const PreparedMesh other = prepared(builtin("icosphere", 3));
         const auto refused = pool_size(other, varying);

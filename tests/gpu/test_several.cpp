@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "device_run.hpp"
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "sets.hpp"
 #include "support/radius_fields.hpp"
 
@@ -39,7 +39,8 @@ void check_each_alone(const std::vector<SurfacePart>& parts) {
         CAPTURE(i);
         SampleParams params = parts[i].params;
         params.min_distance /= parts[i].scale;
-        CHECK(points[i] == float_set(*parts[i].mesh, params, first_error(*parts[i].mesh, params)));
+        CHECK(points[i] == float_set(*parts[i].mesh, params,
+                                     ref::frame_of(*parts[i].mesh, params).first_error()));
         CHECK(points[i] == points_of(sample(*parts[i].mesh, params)));
     }
 }

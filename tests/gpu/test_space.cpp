@@ -29,7 +29,7 @@ SampleSet sample_space(const TestMesh& mesh, const SampleParams& params, Metric 
 
 /// In dart order.
 std::vector<Point> candidates_of(const PreparedMesh& mesh, const SampleParams& params) {
-    return ref::draw_pool(ref::Surface<double>(mesh, params), mesh, params).by_rank();
+    return ref::draw_pool(ref::Surface<double>(mesh, params), params).by_rank();
 }
 
 Points points_at(const std::vector<Point>& candidates, const std::vector<std::uint32_t>& ranks) {

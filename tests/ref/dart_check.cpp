@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "support/oracle_geodesic.hpp"
 #include "throw_darts.hpp"
 
@@ -140,12 +140,12 @@ std::vector<Point> Darts::samples() const {
 template <class Real>
 Darts thrown(const PreparedMesh& mesh, const SampleParams& params) {
     const ref::Surface<Real> surface(mesh, params);
-    const ref::Pool<Real> pool = ref::draw_pool(surface, mesh, params);
+    const ref::Pool<Real> pool = ref::draw_pool(surface, params);
     Darts darts;
     darts.min_distance = params.min_distance;
     darts.pool = points_of(pool);
-    const ErrorModel model(mesh, params);
-    for (double bound = first_error(mesh, params);; bound *= 2) {
+    const ref::Frame model = ref::frame_of(mesh, params);
+    for (double bound = model.first_error();; bound *= 2) {
         darts.tolerances = model.tolerances(bound);
         ref::RunResult run =
             ref::throw_darts(surface, pool, darts.tolerances,

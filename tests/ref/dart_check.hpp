@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
+#include "lib/frame.hpp"
 #include "support/meshes.hpp"
 
 namespace geodisk::test {
@@ -13,7 +13,7 @@ namespace geodisk::test {
 /// A pool and what dart throwing accepted of it.
 struct Darts {
     double min_distance;
-    Tolerances tolerances;
+    ref::Tolerances tolerances;
     std::vector<Point> pool;          ///< In rank order.
     std::vector<std::uint32_t> ranks; ///< Accepted, ascending.
 

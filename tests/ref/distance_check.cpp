@@ -1,5 +1,5 @@
 #include "ref/distance_check.hpp"
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,8 +50,8 @@ void check_documented(const DistanceCase& c, const char* kind, const PreparedMes
                       const std::vector<double>& truth) {
     const std::vector<double> found = query.from(source);
     // A chain longer than provided widens the promise, as the program does.
-    const ErrorModel model(mesh, c.reach);
-    const double error = std::max(first_error(mesh, c.reach), model.error_of(query.count().chain));
+    const ref::Frame model = ref::frame_of(mesh, c.reach);
+    const double error = std::max(model.first_error(), model.error_of(query.count().chain));
     const double bound = model.guard_for(error) * c.reach;
     report(c, kind, source, worst_error(found, truth, c.reach, 3 * bound), bound);
 }
@@ -60,7 +60,7 @@ void check_documented(const DistanceCase& c, const char* kind, const PreparedMes
 
 void check_distances(const DistanceCase& c, const Truth& truth) {
     const PreparedMesh mesh = prepared(c.mesh);
-    const Tolerances documented = first_tolerances(mesh, c.reach);
+    const ref::Tolerances documented = ref::frame_of(mesh, c.reach).tolerances();
     GeodesicQuery<double> exact(mesh, c.reach, c.targets, tight_tolerances());
     GeodesicQuery<double> reference(mesh, c.reach, c.targets, documented);
     GeodesicQuery<float> twin(mesh, c.reach, c.targets, documented);

@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "ref/chi_square.hpp"
 #include "support/geodesic_query.hpp"
 #include "support/oracle_geodesic.hpp"
@@ -53,7 +53,7 @@ void check_density(const Case& c, std::uint32_t count, int parts) {
     SampleParams params = c.params(100, 5);
     params.throws = count;
     const ref::Surface<double> surface(c.surface, params);
-    const auto points = ref::draw_pool(surface, c.surface, params).by_rank();
+    const auto points = ref::draw_pool(surface, params).by_rank();
     const auto cells = static_cast<std::size_t>(parts) * static_cast<std::size_t>(parts);
     std::vector<double> drawn(c.surface.face_count() * cells, 0.0);
     std::vector<double> expected(drawn.size(), 0.0);
@@ -131,8 +131,8 @@ void check_bounds(const std::string& name, const Case& c, double count) {
 template <class Real>
 ref::RunResult throw_on(const ref::Surface<Real>& surface, const Case& c,
                         const SampleParams& params) {
-    const ref::Pool<Real> pool = ref::draw_pool(surface, c.surface, params);
-    return ref::throw_darts(surface, pool, first_tolerances(c.surface, params));
+    const ref::Pool<Real> pool = ref::draw_pool(surface, params);
+    return ref::throw_darts(surface, pool, ref::frame_of(c.surface, params).tolerances());
 }
 
 /// Cut at the bounds of the faces, a run returns what it returns cut at the largest radius alone.
@@ -159,9 +159,9 @@ void check_pairs(const std::string& name, const Case& c, double count) {
     const ref::Surface<float> surface(c.surface, params);
     const std::vector<std::uint32_t> ranks = throw_on(surface, c, params).ranks;
     const ref::Surface<double> exact(c.surface, params);
-    const std::vector<Point> pool = ref::draw_pool(exact, c.surface, params).by_rank();
+    const std::vector<Point> pool = ref::draw_pool(exact, params).by_rank();
     const auto size = static_cast<std::uint32_t>(pool.size());
-    const double guard = first_tolerances(c.surface, params).guard;
+    const double guard = ref::frame_of(c.surface, params).tolerances().guard;
     std::vector<bool> accepted(size, false), covered(size, false);
     for (const std::uint32_t rank : ranks) {
         accepted[rank] = true;
@@ -190,7 +190,8 @@ void check_pairs(const std::string& name, const Case& c, double count) {
 
 void check_replay(const std::string& name, const Case& c, const SampleParams& params) {
     INFO(name << " at a distance of " << params.min_distance);
-    const ReplayReport judged = replay(c.surface, params, first_error(c.surface, params));
+    const ReplayReport judged =
+        replay(c.surface, params, ref::frame_of(c.surface, params).first_error());
     CHECK(judged.wrong == 0);
     CHECK(judged.ties <= 2);
     check_deviation(name, judged);
@@ -272,10 +273,8 @@ TEST_SUITE("adaptive candidates") {
         const TestMesh mesh = builtin("torus-knot", 8);
         const Case c(mesh, rough_factors(mesh, 0.001));
         const SampleParams params = c.params(1000, 3);
-        const auto floats =
-            ref::draw_pool(ref::Surface<float>(c.surface, params), c.surface, params);
-        const auto doubles =
-            ref::draw_pool(ref::Surface<double>(c.surface, params), c.surface, params);
+        const auto floats = ref::draw_pool(ref::Surface<float>(c.surface, params), params);
+        const auto doubles = ref::draw_pool(ref::Surface<double>(c.surface, params), params);
         REQUIRE(floats.size() == doubles.size());
         std::uint32_t wrong = 0;
         for (std::uint32_t rank = 0; rank < floats.size(); ++rank) {
@@ -293,10 +292,9 @@ TEST_SUITE("adaptive candidates") {
         const TestMesh mesh = builtin("torus-knot", 8);
         const Case c(mesh, std::vector<double>(mesh.vertex_count(), 1.0));
         SampleParams params = c.params(1000, 3);
-        const auto varying =
-            ref::draw_pool(ref::Surface<float>(c.surface, params), c.surface, params);
+        const auto varying = ref::draw_pool(ref::Surface<float>(c.surface, params), params);
         params.radii = nullptr;
-        const auto same = ref::draw_pool(ref::Surface<float>(c.surface, params), c.surface, params);
+        const auto same = ref::draw_pool(ref::Surface<float>(c.surface, params), params);
         REQUIRE(varying.size() == same.size());
         std::uint32_t wrong = 0;
         for (std::uint32_t rank = 0; rank < same.size(); ++rank) {
@@ -414,7 +412,7 @@ TEST_SUITE("adaptive sets") {
         const Case c(mesh, factors);
         const SampleParams params = c.params(4000);
         const ref::Surface<float> surface(c.surface, params);
-        const auto points = ref::draw_pool(surface, c.surface, params).by_rank();
+        const auto points = ref::draw_pool(surface, params).by_rank();
         const auto ranks = throw_on(surface, c, params).ranks;
         CHECK(static_cast<double>(ranks.size()) == doctest::Approx(4000).epsilon(0.05));
         double coarse = 0, fine = 0;
@@ -437,8 +435,8 @@ TEST_SUITE("adaptive sets") {
             factors[0] = least;
             const Case c(shape, factors);
             const SampleParams params = c.params(1000);
-            const double error = first_error(c.surface, params);
-            const double guard = first_tolerances(c.surface, params).guard;
+            const double error = ref::frame_of(c.surface, params).first_error();
+            const double guard = ref::frame_of(c.surface, params).tolerances().guard;
             CHECK(guard >= error);
             CHECK(guard < 0.032 * least);
         }
@@ -455,7 +453,7 @@ TEST_SUITE("adaptive sets") {
         SampleParams params = c.params(10);
         params.min_distance = 3;
         const ref::Surface<double> surface(c.surface, params);
-        CHECK(surface.unit == 3);
+        CHECK(surface.frame.unit == 3);
         CHECK(throw_on(surface, c, params).ranks.size() > 50);
         check_replay("half a square", c, params);
     }

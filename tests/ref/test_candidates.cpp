@@ -7,11 +7,10 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/stages.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "kernels/candidates.hpp"
 #include "kernels/poisson.hpp"
 #include "kernels/pool.hpp"
+#include "lib/frame.hpp"
 #include "lib/rng.hpp"
 #include "ref/chi_square.hpp"
 #include "ref/dart_check.hpp"
@@ -30,7 +29,7 @@ double face_area(const PreparedMesh& mesh, std::uint32_t face) {
 
 template <class Real>
 ref::Pool<Real> pool_of(const PreparedMesh& mesh, const SampleParams& params) {
-    return ref::draw_pool(ref::Surface<Real>(mesh, params), mesh, params);
+    return ref::draw_pool(ref::Surface<Real>(mesh, params), params);
 }
 
 template <class Real>
@@ -117,11 +116,11 @@ auto key_of(const ref::Pool<Real>& pool, std::uint32_t rank) {
 template <class Real>
 void check_pool(const PreparedMesh& mesh, const SampleParams& params) {
     const ref::Surface<Real> surface(mesh, params);
-    const ref::Pool<Real> pool = ref::draw_pool(surface, mesh, params);
+    const ref::Pool<Real> pool = ref::draw_pool(surface, params);
     check_cells(surface, pool.bins);
     std::vector<std::tuple<std::uint32_t, std::uint32_t, Real, Real>> expected, found;
-    for (std::uint32_t stage = 0; stage < stages_of(mesh, params).pool_stages(); ++stage) {
-        const auto counts = ref::count_candidates(surface, mesh, params, stage);
+    for (std::uint32_t stage = 0; stage < surface.frame.stages.pool_stages(); ++stage) {
+        const auto counts = ref::count_candidates(surface, params, stage);
         for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
             std::vector<ref::FacePoint<Real>> points(counts[face]);
             std::vector<std::uint32_t> priorities(counts[face]);
@@ -163,9 +162,9 @@ TEST_CASE("candidates: those of a face by hand") {
     params.face_keys = keys;
     const ref::Surface<float> surface(mesh, params);
     const float area = static_cast<float>(0.5 / params.min_distance / params.min_distance);
-    const float intensity = stage_intensity(mesh, params, 3);
+    const float intensity = ref::frame_of(mesh, params).intensity(3);
     const auto words = ref::philox(params.seed, {keys[2], 0, 3, 0xffffffff});
-    const std::uint32_t count = ref::count_candidates(surface, mesh, params, 3)[2];
+    const std::uint32_t count = ref::count_candidates(surface, params, 3)[2];
     CHECK(count == ref::poisson(intensity * area, words[0], words[1]));
     REQUIRE(count > 20);
     std::vector<ref::FacePoint<float>> points(count);
@@ -222,8 +221,8 @@ TEST_CASE("candidates: uniform by area over the triangles") {
         for (params.seed = 0; params.seed < 40; ++params.seed) {
             const ref::Surface<double> of(surface, params);
             for (std::uint32_t stage = 0; stage < 4; ++stage) {
-                const auto drawn = ref::count_candidates(of, surface, params, stage);
-                const double mean = stages_of(surface, params).expected(stage);
+                const auto drawn = ref::count_candidates(of, params, stage);
+                const double mean = of.frame.stages.expected(stage);
                 for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
                     counts[f] += drawn[f];
                     expected[f] += mean * face_area(surface, f) / surface.statistics().area;
@@ -267,8 +266,8 @@ TEST_CASE("candidates: numbers of faces and stages are independent") {
     for (params.seed = 0; params.seed < kSeeds; ++params.seed) {
         const ref::Surface<double> of(surface, params);
         for (std::uint32_t stage = 0; stage < 4; ++stage) {
-            const auto drawn = ref::count_candidates(of, surface, params, stage);
-            mean = stages_of(surface, params).expected(stage) / mesh.face_count();
+            const auto drawn = ref::count_candidates(of, params, stage);
+            mean = of.frame.stages.expected(stage) / mesh.face_count();
             for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
                 counts[stage * mesh.face_count() + f].push_back(drawn[f]);
             }
@@ -329,8 +328,7 @@ TEST_CASE("candidates: a face without area has none") {
     const TestMesh mesh{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5, 0, 0}, {0, 1, 2, 0, 3, 1, 3, 3, 2}};
     const PreparedMesh surface = prepared(mesh);
     const SampleParams params = params_for(surface, 1000);
-    const auto counts =
-        ref::count_candidates(ref::Surface<float>(surface, params), surface, params, 0);
+    const auto counts = ref::count_candidates(ref::Surface<float>(surface, params), params, 0);
     CHECK(counts[0] > 4000);
     CHECK(counts[1] == 0);
     CHECK(counts[2] == 0);
@@ -371,11 +369,11 @@ TEST_CASE("pools: the first darts of a job, and the stages they come in") {
     SampleParams params = params_for(surface, 300, 3);
     params.throws = 100'000;
     const ref::Surface<double> of(surface, params);
-    const auto all = ref::draw_stages(of, surface, params, 0, 7);
+    const auto all = ref::draw_stages(of, params, 0, 7);
     REQUIRE(all.size() > 100'000);
     for (const std::uint32_t throws : {1u, 1500u, 20'000u, 100'000u}) {
         params.throws = throws;
-        const auto darts = ref::draw_pool(of, surface, params);
+        const auto darts = ref::draw_pool(of, params);
         REQUIRE(darts.size() == throws);
         check_cells(of, darts.bins);
         for (std::uint32_t rank = 0; rank < throws; ++rank) {
@@ -383,8 +381,8 @@ TEST_CASE("pools: the first darts of a job, and the stages they come in") {
         }
     }
     // Stages drawn by themselves count from their first.
-    const auto later = ref::draw_stages(of, surface, params, 2, 3);
-    const std::uint32_t before = ref::draw_stages(of, surface, params, 0, 2).size();
+    const auto later = ref::draw_stages(of, params, 2, 3);
+    const std::uint32_t before = ref::draw_stages(of, params, 0, 2).size();
     for (std::uint32_t rank = 0; rank < later.size(); ++rank) {
         REQUIRE(later.word(rank) + (2u << 28) == all.word(before + rank));
         REQUIRE(later.candidate(rank).weight1 == all.candidate(before + rank).weight1);
@@ -414,9 +412,9 @@ TEST_CASE("pools: a larger one begins with a smaller one, and so do darts") {
     }
     // Only the first stage of darts is as dense as those of a pool.
     const ref::Surface<float> of(surface, params);
-    const std::uint32_t first = ref::draw_stages(of, surface, params, 0, 1).size();
+    const std::uint32_t first = ref::draw_stages(of, params, 0, 1).size();
     params.throws = 10'000;
-    check_begin(ref::draw_pool(of, surface, params), first);
+    check_begin(ref::draw_pool(of, params), first);
 }
 
 TEST_CASE("bins: every point once, in its cell, in the order given") {
@@ -436,7 +434,7 @@ TEST_CASE("bins: a disk finds every point within reach, however large the triang
         for (const double reach : {0.01, 0.07, 0.5}) {
             const PreparedMesh surface = prepared(mesh);
             const std::vector<Point> points = random_points(surface, 3, 4000);
-            const Tolerances t = first_tolerances(surface, reach);
+            const ref::Tolerances t = ref::frame_of(surface, reach).tolerances();
             GeodesicQuery<float> query(surface, reach, points, t);
             for (std::size_t s = 0; s < 100; ++s) {
                 const std::vector<double> found = query.from(points[s]);

@@ -105,7 +105,8 @@ TEST_CASE("darts: disks that trim their windows, float against double") {
         const PreparedMesh surface = prepared(c.mesh);
         SampleParams params;
         params.min_distance = c.min_distance;
-        const ReplayReport judged = replay(surface, params, first_error(surface, params));
+        const ReplayReport judged =
+            replay(surface, params, ref::frame_of(surface, params).first_error());
         CHECK(judged.accepted > 0);
         CHECK(judged.wrong == 0);
         check_deviation(c.name, judged);

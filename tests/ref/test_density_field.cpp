@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "mesh/candidate_share.hpp"
 #include "ref/chi_square.hpp"
 #include "support/radius_fields.hpp"
@@ -51,8 +51,8 @@ struct Strips {
         for (std::uint64_t seed = 1; seed <= runs; ++seed) {
             const SampleParams params = c.params(count, seed);
             const ref::Surface<float> surface(c.surface, params);
-            const ref::Pool<float> pool = ref::draw_pool(surface, c.surface, params);
-            const auto tolerances = first_tolerances(c.surface, params);
+            const ref::Pool<float> pool = ref::draw_pool(surface, params);
+            const auto tolerances = ref::frame_of(c.surface, params).tolerances();
             for (const std::uint32_t rank : ref::throw_darts(surface, pool, tolerances).ranks) {
                 const auto p = pool.candidate(rank);
                 const double x = c.x_of(
@@ -154,7 +154,7 @@ TEST_SUITE("density") {
             SampleParams params = c.params(100, 5);
             params.throws = 200000;
             const ref::Surface<double> surface(c.surface, params);
-            const auto points = ref::draw_pool(surface, c.surface, params).by_rank();
+            const auto points = ref::draw_pool(surface, params).by_rank();
             constexpr int kParts = 4, kFine = 100, kSteps = kParts * kFine;
             std::vector<double> drawn(kParts * kParts), wanted(kParts * kParts);
             for (const auto& p : points) {
@@ -210,10 +210,11 @@ TEST_SUITE("density") {
             SampleParams params = c.params(3000, 1);
             params.min_distance = distance_for_count(area, 1200 / std::sqrt(x));
             const ref::Surface<float> surface(c.surface, params);
-            const ref::Pool<float> pool = ref::draw_pool(surface, c.surface, params);
+            const ref::Pool<float> pool = ref::draw_pool(surface, params);
             double found = 0;
             for (const std::uint32_t rank :
-                 ref::throw_darts(surface, pool, first_tolerances(c.surface, params)).ranks) {
+                 ref::throw_darts(surface, pool, ref::frame_of(c.surface, params).tolerances())
+                     .ranks) {
                 found += pool.candidate(rank).face < c.surface.face_count() - 1 ? 1 : 0;
             }
             CHECK(found / (1200 * std::sqrt(x)) == doctest::Approx(1).epsilon(0.06));

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "ref/distance_check.hpp"
 #include "support/oracle_geodesic.hpp"
 
@@ -43,7 +43,7 @@ void check_metric(const std::string& name, const TestMesh& mesh) {
     const PreparedMesh surface = prepared(mesh);
     const double reach = 3 * surface.statistics().diagonal;
     const std::vector<Point> points = random_points(surface, 71, 60);
-    const Tolerances documented = first_tolerances(surface, reach);
+    const ref::Tolerances documented = ref::frame_of(surface, reach).tolerances();
     GeodesicQuery<double> query(surface, reach, points, tight_tolerances());
     GeodesicQuery<float> twin(surface, reach, points, documented);
     std::vector<std::vector<double>> d;

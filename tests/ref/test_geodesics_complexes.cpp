@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "ref/distance_check.hpp"
 #include "support/oracle_geodesic.hpp"
 
@@ -18,7 +18,7 @@ double distance(const TestMesh& mesh, const Point& a, const Point& b, double rea
     const PreparedMesh surface = prepared(mesh);
     const double found =
         GeodesicQuery<double>(surface, reach, {b}, tight_tolerances()).from(a).front();
-    const Tolerances documented = first_tolerances(surface, reach);
+    const ref::Tolerances documented = ref::frame_of(surface, reach).tolerances();
     const double twin = GeodesicQuery<float>(surface, reach, {b}, documented).from(a).front();
     if (found == kUnreachable) {
         CHECK(twin == kUnreachable);
@@ -340,7 +340,7 @@ TEST_CASE("unreachable targets: infinite, never 0") {
     CHECK(surface.statistics().vertices == 8);
     const std::vector<Point> points = random_points(surface, 53, 300);
     GeodesicQuery<double> query(surface, 3, points, tight_tolerances());
-    GeodesicQuery<float> twin(surface, 3, points, first_tolerances(surface, 3));
+    GeodesicQuery<float> twin(surface, 3, points, ref::frame_of(surface, 3).tolerances());
     for (const Point& source : points) {
         const std::vector<double> found = query.from(source);
         const std::vector<double> found_twin = twin.from(source);

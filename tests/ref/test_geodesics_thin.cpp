@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
+#include "lib/frame.hpp"
 #include "ref/distance_check.hpp"
 #include "support/oracle_geodesic.hpp"
 
@@ -46,7 +46,7 @@ TEST_CASE("thin surfaces against CGAL, with few windows") {
                 CAPTURE(reach);
                 check_distances({c.name, mesh, reach, {points[s]}, points, 1e-7}, lookup);
                 GeodesicQuery<float> query(surface, reach, points,
-                                           first_tolerances(surface, reach));
+                                           ref::frame_of(surface, reach).tolerances());
                 query.from(points[s]);
                 CHECK(query.count().windows <= c.most_windows_per_face * surface.face_count());
             }
@@ -69,7 +69,7 @@ TEST_CASE("in planes of a grid of tetrahedra straight lines are shortest, with f
     };
     check_distances({"tetrahedra", mesh, 2.5, {in_plane[5], in_plane[40]}, in_plane, 1e-8},
                     straight);
-    GeodesicQuery<float> query(surface, 2.5, in_plane, first_tolerances(surface, 2.5));
+    GeodesicQuery<float> query(surface, 2.5, in_plane, ref::frame_of(surface, 2.5).tolerances());
     query.from(in_plane[40]);
     CHECK(query.count().windows > gpu::kUntrimmedWindows);
     CHECK(query.count().windows < 20000); // 90,000 without trimming.
@@ -94,7 +94,7 @@ TEST_CASE("across edges where seven sheets meet, with few windows") {
     }
     REQUIRE(sources.size() == 7);
     check_straight({"copies", mesh, 3, sources, targets});
-    GeodesicQuery<float> query(surface, 3, targets, first_tolerances(surface, 3));
+    GeodesicQuery<float> query(surface, 3, targets, ref::frame_of(surface, 3).tolerances());
     query.from(sources[0]);
     CHECK(query.count().windows > gpu::kUntrimmedWindows);
     CHECK(query.count().windows < 5000);
@@ -104,7 +104,7 @@ TEST_CASE("disks that begin to trim late, among many vertices, end") {
     const PreparedMesh surface = prepared(tetrahedra_beyond_sheet(3, 0.15, 40));
     const double reach = 60;
     const std::vector<Point> points = random_points(surface, 1, 12);
-    const Tolerances tolerances = first_tolerances(surface, reach);
+    const ref::Tolerances tolerances = ref::frame_of(surface, reach).tolerances();
     GeodesicQuery<float> query(surface, reach, points, tolerances);
     GeodesicQuery<double> exact(surface, reach, points, tolerances);
     std::uint32_t many = 0;
@@ -125,7 +125,7 @@ TEST_CASE("sheets of needles upon each other take few windows") {
     const PreparedMesh surface = prepared(needle_sheets());
     const double reach = 3 * surface.statistics().diagonal;
     const std::vector<Point> points = random_points(surface, 1, 20);
-    GeodesicQuery<double> query(surface, reach, points, first_tolerances(surface, reach));
+    GeodesicQuery<double> query(surface, reach, points, ref::frame_of(surface, reach).tolerances());
     for (const Point& source : points) {
         query.from(source);
         CHECK(query.count().windows < 5000);
@@ -137,7 +137,7 @@ TEST_CASE(
     const PreparedMesh surface = prepared(all_triangles(24));
     const double reach = 0.5;
     const std::vector<Point> points = random_points(surface, 1, 20);
-    GeodesicQuery<double> query(surface, reach, points, first_tolerances(surface, reach));
+    GeodesicQuery<double> query(surface, reach, points, ref::frame_of(surface, reach).tolerances());
     std::uint32_t endless = 0;
     for (const Point& source : points) {
         try {

@@ -9,8 +9,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
+#include "lib/frame.hpp"
 #include "ref/dart_check.hpp"
 #include "support/radius_fields.hpp"
 #include "throw_darts.hpp"
@@ -27,7 +27,7 @@ using Faces = std::map<std::uint32_t, std::vector<Candidate>>;
 
 template <class Real>
 Faces faces_of(const PreparedMesh& mesh, const SampleParams& params) {
-    const auto pool = ref::draw_pool(ref::Surface<Real>(mesh, params), mesh, params);
+    const auto pool = ref::draw_pool(ref::Surface<Real>(mesh, params), params);
     Faces faces;
     for (std::uint32_t rank = 0; rank < pool.size(); ++rank) {
         const auto p = pool.candidate(rank);
@@ -102,9 +102,8 @@ struct Scene {
 
     std::vector<Point> samples() const {
         const ref::Surface<double> of(surface, params);
-        const auto pool = ref::draw_pool(of, surface, params);
-        const Tolerances tolerances =
-            ErrorModel(surface, params).tolerances(4 * first_error(surface, params));
+        const auto pool = ref::draw_pool(of, params);
+        const ref::Tolerances tolerances = of.frame.tolerances(4 * of.frame.first_error());
         std::vector<Point> points;
         for (const std::uint32_t rank : ref::throw_darts(of, pool, tolerances).ranks) {
             points.push_back(pool.candidate(rank));

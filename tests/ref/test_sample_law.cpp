@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
+#include "lib/frame.hpp"
 #include "ref/dart_check.hpp"
 #include "throw_darts.hpp"
 
@@ -25,8 +25,8 @@ struct Measured {
 /// The faces of the samples.
 std::vector<std::uint32_t> sampled_faces(const ref::Surface<float>& surface,
                                          const PreparedMesh& mesh, const SampleParams& params) {
-    const auto pool = ref::draw_pool(surface, mesh, params);
-    const Tolerances tolerances = first_tolerances(mesh, params);
+    const auto pool = ref::draw_pool(surface, params);
+    const ref::Tolerances tolerances = ref::frame_of(mesh, params).tolerances();
     std::vector<std::uint32_t> faces;
     for (const std::uint32_t rank : ref::throw_darts(surface, pool, tolerances).ranks) {
         faces.push_back(pool.candidate(rank).face);

@@ -22,7 +22,7 @@ TEST_CASE("space: sets of straight distances are those of brute force") {
             const ref::SpacePoints points = ref::draw_in_space(mesh.view(), surface, params);
             std::vector<Vec3> positions;
             for (const Point& p :
-                 ref::draw_pool(ref::Surface<double>(surface, params), surface, params).by_rank()) {
+                 ref::draw_pool(ref::Surface<double>(surface, params), params).by_rank()) {
                 positions.push_back(mesh.position(p));
             }
             const double limit = params.min_distance * (1 + points.guard);

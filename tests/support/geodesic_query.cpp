@@ -23,8 +23,8 @@ std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
 
 } // namespace
 
-Tolerances tight_tolerances() {
-    Tolerances t{};
+ref::Tolerances tight_tolerances() {
+    ref::Tolerances t{};
     t.limit = 1;
     t.margin = 0x1p-30f;
     t.slack = 0x1p-30f;
@@ -33,7 +33,8 @@ Tolerances tight_tolerances() {
 
 template <class Real>
 GeodesicQuery<Real>::GeodesicQuery(PreparedMesh mesh, double reach,
-                                   const std::vector<Point>& targets, const Tolerances& tolerances)
+                                   const std::vector<Point>& targets,
+                                   const ref::Tolerances& tolerances)
     : mesh_(std::move(mesh)), surface_(mesh_, reach), bins_(surface_, converted<Real>(targets)),
       detector_(surface_, bins_, tolerances, tolerances.limit) {}
 
@@ -44,7 +45,7 @@ std::vector<double> GeodesicQuery<Real>::from(const Point& source) {
         converted<Real>(source), [](std::uint32_t) { return true; },
         [&](std::uint32_t place, Real distance) {
             double& best = result[bins_.order[place]];
-            best = std::min(best, static_cast<double>(distance) * surface_.unit);
+            best = std::min(best, static_cast<double>(distance) * surface_.frame.unit);
         });
     return result;
 }

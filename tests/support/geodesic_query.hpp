@@ -4,19 +4,19 @@
 #include <limits>
 #include <vector>
 
-#include "engine/domain/tolerances.hpp"
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"
+#include "lib/frame.hpp"
 #include "support/meshes.hpp"
 
 namespace geodisk::test {
 
 inline constexpr double kUnreachable = std::numeric_limits<double>::infinity();
 
-/// Tolerances that let errors of double rounding show: margin and slack of 2^-30, a thousand times
-/// the smallest offset.
-Tolerances tight_tolerances();
+/// Returns tolerances that let errors of double rounding show: margin and slack of 2^-30, a
+/// thousand times the smallest offset.
+ref::Tolerances tight_tolerances();
 
 /// "All distances from this point to those within reach." Lengths are in mesh units; inside, the
 /// reach is the unit, as the minimum distance is in a run.
@@ -24,7 +24,7 @@ template <class Real>
 class GeodesicQuery {
   public:
     GeodesicQuery(PreparedMesh mesh, double reach, const std::vector<Point>& targets,
-                  const Tolerances& tolerances);
+                  const ref::Tolerances& tolerances);
     GeodesicQuery(const GeodesicQuery&) = delete;
     GeodesicQuery& operator=(const GeodesicQuery&) = delete;
 

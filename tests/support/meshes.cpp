@@ -123,7 +123,7 @@ std::vector<Point> random_points(const PreparedMesh& mesh, std::uint64_t seed,
     params.min_distance = distance_for_count(mesh.statistics().area, count / kStageRatio);
     params.seed = seed;
     params.throws = count;
-    return ref::draw_pool(ref::Surface<double>(mesh, params), mesh, params).by_rank();
+    return ref::draw_pool(ref::Surface<double>(mesh, params), params).by_rank();
 }
 
 TestMesh subdivided(const TestMesh& mesh, int times) {

@@ -7,9 +7,9 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/domain/tolerances.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"
+#include "lib/frame.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -22,9 +22,9 @@ struct Side {
     std::vector<std::uint32_t> ranks;
     ref::Detector<Real> detector;
 
-    Side(const PreparedMesh& mesh, const SampleParams& params, const Tolerances& tolerances,
+    Side(const PreparedMesh& mesh, const SampleParams& params, const ref::Tolerances& tolerances,
          Real limit)
-        : surface(mesh, params), pool(ref::draw_pool(surface, mesh, params)), ranks(pool.ranks()),
+        : surface(mesh, params), pool(ref::draw_pool(surface, params)), ranks(pool.ranks()),
           detector(surface, pool.bins, tolerances, limit) {}
 };
 
@@ -48,7 +48,7 @@ class Distances {
 /// float.
 template <class Limit>
 void judge(const Distances& hits, const Distances& truth, const Limit& limit_with,
-           const Tolerances& tolerances, ReplayReport& report) {
+           const ref::Tolerances& tolerances, ReplayReport& report) {
     for (const auto& [q, distance] : hits) {
         if (!truth.has(q)) {
             ++report.wrong;
@@ -75,7 +75,7 @@ void judge(const Distances& hits, const Distances& truth, const Limit& limit_wit
 } // namespace
 
 ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
-    const Tolerances tolerances = ErrorModel(mesh, params).tolerances(error_bound);
+    const ref::Tolerances tolerances = ref::frame_of(mesh, params).tolerances(error_bound);
     Side<float> floats(mesh, params, tolerances, tolerances.limit);
     Side<double> doubles(mesh, params, tolerances, tolerances.limit + 2 * tolerances.guard);
     std::vector<bool> decided(floats.pool.size(), false);

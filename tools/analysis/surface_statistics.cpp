@@ -117,7 +117,7 @@ class Worker {
 
   private:
     void take(std::size_t i, Found& found) {
-        const double unit = layout_.surface.unit;
+        const double unit = layout_.surface.frame.unit;
         const double own = samples_[i].radius;
         const std::uint32_t source = layout_.place_of[i];
         detector_.set_limit(std::min(reach_ * 2 * own, longest_) / unit);

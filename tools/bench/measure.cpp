@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/statistics.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "kernels/pool.hpp"
+#include "lib/frame.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -25,7 +25,7 @@ constexpr double kWarmUpSeconds = 0.1;
 struct ReferenceJob {
     const PreparedMesh& mesh;
     SampleParams params;
-    Tolerances tolerances;
+    ref::Tolerances tolerances;
 };
 
 template <class Real>
@@ -39,7 +39,7 @@ template <class Real>
 ReferenceRun<Real> run_reference(const ref::Surface<Real>& surface, const ReferenceJob& job) {
     tools::check_interrupted();
     const tools::Stopwatch watch;
-    const ref::Pool<Real> pool = ref::draw_pool(surface, job.mesh, job.params);
+    const ref::Pool<Real> pool = ref::draw_pool(surface, job.params);
     ReferenceRun<Real> run{};
     for (const std::uint32_t rank : ref::throw_darts(surface, pool, job.tolerances).ranks) {
         run.samples.push_back(pool.candidate(rank));
@@ -112,7 +112,7 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count, std::ui
     SampleSet set = run_device(runner, mesh.prepared, params, what);
     const ReferenceJob job{
         mesh.prepared, params,
-        ErrorModel(mesh.prepared, params).tolerances(set.report.plan.error_bound)};
+        ref::frame_of(mesh.prepared, params).tolerances(set.report.plan.error_bound)};
     check_equal(set.samples, run_reference(ref::Surface<float>(mesh.prepared, params), job).samples,
                 what);
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "baselines/random.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "files/mesh_file.hpp"
 #include "kernels/pool.hpp"
+#include "lib/frame.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -40,8 +40,8 @@ Pool draw_pool(const PaperMesh& mesh, const SampleParams& params) {
     tools::check_interrupted();
     tools::take(pool_size(mesh.prepared, params), mesh.name); // Fails where a parameter is wrong.
     const ref::Surface<double> surface(mesh.prepared, params);
-    return {params, first_tolerances(mesh.prepared, params),
-            ref::draw_pool(surface, mesh.prepared, params).by_rank()};
+    return {params, ref::frame_of(mesh.prepared, params).tolerances(),
+            ref::draw_pool(surface, params).by_rank()};
 }
 
 std::vector<ref::FacePoint<double>> places_of(const Pool& pool,
@@ -74,7 +74,7 @@ Pool draw_independent_pool(const PaperMesh& mesh, const SampleParams& params) {
         areas.push_back(area);
     }
     ref::RandomStream random(params.seed);
-    Pool pool{params, first_tolerances(mesh.prepared, params), {}};
+    Pool pool{params, ref::frame_of(mesh.prepared, params).tolerances(), {}};
     for (std::uint64_t i = 0; i < size; ++i) {
         const auto above = std::upper_bound(areas.begin(), areas.end(), random.uniform() * area);
         const auto face = static_cast<std::uint32_t>(

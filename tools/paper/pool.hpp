@@ -9,8 +9,8 @@
 #include <geodisk/params.hpp>
 #include <geodisk/runner.hpp>
 
-#include "engine/domain/tolerances.hpp"
 #include "geometry/mesh.hpp"
+#include "lib/frame.hpp"
 #include "lib/surface.hpp"
 
 namespace geodisk::paper {
@@ -30,7 +30,7 @@ std::vector<PaperMesh> load_meshes(const std::vector<std::string>& paths);
 /// A run's candidates, as geodisk draws them.
 struct Pool {
     SampleParams params;
-    Tolerances tolerances;
+    ref::Tolerances tolerances;
     std::vector<ref::FacePoint<double>> by_rank;
 };
 

@@ -188,7 +188,7 @@ std::optional<WindowTable> try_window_table(const PreparedMesh& mesh,
                                             const PartDone& tell, std::size_t most) {
     const ref::Surface<double> surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells));
     WindowTable table;
-    table.unit = surface.unit;
+    table.unit = surface.frame.unit;
     table.faces = lay_out(surface);
     const FaceRec& last = table.faces.back();
     const std::size_t cells = last.first_cell + std::size_t{last.columns} * last.rows;
@@ -203,7 +203,7 @@ std::optional<WindowTable> try_window_table(const PreparedMesh& mesh,
                 const SurfaceDisk& disk = disks[i];
                 const std::size_t before = placed.size();
                 maker.make(static_cast<std::uint32_t>(i), {disk.face, disk.weight1, disk.weight2},
-                           disk.radius / surface.unit, placed);
+                           disk.radius / surface.frame.unit, placed);
                 if ((windows += placed.size() - before) > most) {
                     throw TooManyWindows();
                 }

@@ -1,0 +1,179 @@
+#include "lib/frame.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+namespace geodisk::ref {
+namespace {
+
+/// Packing density that dart throwing reaches (paper section 5.2), with 20 candidates per sample.
+constexpr double kRho = 0.725;
+/// Part of the distances met by which a crossing may be off.
+constexpr double kCrossingError = 0x1p-22;
+/// Factors of radii are floats, and sums of two radii are rounded to float.
+constexpr double kRadiiError = 0x1p-21;
+constexpr double kFewestCrossings = 64;
+constexpr double kMostCrossings = 65536;
+/// Disks that cover this many faces take vertex events by distance (shaders/README.md).
+constexpr double kFacesOfLargeDisk = 16384;
+
+/// rho = r sqrt(2 sqrt(3) N / A), solved for N.
+double samples_on(double area, double min_distance) {
+    const double per_radius = 2 * kRho / min_distance;
+    return per_radius * per_radius * area / std::sqrt(12.0);
+}
+
+/// x > 0 rounded up to a power of two.
+double up_to_power_of_two(double x) {
+    int exponent = 0;
+    const double fraction = std::frexp(x, &exponent);
+    return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
+}
+
+/// The longest way from a first vertex down a tree of edges, of all components. A tree grows by the
+/// vertices next to those that it has, oldest first, around each in the order of its corners.
+double deepest_tree(const PreparedMesh& mesh) {
+    struct Node {
+        std::uint32_t vertex;
+        double depth;
+    };
+    std::vector<Node> nodes;
+    nodes.reserve(mesh.vertex_count());
+    std::vector<bool> has(mesh.vertex_count(), false);
+    double deepest = 0;
+    const auto add = [&](std::uint32_t vertex, double depth) {
+        if (!has[vertex]) {
+            has[vertex] = true;
+            nodes.push_back({vertex, depth});
+            deepest = std::max(deepest, depth);
+        }
+    };
+    std::size_t next = 0;
+    for (std::uint32_t root = 0; root < mesh.vertex_count(); ++root) {
+        add(root, 0);
+        for (; next < nodes.size(); ++next) {
+            const Node node = nodes[next];
+            const VertexFan& fan = mesh.fans()[node.vertex];
+            for (std::uint32_t i = 0; i < fan.corner_count; ++i) {
+                const std::uint32_t out = mesh.corners()[fan.first_corner + i];
+                const HalfEdge& leaving = mesh.half_edges()[out];
+                const HalfEdge& arriving = mesh.half_edges()[previous_in_face(out)];
+                add(mesh.half_edges()[next_in_face(out)].origin, node.depth + leaving.length);
+                add(arriving.origin, node.depth + arriving.length);
+            }
+        }
+    }
+    return deepest;
+}
+
+double longest_edge_of(const PreparedMesh& mesh) {
+    double longest = 0;
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        longest = std::max(longest, edge.length);
+    }
+    return longest;
+}
+
+/// The minimum distance; where it exceeds all distances of the mesh, a little more than those are.
+/// From any point a vertex is at most an edge away, and from it the root of its tree.
+double unit_of(const PreparedMesh& mesh, double min_distance, double longest_edge) {
+    if (min_distance <= mesh.statistics().diagonal) {
+        return min_distance;
+    }
+    const double bound = 2 * (deepest_tree(mesh) + longest_edge);
+    return std::min(min_distance, 1.01 * bound);
+}
+
+bool is_split_once(const PreparedMesh& mesh) {
+    for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
+        const std::uint32_t other = around_half_edge(mesh.half_edges()[h].around);
+        if (around_half_edge(mesh.half_edges()[other].around) != h) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// All but the stages.
+Frame frame_without_pool(const PreparedMesh& mesh, double min_distance, double unit,
+                         double longest_edge) {
+    Frame frame;
+    frame.unit = unit;
+    frame.longest_edge = longest_edge / unit;
+    double area = 0;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        area += area_of(mesh, face);
+    }
+    // A disk covers twice the faces that there are per sample, and a path crosses about as many
+    // edges as faces lie across.
+    const double faces = 2.0 * mesh.face_count() / std::max(1.0, samples_on(area, min_distance));
+    frame.chain = static_cast<std::uint32_t>(
+        std::clamp(8 + 4 * std::sqrt(faces), kFewestCrossings, kMostCrossings));
+    frame.splits_once = is_split_once(mesh);
+    frame.straight_faces = mesh.statistics().diagonal > 0;
+    frame.stages.samples = samples_on(area, unit);
+    return frame;
+}
+
+} // namespace
+
+float Frame::intensity(std::uint32_t stage) const {
+    return static_cast<float>(stages.per_sample(stage) * samples_on(1, 1));
+}
+
+double Frame::error_of(std::uint32_t crossings) const {
+    const double of_crossings = kCrossingError * (crossings + 4 * std::ceil(longest_edge));
+    return radii_vary ? of_crossings + kRadiiError : of_crossings;
+}
+
+double Frame::guard_for(double error_bound) const {
+    const double of_radii = radii_vary ? kRadiiError : 0;
+    const double least = radii_vary ? 0x1p-15 : 0x1p-13;
+    return std::max(least, up_to_power_of_two(error_bound - of_radii)) + of_radii;
+}
+
+Tolerances Frame::tolerances(double error_bound) const {
+    const double guard = guard_for(error_bound);
+    const double reach = std::max(16.0, up_to_power_of_two(2 + longest_edge));
+    return {static_cast<float>(1 + guard), static_cast<float>(error_bound),
+            static_cast<float>(kCrossingError * reach), guard, error_bound};
+}
+
+Frame frame_of(const PreparedMesh& mesh, double min_distance) {
+    const double longest = longest_edge_of(mesh);
+    return frame_without_pool(mesh, min_distance, unit_of(mesh, min_distance, longest), longest);
+}
+
+Frame frame_of(const PreparedMesh& mesh, const SampleParams& params) {
+    const double distance = params.min_distance;
+    const double longest = longest_edge_of(mesh);
+    const bool vary = params.radii != nullptr;
+    // The smaller radii may matter, however large the largest one is.
+    const double unit = vary ? distance : unit_of(mesh, distance, longest);
+    Frame frame = frame_without_pool(mesh, distance, unit, longest);
+    frame.radii_vary = vary;
+    double samples = frame.stages.samples;
+    if (vary) {
+        samples = samples_on(params.radii->effective_area(), unit);
+    }
+    frame.stages = StageRule::of(samples, params.pool_ratio, params.throws);
+    const double full = samples * (unit / distance) * (unit / distance);
+    frame.nearest_first = 2.0 * mesh.face_count() / std::max(2.0, full) >= kFacesOfLargeDisk;
+    return frame;
+}
+
+double area_of(const PreparedMesh& mesh, std::uint32_t face) {
+    double sides[3];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        sides[k] = mesh.half_edges()[std::size_t{3} * face + k].length;
+    }
+    std::sort(sides, sides + 3);
+    const auto [c, b, a] = sides; // a >= b >= c
+    // Heron's formula as Kahan orders it, so that needles lose nothing.
+    const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+    return product > 0 ? std::sqrt(product) / 4 : 0;
+}
+
+} // namespace geodisk::ref
