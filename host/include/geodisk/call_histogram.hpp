@@ -1,4 +1,4 @@
-// How hard conflicts among active candidates are to resolve, as the paper measures it.
+// CallHistogram: work to resolve conflicts among active candidates, as the paper measures it.
 #pragma once
 
 #include <array>
@@ -8,21 +8,23 @@
 
 namespace geodisk {
 
-/// Active candidates by the calls of the paper's CheckStatus that deciding them takes (section 5.4,
-/// Table 1): one for the candidate itself, and for every active conflict of higher priority it
-/// comes to as many as that one takes, from the highest priority down until one is accepted.
-/// Depends on how many candidates are active at a time.
+/// Histogram of active candidates by calls of the paper's CheckStatus (section 5.4, Table 1).
+///
+/// Deciding a candidate takes one call for itself. It then takes the calls of each active conflict
+/// of higher priority, from the highest priority down, until one of them is accepted. The figures
+/// depend on the number of candidates that are active at a time.
 struct CallHistogram {
-    /// Of 1, 2, ..., 9 calls, and of 10 or more.
+    /// Number of candidates that take 1, 2, ..., 9 calls, and 10 or more.
     std::array<std::uint64_t, 10> candidates{};
-    std::uint64_t calls = 0; ///< Of all candidates together.
+    std::uint64_t calls = 0; ///< Calls of all candidates together.
 
+    /// Returns the number of candidates in all bins.
     std::uint64_t total() const {
         return std::accumulate(candidates.begin(), candidates.end(), std::uint64_t{0});
     }
-    /// Part of the candidates in a bin; 0 without any.
+    /// Returns the share of the candidates in a bin, 0 to 1; 0 if there are no candidates.
     double share(std::size_t bin) const { return ratio(candidates[bin]); }
-    /// Calls per candidate; 0 without any.
+    /// Returns the mean number of calls per candidate; 0 if there are no candidates.
     double mean() const { return ratio(calls); }
 
   private:

@@ -1,4 +1,4 @@
-// Finding the distance at which about as many samples as are wanted come out.
+// CountSearch: finds the distance that gives about a wanted number of samples.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,24 @@
 
 namespace geodisk {
 
-/// Chooses distances to try by what those before gave, beginning with distance_for_count(). The
-/// same counts lead to the same distances on every machine. Sample without `stop_count` while the
-/// search goes on: it cannot see what that cuts off.
+/// Searches for the distance by trial: sample at a distance, report the count, and get the next
+/// distance to try. Begin with distance_for_count().
+///
+/// The same counts lead to the same distances on every machine. Sample without `stop_count` during
+/// the search, or the counts are too low.
 class CountSearch {
   public:
-    /// `wanted` samples, at least 1.
+    /// Starts a search for `wanted` samples, at least 1.
     explicit CountSearch(double wanted) noexcept : wanted_(wanted) {}
 
-    /// Notes how many samples a distance gave. Returns the distance to try next; nothing once that
-    /// many are within 5 % of those wanted, or one, or several tries have not come so close.
+    /// Records the number of samples that a distance gave. Returns the distance to try next, or
+    /// nothing when the search has ended: the count is within 5 % of `wanted` or differs by one, or
+    /// this was the seventh try.
     GEODISK_API std::optional<double> note(double distance, std::uint64_t count) noexcept;
 
-    /// Whether none before the try noted last came nearer.
+    /// Returns true if the latest try is the best so far.
     bool is_nearest() const noexcept { return is_nearest_; }
+    /// Returns the number of tries so far.
     std::uint32_t tries() const noexcept { return tries_; }
 
   private:
@@ -30,8 +34,8 @@ class CountSearch {
     };
 
     double wanted_;
-    std::optional<Try> above_, below_; ///< With more samples, and with fewer: the nearest.
-    double least_miss_ = 0;
+    std::optional<Try> above_, below_; ///< Latest tries with too many and too few samples.
+    double least_miss_ = 0;            ///< Smallest difference from `wanted_` so far.
     bool is_nearest_ = false;
     std::uint32_t tries_ = 0;
 };

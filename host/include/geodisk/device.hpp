@@ -1,8 +1,8 @@
-// What geodisk needs to know about a Vulkan device, and what it asks of one.
+// DeviceRefs and QueueRef: a Vulkan device and queue of the caller's, and what geodisk requires.
 //
-// geodisk runs on a device that the caller owns. Before creating it, `query_device` tells whether
-// a physical device is good enough; afterwards `DeviceRefs` and `QueueRef` hand the device over.
-// No extension and no optional feature has to be enabled.
+// geodisk runs on a device that the caller owns. Call `query_device` before you create it, to learn
+// whether the physical device meets the requirements. Then pass the device as `DeviceRefs` and
+// `QueueRef`. No extension and no optional feature has to be enabled.
 #pragma once
 
 #include <array>
@@ -18,29 +18,31 @@
 
 namespace geodisk {
 
-/// Memory for a buffer, asked of the caller.
+/// Request for the memory of a buffer, answered by MemoryHooks::allocate.
 struct MemoryRequest {
-    VkBuffer buffer = VK_NULL_HANDLE; ///< To be bound to it, by geodisk.
+    VkBuffer buffer = VK_NULL_HANDLE; ///< Buffer that geodisk will bind to the memory.
     VkMemoryRequirements requirements{};
-    VkMemoryPropertyFlags required =
-        0; ///< Host visible and coherent where the host writes or reads.
-    VkMemoryPropertyFlags preferred = 0; ///< Better still.
+    /// Required properties: host visible and coherent if the host writes or reads the buffer.
+    VkMemoryPropertyFlags required = 0;
+    VkMemoryPropertyFlags preferred = 0; ///< Properties to prefer among suitable memory types.
 };
 
-/// What the caller gives: from `offset` on, which is aligned as asked.
+/// Memory that the caller grants for a buffer.
 struct MemoryGrant {
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0;
-    void* mapped = nullptr;     ///< At `offset`, until freed; not null where the host is to see it.
-    void* allocation = nullptr; ///< The caller's own, for `free`.
+    VkDeviceSize offset = 0;    ///< First byte, aligned as requested.
+    void* mapped = nullptr;     ///< Host address of `offset`, valid until freed. Not null if host
+                                ///< visible memory was required.
+    void* allocation = nullptr; ///< Value of the caller's choice, for `free`.
 };
 
-/// Device memory of a caller's allocator, such as VMA, instead of an allocation for each buffer.
-/// Called on the thread that calls geodisk; must not throw.
+/// Callbacks to a caller's allocator, such as VMA. Without them geodisk allocates device memory for
+/// each buffer. Called on the thread that calls geodisk; must not throw.
 struct MemoryHooks {
-    void* user = nullptr;
-    /// Fills `grant`, or fails as vkAllocateMemory does.
+    void* user = nullptr; ///< Passed to both callbacks.
+    /// Fills `grant` and returns VK_SUCCESS, or returns an error of vkAllocateMemory.
     VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryGrant& grant) = nullptr;
+    /// Frees memory after its buffer is destroyed.
     void (*free)(void* user, const MemoryGrant& grant) = nullptr;
 };
 
@@ -56,28 +58,28 @@ struct DeviceRefs {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     /// The lower of the version the instance was created with and the one the device reports.
     std::uint32_t api_version = VK_API_VERSION_1_1;
-    /// Used, if set, for every pipeline geodisk creates. Access to it is as Vulkan defines:
-    /// internally synchronized unless created otherwise.
+    /// Pipeline cache for every pipeline that geodisk creates, or null. Vulkan synchronizes access
+    /// to it, unless it was created as externally synchronized.
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
-    /// Whether VK_EXT_memory_budget is enabled: Runner then keeps to the memory that is free.
+    /// True if VK_EXT_memory_budget is enabled. Runner then uses only memory that is free.
     bool memory_budget = false;
-    /// Whether VK_EXT_debug_utils is enabled on the instance: pipelines and the buffers of Runner
-    /// then have names, and what is recorded has a label for each stage.
+    /// True if VK_EXT_debug_utils is enabled on the instance. Pipelines and the buffers of Runner
+    /// then have names, and recorded commands have a label per stage.
     bool debug_utils = false;
-    /// Where Runner gets the memory of its buffers, if set; must outlive the objects.
+    /// Allocator for the buffers of Runner and FrameSampler, or null. Must outlive their objects.
     const MemoryHooks* memory_hooks = nullptr;
-    /// Whether VK_KHR_pipeline_executable_properties is enabled, with its feature: kernels are then
-    /// compiled so that Sampler::report_kernels can tell of them.
+    /// True if VK_KHR_pipeline_executable_properties is enabled, with its feature. The driver then
+    /// keeps the statistics that Sampler::report_kernels returns.
     bool pipeline_statistics = false;
-    /// Passed, if set, to each create and destroy call; must outlive the objects as well.
+    /// Callbacks passed to each create and destroy call, or null. Must outlive the objects as well.
     const VkAllocationCallbacks* host_allocator = nullptr;
 };
 
 /// A queue lent to geodisk, of a family that supports compute.
 ///
-/// When other code submits to the same queue at the same time, set `lock` and `unlock`: they are
-/// called with `lock_user` around each submission, on the thread that runs geodisk, never nested,
-/// and must not throw. geodisk never waits for the whole queue or device.
+/// Set `lock` and `unlock` if other threads submit to the same queue. They are called with
+/// `lock_user` around each submission, on the thread that runs geodisk, never nested. They must not
+/// throw. geodisk never waits for the whole queue or device.
 struct QueueRef {
     VkQueue queue = VK_NULL_HANDLE;
     std::uint32_t family = 0;
@@ -86,7 +88,7 @@ struct QueueRef {
     void (*unlock)(void*) = nullptr;
 };
 
-/// The limits of a device that geodisk requires or adapts to. Sizes are in bytes.
+/// Limits of a device that geodisk requires or adapts to. Sizes are in bytes.
 struct DeviceLimits {
     std::uint64_t max_storage_buffer_range = 0;
     std::uint64_t max_memory_allocation_size = 0;
@@ -105,33 +107,34 @@ struct DeviceLimits {
     float timestamp_period = 0.0f; ///< Nanoseconds per timestamp tick.
 };
 
-/// What `query_device` found out about one physical device.
+/// Properties of a physical device, and whether geodisk can use it.
 struct DeviceReport {
     std::string name;
-    std::string driver_name; ///< Empty when the driver does not tell.
-    std::string driver_info; ///< Empty when the driver does not tell.
-    VkDriverId driver_id{};  ///< Zero when the driver does not tell.
+    std::string driver_name; ///< Empty if the driver does not report it.
+    std::string driver_info; ///< Empty if the driver does not report it.
+    VkDriverId driver_id{};  ///< Zero if the driver does not report it.
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-    std::uint32_t api_version = 0; ///< As the device reports; the instance may be lower.
+    std::uint32_t api_version = 0; ///< Version of the device; that of the instance may be lower.
     std::uint32_t driver_version = 0;
     std::uint32_t vendor_id = 0;
     std::uint32_t device_id = 0;
     std::array<std::uint8_t, VK_UUID_SIZE> uuid{}; ///< Zero below Vulkan 1.1.
     DeviceLimits limits;
     std::uint64_t largest_device_local_heap = 0;
-    /// The family to take the compute queue from: one without graphics where there is one, so that
-    /// long dispatches do not hold up a display.
+    /// Recommended family for the compute queue. Has no graphics if possible, so that long
+    /// dispatches do not delay a display.
     std::optional<std::uint32_t> compute_queue_family;
-    /// Of compute_queue_family; 0 when it has no timestamps.
+    /// Timestamp bits of compute_queue_family; 0 if it has no timestamps.
     std::uint32_t timestamp_valid_bits = 0;
-    /// The first family with graphics and compute, for those who draw with the same queue.
+    /// First family with graphics and compute, for programs that draw with the same queue.
     std::optional<std::uint32_t> graphics_queue_family;
-    /// Division and square root are known to be correctly rounded, as on the host. Vulkan promises
-    /// less, so this is true only for drivers known to do better (llvmpipe).
+    /// True if division and square root are known to be correctly rounded, as on the host. Vulkan
+    /// promises less, so this is true only for drivers known to do better (llvmpipe).
     bool rounds_natively = false;
     /// Every unmet requirement, one line each; empty for a device that can run geodisk.
     std::vector<std::string> reasons_against;
 
+    /// Returns true if geodisk can run on the device.
     bool usable() const noexcept { return reasons_against.empty(); }
 };
 

@@ -1,5 +1,5 @@
-// KernelReport: what the driver tells of a kernel that it has compiled, such as registers, spills
-// and the size of its code. For those who tune kernels, or look why one is slow on a device.
+// KernelReport: the driver's statistics of a compiled kernel, such as registers, spills and code
+// size. Use it to tune kernels, or to find why one is slow on a device.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace geodisk {
 
-/// A figure, under the driver's own name for it.
+/// One statistic.
 struct KernelStatistic {
-    std::string name;
+    std::string name; ///< The driver's name for it.
     std::string description;
     std::variant<bool, std::int64_t, std::uint64_t, double> value;
 };
 
-/// A driver may make several executables of one kernel; each has a report.
+/// Statistics of one executable. A driver may compile a kernel to several executables.
 struct KernelReport {
-    std::string kernel;     ///< Its file in shaders/kernels.
-    std::string variant;    ///< What it is specialized for; empty where all domains share it.
-    std::string executable; ///< The driver's name for what it made of it.
-    std::uint32_t subgroup_size = 0; ///< 0 when the driver does not tell.
+    std::string kernel;              ///< Name of its file in shaders/kernels.
+    std::string variant;             ///< Name of its specialization; empty if all domains share it.
+    std::string executable;          ///< The driver's name for the executable.
+    std::uint32_t subgroup_size = 0; ///< 0 if the driver does not report it.
     std::vector<KernelStatistic> statistics;
 };
 

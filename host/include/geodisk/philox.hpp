@@ -1,5 +1,5 @@
 // Philox4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011),
-// from which all candidates are drawn.
+// the random number generator of all candidates.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace geodisk {
 
-/// Four independent 32-bit words, a pure function of seed and counter.
+/// Returns four independent random 32-bit words for a seed and a counter `c`.
 inline std::array<std::uint32_t, 4> philox(std::uint64_t seed, std::array<std::uint32_t, 4> c) {
     auto key0 = static_cast<std::uint32_t>(seed);
     auto key1 = static_cast<std::uint32_t>(seed >> 32);

@@ -1,6 +1,6 @@
 // Status, Error and Result<T>: how every geodisk call reports failure. No geodisk function throws,
-// prints, aborts or reads the environment, but for a Result that is asked for what it does not
-// hold.
+// prints, aborts or reads the environment. The one exception is misuse of a Result, see
+// Result::value().
 #pragma once
 
 #include <cstdint>
@@ -17,49 +17,49 @@ enum class Status : std::int32_t {
     ok = 0,
     invalid_argument = -1,    ///< A parameter is out of its documented range.
     mesh_rejected = -2,       ///< The mesh cannot be sampled; `Error::element` names the place.
-    device_lacks = -3,        ///< The device misses a required limit or feature.
+    device_lacks = -3,        ///< The device lacks a required limit or feature.
     no_device = -4,           ///< No Vulkan loader, driver or device was found.
     workspace_too_small = -5, ///< A buffer is too small; the message names the size that fits.
     out_of_host_memory = -6,
     out_of_device_memory = -7,
     device_lost = -8,
     cancelled = -9,      ///< The progress callback asked to stop.
-    internal = -10,      ///< A broken invariant of geodisk itself or of the driver.
+    internal = -10,      ///< A bug in geodisk or in the driver.
     job_too_large = -11, ///< A buffer of the job exceeds what the device can bind.
-    busy = -12,          ///< Of the C API: another call, or a run in progress, has the object.
+    busy = -12,          ///< C API only: another call or a run in progress uses the object.
 };
 
-/// Name of a status as spelled above, for messages.
+/// Returns the name of a status as spelled above.
 GEODISK_API const char* to_string(Status status) noexcept;
 
 /// Marks an Error that does not concern one element.
 inline constexpr std::uint64_t kNoElement = ~std::uint64_t{0};
 
-/// A failure: what kind, which element, and one line of text for a person.
+/// A failure.
 struct Error {
     Status status = Status::internal;
-    std::string message;                ///< One line, no trailing newline.
+    std::string message;                ///< One line for a person, no trailing newline.
     std::uint64_t element = kNoElement; ///< Index of the offending vertex or face, if any.
     std::int32_t vk_result = 0;         ///< The VkResult behind the failure, if any.
 };
 
-/// Prints "geodisk: Result::value() of an error: MESSAGE", or for no error that error() was asked
-/// of a value, to standard error, and aborts.
+/// Prints to standard error that Result::value() was called on `error`, with its message, or, if
+/// null, that Result::error() was called on a value. Then aborts.
 [[noreturn]] GEODISK_API void end_misuse(const Error* error) noexcept;
 
 /// Either a value or an Error.
 ///
-/// Call `value()` only if the result holds one, and `error()` only if it does not. Otherwise the
-/// program ends with a message, in every build.
+/// Call `value()` only if the result holds a value, and `error()` only if it does not. Otherwise
+/// the program prints a message and aborts, in every build.
 template <class T>
 class [[nodiscard]] Result {
   public:
-    /// Success.
+    /// Makes a success.
     Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
-    /// Failure.
+    /// Makes a failure.
     Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
-    /// Whether it holds a value.
+    /// Returns true if the result holds a value.
     explicit operator bool() const noexcept { return content_.index() == 0; }
     T& value() & noexcept {
         check_value();
@@ -101,7 +101,7 @@ class [[nodiscard]] Result {
     std::variant<T, Error> content_;
 };
 
-/// Result of a call that returns nothing but success or failure.
+/// Value of a call that returns only success or failure.
 struct Done {};
 
 } // namespace geodisk

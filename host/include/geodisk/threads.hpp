@@ -1,4 +1,4 @@
-// Who does the work of a call that can be divided.
+// ThreadOptions: the threads that a call may use on the host.
 #pragma once
 
 #include <cstddef>
@@ -6,17 +6,19 @@
 
 namespace geodisk {
 
-/// The threads that a call may use. No result depends on them.
+/// Threads that a call may use. No result depends on them.
 struct ThreadOptions {
-    /// At least 1, the calling thread included. The machine may have fewer.
+    /// Maximum of threads, at least 1, including the calling thread. Uses no more than the machine
+    /// has.
     std::uint32_t most_threads = 16;
 
-    /// Where given, no thread is started. It is called instead, from the calling thread, must call
-    /// `work(context, block)` for each block below `blocks`, on any threads and in any order, and
-    /// return when these calls have. It must not throw. Blocks it leaves out are done after it.
+    /// Runs the work on the caller's own threads, if set; geodisk then starts none. Is called on
+    /// the calling thread. Must call `work(context, block)` for each block below `blocks`, on any
+    /// threads and in any order, and return when all these calls have returned. Must not throw.
+    /// Blocks that it leaves out run on the calling thread afterwards.
     void (*parallel_for)(void* user, std::size_t blocks,
                          void (*work)(void* context, std::size_t block), void* context) = nullptr;
-    void* user = nullptr; ///< Handed to `parallel_for`.
+    void* user = nullptr; ///< Passed to `parallel_for`.
 };
 
 } // namespace geodisk

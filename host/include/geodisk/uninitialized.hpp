@@ -1,4 +1,4 @@
-// Vectors whose new elements are left as memory holds them.
+// UninitializedVector: a vector whose new elements are uninitialized.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace geodisk {
 
-/// Internal. Lets the threads that fill a large vector be the first to touch its memory, which
-/// costs more than most of what is written there.
+/// Internal. Lets the threads that fill a large vector be the first to touch its memory. The first
+/// touch of a page often costs more than the writes to it.
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
     template <class Other>
@@ -30,7 +30,7 @@ struct UninitializedAllocator : std::allocator<T> {
     }
 };
 
-/// A vector whose resize() leaves new elements of trivial types to be assigned.
+/// A vector whose resize() leaves new elements of trivial types uninitialized.
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 

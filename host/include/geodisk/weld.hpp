@@ -1,4 +1,4 @@
-// Joining vertices that lie in one place, as of files that keep three vertices for each triangle.
+// Joins vertices at the same place, for example in files that store three vertices per triangle.
 #pragma once
 
 #include <cstdint>
@@ -11,60 +11,63 @@
 
 namespace geodisk {
 
-/// A mesh with joined vertices, over the positions of the one it was made of: faces and vertices
-/// keep their numbers, so that what belongs to them still does. Vertices that became another one
-/// are no longer used.
+/// A mesh with joined vertices, over the positions of the original mesh. Faces and vertices keep
+/// their numbers, so data per face and vertex stays valid. Vertices that were merged into another
+/// one are no longer used.
 struct WeldedMesh {
-    std::vector<std::uint32_t> triangles; ///< For MeshView::triangles.
-    std::vector<std::uint32_t> vertices;  ///< What each became: the lowest it is joined with.
-    std::uint64_t merged_vertices = 0;    ///< Vertices that became another one.
-    std::uint64_t degenerate_faces = 0;   ///< Faces that name a vertex twice since, not before.
+    std::vector<std::uint32_t> triangles; ///< Indices for MeshView::triangles.
+    std::vector<std::uint32_t> vertices;  ///< Lowest vertex that each vertex is joined with.
+    std::uint64_t merged_vertices = 0;    ///< Vertices merged into another one.
+    std::uint64_t degenerate_faces = 0;   ///< Faces that name a vertex twice only after joining.
     std::uint64_t joined_edges = 0;       ///< Border edges that join_seams() joined to others.
 };
 
-/// Joins all used vertices that are no farther apart than `epsilon`, in mesh units, and those that
-/// chains of such vertices connect; with 0, those of exactly the same coordinates, -0 being 0. No
-/// vertex moves by more than the length of its chain. Time is that of sorting the vertices, if not
-/// many lie within `epsilon` of each other.
+/// Joins all used vertices that are at most `epsilon` apart, in mesh units, also through chains of
+/// such vertices. 0 joins vertices with exactly the same coordinates; -0 equals 0. No vertex moves
+/// by more than the length of its chain. Takes the time of sorting the vertices, unless many lie
+/// within `epsilon` of each other.
 ///
-/// Fails with `invalid_argument` when `epsilon` is negative or not finite, or above 0 and below
-/// 2^-43 of the longest side of the bounding box, and as `PreparedMesh::prepare` where the view,
-/// an index or a used coordinate is wrong; with `out_of_host_memory`.
+/// Errors: `invalid_argument` if `epsilon` is negative or not finite, or above 0 and below 2^-43 of
+/// the longest side of the bounding box; those of `PreparedMesh::prepare` for a wrong view, index
+/// or used coordinate; `out_of_host_memory`.
 GEODISK_API Result<WeldedMesh> weld(const MeshView& mesh, double epsilon = 0) noexcept;
 
-/// Joins the ends of border edges that lie exactly on other border edges, as along the seams of
-/// texture coordinates and normals. `PreparedMesh::prepare` takes faces as connected where they
-/// share vertices, so call this first for a mesh with seams.
+/// Joins the ends of border edges that lie exactly on other border edges, for example along seams
+/// of texture coordinates and normals. `PreparedMesh::prepare` connects only faces that share
+/// vertices, so call this first for a mesh with seams.
 ///
-/// A border edge is one of a single face; copies of a face count as one. Two edges coincide if both
-/// ends have the same coordinates, -0 being 0. All that coincide become one edge, also three or
-/// more. Nothing else is joined: parts without borders stay apart wherever they touch, as do
-/// borders that meet in a point or overlap in part. An edge without length is a point. Only
-/// triangles without area can vanish, but triangles on top of each other may become copies. A
-/// second call finds nothing to join. Time is linear in the mesh, and that of sorting its borders.
+/// A border edge belongs to a single face; copies of a face count as one. Edges coincide if both
+/// ends have the same coordinates; -0 equals 0. All edges that coincide, also three or more, become
+/// one edge. Nothing else is joined: parts without borders stay separate where they touch, and so
+/// do borders that meet in a point or overlap in part. An edge without length counts as a point.
 ///
-/// Fails as weld() for the mesh; with `out_of_host_memory`.
+/// Only triangles without area can vanish, but triangles on top of each other may become copies. A
+/// second call finds nothing to join. Takes time linear in the mesh, plus the sorting of its
+/// borders.
+///
+/// Errors: those of weld() for the mesh; `out_of_host_memory`.
 GEODISK_API Result<WeldedMesh> join_seams(const MeshView& mesh) noexcept;
 
-/// Border edges that nearly lie on others, as where a file rounds coordinates differently along a
-/// seam.
+/// Border edges that nearly coincide with others, for example where a file rounds coordinates
+/// differently along a seam.
 struct NearSeams {
     std::uint64_t edges = 0; ///< Border edges whose ends are both close to those of another one.
     double gap = 0;          ///< Largest distance between such ends, in mesh units.
-    double epsilon = 0;      ///< A round number for weld(), which then joins them all.
-    std::uint64_t degenerate_faces = 0; ///< Faces that weld() then makes vanish.
+    double epsilon = 0;      ///< A round number with which weld() joins them all.
+    std::uint64_t degenerate_faces = 0; ///< Faces that weld() then removes.
 };
 
-/// Looks for seams that join_seams() leaves open by a small gap: at most 1/100 of the edges there,
-/// and 1/10,000 of the bounding box of all borders. Where the surface itself is as narrow as that,
-/// nothing counts. Edges that coincide exactly do not count. Time is that of sorting the borders.
+/// Finds seams that join_seams() leaves open by a small gap: at most 1/100 of the edges there, and
+/// 1/10,000 of the bounding box of all borders. Ignores edges that coincide exactly, and finds
+/// nothing where the surface itself is that narrow. Takes the time of sorting the borders.
 ///
-/// Fails as weld() for the mesh; with `out_of_host_memory`.
+/// Errors: those of weld() for the mesh; `out_of_host_memory`.
 GEODISK_API Result<NearSeams> find_near_seams(const MeshView& mesh) noexcept;
 
-/// Returns for every vertex the mean of `values`, one per vertex, over all that it is joined with.
-/// `vertices` is WeldedMesh::vertices. Both sides of a seam then have a say in what differs there.
-/// Fails with `invalid_argument` where sizes or vertices are wrong; with `out_of_host_memory`.
+/// Returns, for every vertex, the mean of `values` over all vertices that it is joined with. Use it
+/// for data that differs between the two sides of a seam. `values` has one element per vertex,
+/// `vertices` is WeldedMesh::vertices. Errors: `invalid_argument` for wrong sizes or vertices;
+/// `out_of_host_memory`.
 GEODISK_API Result<std::vector<double>> means_of_joined(std::span<const std::uint32_t> vertices,
                                                         std::span<const double> values) noexcept;
 
