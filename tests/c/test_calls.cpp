@@ -156,7 +156,7 @@ TEST_CASE("wrong arguments are told of") {
     CHECK(geodisk_radii_least_factor(density.get()) == 0.5);
     CHECK(geodisk_radii_least_factor(nullptr) == 1);
 
-    check_wrong("no parts", [&](geodisk_error* e) {
+    check_wrong("parts is empty", [&](geodisk_error* e) {
         return geodisk_domain_surfaces(nullptr, 0, &made_domain, e);
     });
     check_wrong("parts[0] is NULL", [&](geodisk_error* e) {
@@ -261,7 +261,7 @@ TEST_CASE("structs of older and later versions") {
     REQUIRE(geodisk_domain_surface(mesh.get(), &later.known, &domain, nullptr) == GEODISK_OK);
     geodisk_domain_release(domain);
     later.unknown = 1;
-    check_wrong("does not know", [&](geodisk_error* error) {
+    check_wrong("lacks", [&](geodisk_error* error) {
         return geodisk_domain_surface(mesh.get(), &later.known, &domain, error);
     });
 

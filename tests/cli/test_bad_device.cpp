@@ -95,7 +95,7 @@ TEST_CASE("a device that is too weak") {
     const Outcome info = run(folder, {"info"}, *setting);
     CHECK(info.status == 5);
     CHECK(contains(info.out, "runs geodisk     no:"));
-    CHECK(contains(info.err, "none of the Vulkan devices"));
+    CHECK(contains(info.err, "none of these Vulkan devices"));
 }
 
 TEST_CASE("a device that cannot draw may still sample") {

@@ -150,7 +150,7 @@ TEST_CASE("meshes and samples are read from streams, and as what the user says")
     CHECK(contains(unknown.err, "standard input: unknown mesh format"));
     const Outcome twice = run(folder, piped("verify - - --mesh-format obj"), shell);
     CHECK(twice.status == 2);
-    CHECK(contains(twice.err, "a stream is read once"));
+    CHECK(contains(twice.err, "a stream can be read only once"));
     const Outcome plain = run(folder, joined(as_obj, {"--no-header"}));
     CHECK(plain.status == 0);
     CHECK(bytes_of(folder / "a.csv").starts_with("x,y,z,nx,"));

@@ -166,8 +166,8 @@ TEST_CASE("a bad file stops no other one of a batch") {
     CHECK(outcome.status == 1);
     CHECK(contains(outcome.err, "geodisk: meshes/b.obj: line 4: "));
     CHECK(contains(outcome.err, "geodisk: meshes/c.ply: "));
-    CHECK(outcome.err.ends_with("geodisk: 2 meshes of 4 failed; out/batch.jsonl tells why, and "
-                                "--resume tries again\n"));
+    CHECK(outcome.err.ends_with(
+        "geodisk: 2 meshes of 4 failed; out/batch.jsonl says why, and --resume retries\n"));
     CHECK(files_below(folder, "out") ==
           std::vector<std::string>{"out/a.ply", "out/batch.jsonl", "out/d.ply"});
     std::size_t failed = 0;

@@ -133,7 +133,7 @@ TEST_CASE("box: verify explains what is no file of samples in a box") {
         check_fails(folder, status, part, {"verify", "a.csv"});
     };
     const std::string rows = "x,y\n0.5,0.5\n";
-    refuse("tells of no box", rows);
+    refuse("its header has no box", rows);
     refuse("not 1 to 6 positive sides", "# box: 1 x\n" + rows);
     refuse("not 1 to 6 positive sides", "# box: 1 x -1\n" + rows);
     refuse("has 2 coordinates, but its box has 3 sides", "# box: 1 x 1 x 1\n" + rows);
@@ -142,10 +142,10 @@ TEST_CASE("box: verify explains what is no file of samples in a box") {
     refuse("has no column y", "# box: 1 x 1\nx,z\n1,1\n");
     refuse("line 2: 'half' is not a number", "x,y\nhalf,1\n");
     folder.write("a.csv", "# box: 1 x 1\n# sides: open\n# min_distance: 1\n" + rows);
-    check_fails(folder, 2, "options of surfaces", {"verify", "a.csv", "--lift", "normals:1"});
+    check_fails(folder, 2, "options for surfaces", {"verify", "a.csv", "--lift", "normals:1"});
     check_fails(folder, 2, "a.csv", {"verify", "a.csv", "--json", "a.csv"});
     folder.write("a.xyz", "0.5 0.5 0\n");
-    check_fails(folder, 3, "tells of no box", {"verify", "a.xyz"});
+    check_fails(folder, 3, "its header has no box", {"verify", "a.xyz"});
 }
 
 TEST_CASE("box: all formats hold the same samples") {
@@ -216,7 +216,7 @@ TEST_CASE("box: darts until there are so many samples, or so many darts were thr
     CHECK(run(folder, {"verify", "a.csv"}).status == 0);
     check_fails(folder, 2, "only",
                 box("b.csv", {"--dim", "1", "-d", "0.5", "--method", "pdts", "--count", "9"}));
-    check_fails(folder, 2, "nothing to stop at",
+    check_fails(folder, 2, "needs a number to stop at",
                 box("b.csv", {"--dim", "2", "-d", "0.1", "--method", "pdts"}));
     check_fails(folder, 2, "--darts is for --method darts",
                 box("b.csv", {"--dim", "2", "-d", "0.1", "--throws", "9"}));

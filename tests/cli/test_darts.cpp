@@ -123,9 +123,9 @@ TEST_CASE("darts that run out before the count are told, or an error where none 
     CHECK(contains(set.summary, " of 5,000 asked for, when the darts ran out, rho"));
     CHECK(set.report["warnings"].back()["kind"] == "count_missed");
     CHECK(contains(set.report["warnings"].back()["message"].get<std::string>(),
-                   " of 5,000 samples found room before the darts ran out"));
+                   " of 5,000 samples fit before the darts ran out"));
     const TemporaryFolder empty;
-    check_fails(empty, 2, "of 5,000 samples 0.5 apart found room",
+    check_fails(empty, 2, "of 5,000 samples at distance 0.5 with",
                 darts({"-d", "0.5", "--count", "5000", "--json", "a.json"}));
     check_fails(empty, 2, "--darts", darts({"-d", "0.5", "--count", "5000"}));
 }
@@ -134,7 +134,7 @@ TEST_CASE("methods take their own options") {
     const TemporaryFolder folder;
     check_fails(folder, 2, "'dart' is neither pool nor darts",
                 sample({"-d", "1", "--method", "dart"}));
-    check_fails(folder, 2, "nothing to stop at", darts({"-d", "1"}));
+    check_fails(folder, 2, "needs a number to stop at", darts({"-d", "1"}));
     check_fails(folder, 2, "no distance given", darts({"--count", "9"}));
     check_fails(folder, 2, "no distance given", darts({"--throws", "9"}));
     check_fails(folder, 2, "contradict", darts({"-d", "1", "-r", "1", "--throws", "9"}));

@@ -71,7 +71,7 @@ TEST_CASE("a mesh is sampled and drawn at once") {
     CHECK(bytes_of(folder / "c.png") != bytes_of(folder / "b.png"));
     check_fails(folder, 2, "--picture FILE",
                 {"sample", kMesh, "-n", "400", "-o", "c.ply", "--legend"});
-    check_fails(folder, 2, "--legend has no room in a view of 40 x 40 pixels",
+    check_fails(folder, 2, "--legend does not fit into a view of 40 x 40 pixels",
                 {"render", kMesh, "a.ply", "-o", "small.png", "--size", "40x40", "--legend"});
     CHECK_FALSE(std::filesystem::exists(folder / "small.png"));
     check_fails(folder, 2, "*.png", joined(good, {"c.jpg"}));
@@ -247,7 +247,7 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     check_fails(folder, 2, "--up", joined(good, {"--up", "north"}));
     check_fails(folder, 2, "--background", joined(good, {"--background", "#fff"}));
     check_fails(folder, 2, "--radius", joined(good, {"--radius", "0"}));
-    check_fails(folder, 2, "say the same", joined(good, {"-d", "0.1", "-r", "0.1"}));
+    check_fails(folder, 2, "contradict each other", joined(good, {"-d", "0.1", "-r", "0.1"}));
     check_fails(folder, 2, "would replace",
                 {"render", kMesh, "a.ply", "-o", "p.png", "--json", "p.png"});
     check_fails(folder, 5, "nowhere", joined(good, {"--device", "nowhere"}));

@@ -106,7 +106,7 @@ TEST_CASE("a dry run tells what to expect and writes nothing") {
     REQUIRE(text.status == 0);
     for (const char* const part :
          {"min distance  0.2 ", "samples       about ", " expected\n", "candidates    about ",
-          "memory        ", " sampling, as tried", "file          none, this was a dry run\n"}) {
+          "memory        ", " sampling, measured", "file          none, this was a dry run\n"}) {
         CHECK(contains(text.out, part));
     }
     const Outcome report = run(folder, joined(job, {"--dry-run", "-o", "a.ply", "--json", "-"}));

@@ -97,7 +97,7 @@ TEST_CASE("samples of a surface are blue noise without a direction") {
     CHECK(contains(text.out, "takes --harmonics 1000"));
 
     const std::string mesh = files.front();
-    check_fails(folder, 2, "come after it", {"spectrum", mesh});
+    check_fails(folder, 2, "is a mesh; give samples", {"spectrum", mesh});
     check_fails(folder, 2, "--reach", {"spectrum", mesh, "0.ply", "--reach", "2"});
     check_fails(folder, 2, "no directions", {"spectrum", mesh, "0.ply", "-o", "s.png"});
     check_fails(folder, 2, "so only 2,561 harmonics",
@@ -120,7 +120,7 @@ TEST_CASE("what has no spectrum is told") {
         0);
     check_fails(folder, 2, "SAMPLES", {"spectrum"});
     check_fails(folder, 2, "--harmonics", {"spectrum", "a.csv", "--harmonics", "9"});
-    check_fails(folder, 2, "boxes have theirs", {"spectrum", "a.csv", "-d", "0.2"});
+    check_fails(folder, 2, "the header of a box has its own", {"spectrum", "a.csv", "-d", "0.2"});
     check_fails(folder, 2, "--reach", {"spectrum", "a.csv", "--reach", "0"});
     check_fails(folder, 2, "s.txt", {"spectrum", "a.csv", "-o", "s.txt"});
     check_fails(folder, 2, "would replace", {"spectrum", "a.csv", "-o", "a.csv"});

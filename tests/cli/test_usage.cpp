@@ -178,7 +178,7 @@ TEST_CASE("a mistyped word is answered by the one it is close to") {
     check_fails(folder, 2, "'--outptu': no such option; did you mean --output?",
                 {"batch", "meshes", "--outptu", "out"});
     check_fails(folder, 2, "'--verison': no such option; did you mean --version?", {"--verison"});
-    check_fails(folder, 2, "'--xyzzy': no such option; a file of this name goes behind --",
+    check_fails(folder, 2, "'--xyzzy': no such option; a file of this name must come after --",
                 {"--xyzzy"});
     check_fails(folder, 2, "'-z': no such option", sample({"-z"}));
     check_fails(folder, 2, "'-qz': no such option", sample({"-qz"}));
@@ -192,9 +192,10 @@ TEST_CASE("a mistyped word is answered by the one it is close to") {
                 sample({"-n", "9", "--method", "poll"}));
     check_fails(folder, 2, "; did you mean voronoi?",
                 {"render", "builtin:cube", "a.ply", "-o", "a.png", "--style", "vornoi"});
-    check_fails(folder, 2, "meshes is a folder; sample all meshes in it by geodisk batch meshes -o",
+    check_fails(folder, 2,
+                "meshes is a folder; to sample all meshes in it, run geodisk batch meshes -o",
                 {"meshes", "--count", "9"});
-    check_fails(folder, 2, "options go behind the command: geodisk sample", {"-q", "sample"});
+    check_fails(folder, 2, "options come after the command: geodisk sample", {"-q", "sample"});
     const Outcome far = run(folder, {"quux"});
     CHECK_FALSE(contains(far.err, "did you mean"));
 }
@@ -223,7 +224,7 @@ TEST_CASE("-- ends the options, and values that look like options go behind =") 
                 {"sample", "-n", "20", "-o", "-b.csv", "--", "-q.obj"});
     check_fails(folder, 2, "--count: '-5' is not a whole number", sample({"--count=-5"}));
     check_fails(folder, 2, "--output: needs a value", {"sample", "x.obj", "-o", "--"});
-    check_fails(folder, 2, "'-x.obj': no such option; a file of this name goes behind --",
+    check_fails(folder, 2, "'-x.obj': no such option; a file of this name must come after --",
                 {"-x.obj"});
 }
 

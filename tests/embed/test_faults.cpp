@@ -165,7 +165,7 @@ bool frees_what_runs(std::string_view function) {
 
 void check_given_up(const Error& error) {
     CHECK(error.status == Status::device_lost);
-    CHECK(error.message.find("not answered") != std::string::npos);
+    CHECK(error.message.find("did not respond") != std::string::npos);
 }
 
 } // namespace

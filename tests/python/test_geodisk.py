@@ -147,10 +147,10 @@ def test_a_count_with_a_stop_is_searched_for_without_it():
     assert first.min_distance == all_samples.min_distance
     assert np.array_equal(first.face_index, all_samples.face_index[:20])
     assert first.report["missing"] == 0
-    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 1,000,000 samples found room"):
+    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 1,000,000 samples fit"):
         short = geodisk.sample(VERTICES, FACES, min_distance=0.4, stop_count=10**6)
     assert short.report["missing"] == 10**6 - len(short)
-    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 999 samples found room"):
+    with pytest.warns(geodisk.GeodiskWarning, match="only .* of 999 samples fit"):
         geodisk.sample_box([1, 1], min_distance=0.2, stop_count=999)
     with pytest.raises(ValueError, match="throws"):
         geodisk.sample(VERTICES, FACES, count=200, throws=100)

@@ -324,7 +324,7 @@ TEST_CASE("boxes: what cannot be sampled is named") {
     check_refused(box, "pool ratio");
     check_refused(unit_box(1, 1e-8), "side 1 is 1e+08 times as long");
     check_refused(unit_box(2, 1e-300), "side 1 is 1e+300 times as long");
-    check_refused(unit_box(4, 1e-4), "candidates, the most is");
+    check_refused(unit_box(4, 1e-4), "candidates, the maximum is");
     check_refused(unit_box(2, 1.01, true), "shortest side of the periodic box");
     BoxParams thin = unit_box(2, 0, true);
     thin.extents[1] = 1e-3;

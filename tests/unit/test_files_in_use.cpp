@@ -68,9 +68,10 @@ TEST_CASE("no file that is read or written otherwise is written") {
     });
 #ifndef _WIN32
     files.add_read({"the mesh", "-"});
-    check_fails(ExitCode::usage, "a stream is read once, but the mesh and the samples", [&] {
-        files.add_read({"the samples", "/dev/stdin"});
-    });
+    check_fails(ExitCode::usage, "a stream can be read only once, but the mesh and the samples",
+                [&] {
+                    files.add_read({"the samples", "/dev/stdin"});
+                });
     files.add_written({"the samples", "/dev/null"});
     files.add_written({"the report", "/dev/null"});
 #endif

@@ -27,8 +27,8 @@ void FilesInUse::add_read(const NamedFile& file) {
     }
     const auto [other, is_new] = read_.emplace(file_identity(file.path, 0), file);
     if (!is_new && input_stream(file.path) && !other->first.empty()) {
-        fail_usage(file.path + ": a stream is read once, but " + other->second.what + " and " +
-                   file.what + " are both there");
+        fail_usage(file.path + ": a stream can be read only once, but " + other->second.what +
+                   " and " + file.what + " both read it");
     }
     unopened_.push_back(file);
 }

@@ -42,7 +42,7 @@ AtomicFile::AtomicFile(const Path& path) : given_(path), target_(output_target(p
     const int error = target_.replaced ? take_rights(file_, *target_.replaced) : 0;
     if (error != 0) {
         discard();
-        fail_to_write(given_, "belongs to somebody else, and would no longer");
+        fail_to_write(given_, "belongs to another user; replacing it would change its owner");
     }
 }
 

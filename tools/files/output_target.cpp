@@ -58,7 +58,7 @@ OutputTarget output_target(const Path& path) {
     }
     const auto end = followed(path);
     if (!end) {
-        fail_to_write(path, "its symbolic links lead nowhere");
+        fail_to_write(path, "is a broken symbolic link");
     }
     OutputTarget target{*end, {}, {}};
     std::error_code ignored;

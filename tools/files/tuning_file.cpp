@@ -122,7 +122,7 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
 std::filesystem::path writable_tuning_path(const DeviceReport& device) {
     std::filesystem::path path = tuning_path(device);
     if (path.empty()) {
-        fail_output("the tuning has nowhere to go: neither XDG_CACHE_HOME nor HOME is set");
+        fail_output("cannot save the tuning: neither XDG_CACHE_HOME nor HOME is set");
     }
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error);

@@ -39,7 +39,7 @@ ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double ex
         } else if (time.is_long_already()) {
             progress.clear();
             print_warning("sampling takes more than " + seconds_text(watch.seconds()) +
-                          " on this device: disks are far larger than triangles");
+                          " on this device: disks cover very many triangles");
         }
         std::string text = grouped(state.accepted) + " samples";
         if (const auto left = time.left(); left && *left >= 1) {
@@ -76,11 +76,11 @@ void check_run(const Error& error, bool bounded) {
         throw UserError(ExitCode::out_of_memory, error.message + "; give more with --memory");
     }
     if (is_disk) {
-        throw UserError(ExitCode::out_of_memory,
-                        error.message +
-                            ", which is all this device has for it; lower the distance, "
-                            "ask for more samples, or coarsen the mesh where its "
-                            "triangles are far smaller than the distance");
+        throw UserError(
+            ExitCode::out_of_memory,
+            error.message +
+                "; the device has no more memory. Lower the distance, raise --count, or coarsen "
+                "the mesh where its triangles are much smaller than the distance");
     }
     if (error.status == Status::device_lost) {
         throw DeviceLost(error.message);

@@ -36,7 +36,7 @@ std::uint64_t planned_bytes(const Sampler& sampler, const RunnerOptions& options
 /// Runs the task, or what of it takes no longer than the pilot.
 void run_pilot(Runner& runner, const Task& task, bool is_bounded, ProgressLine& progress,
                DryRun& dry) {
-    progress.begin_stage("trying the first part");
+    progress.begin_stage("running a pilot");
     double start_part = 0, start_seconds = 0;
     const Stopwatch watch;
     auto result = runner.sample_and_wait(task.domain, [&](const Progress& state) {
@@ -104,11 +104,11 @@ Json dry_run_json(const DryRun& run) {
 
 std::string dry_run_text(const DryRun& run) {
     const bool is_whole = run.pilot_part >= 1;
-    const std::string time = is_whole
-                                 ? seconds_text(run.pilot_seconds) + " sampling, as tried"
-                                 : "about " + seconds_text(run.sample_seconds) +
-                                       " sampling, judging by " + rounded(100 * run.pilot_part, 2) +
-                                       " % of it in " + seconds_text(run.pilot_seconds);
+    const std::string time = is_whole ? seconds_text(run.pilot_seconds) + " sampling, measured"
+                                      : "about " + seconds_text(run.sample_seconds) +
+                                            " sampling, estimated from " +
+                                            rounded(100 * run.pilot_part, 2) + " % of it in " +
+                                            seconds_text(run.pilot_seconds);
     return "samples       about " + grouped(whole(run.expected)) +
            " expected\ncandidates    about " + grouped(whole(run.candidates)) + ", seed " +
            std::to_string(run.seed) + "\nmemory        " + (is_whole ? "" : "about ") +

@@ -119,7 +119,7 @@ void check_picture_path(const Path& path) {
 
 void check_visible(const std::string& path, const MeshInput& mesh) {
     if (mesh.dimension() == 0) {
-        fail_input(path, "has edge lengths without coordinates, so there is nothing to look at");
+        fail_input(path, "has edge lengths but no coordinates, so it cannot be drawn");
     }
 }
 

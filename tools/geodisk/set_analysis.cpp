@@ -23,8 +23,8 @@ constexpr double kMostProbes = 1e7;
 
 void add_probes_option(Command command, std::string& probes) {
     command.add_option("--probes", probes, "N",
-                       "Random places where gaps are looked for (10 per sample,\n"
-                       "20,000 at least)");
+                       "Number of random points to find gaps with (default 10 per\n"
+                       "sample, at least 20,000)");
 }
 
 std::uint32_t probes_for(const std::string& probes, std::size_t samples) {

@@ -20,11 +20,10 @@ std::string percent(double share) {
 
 /// What to say where darts ran out before there were as many samples as asked for; else "".
 std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
-    return samples >= stop_count
-               ? ""
-               : "only " + grouped(samples) + " of " + grouped(stop_count) +
-                     " samples found room before the darts ran out; lower the count or the "
-                     "distance, or raise --darts";
+    return samples >= stop_count ? ""
+                                 : "only " + grouped(samples) + " of " + grouped(stop_count) +
+                                       " samples fit before the darts ran out; lower --count or "
+                                       "the distance, or raise --darts";
 }
 
 /// Where a count chooses the distance, or stops the darts.
@@ -41,7 +40,7 @@ void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
         warnings.push_back({"count_missed", static_cast<std::uint64_t>(miss), "",
                             counted(set.samples, "sample", "samples") + " instead of " +
                                 grouped(static_cast<std::uint64_t>(set.wanted_count)) +
-                                ": no distance that was tried came nearer" + reason,
+                                ": no distance tried came closer" + reason,
                             ""});
     }
 }

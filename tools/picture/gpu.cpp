@@ -23,8 +23,7 @@ Function load(PFN_vkGetInstanceProcAddr get, VkInstance instance, const char* na
 }
 
 [[noreturn]] void fail_stalled() {
-    throw UserError(ExitCode::internal,
-                    "the device has not answered while drawing, and is given up");
+    throw UserError(ExitCode::internal, "the device stopped responding while drawing");
 }
 
 } // namespace

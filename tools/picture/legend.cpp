@@ -112,8 +112,8 @@ Legend::Legend(const LegendFacts& facts, std::uint32_t width, std::uint32_t heig
     if (!lay_out(facts, em, false, width, kMostHeight * height) &&
         !lay_out(facts, em, true, width, kMostHeight * height) &&
         !lay_out(facts, kSmallestEm, true, width, kMostShortHeight * height)) {
-        fail_usage("--legend has no room in a view of " + std::to_string(width) + " x " +
-                   std::to_string(height) + " pixels; enlarge --size or leave the legend out");
+        fail_usage("--legend does not fit into a view of " + std::to_string(width) + " x " +
+                   std::to_string(height) + " pixels; raise --size or leave out --legend");
     }
 }
 

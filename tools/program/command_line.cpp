@@ -124,7 +124,7 @@ class Sorter {
         const std::string& shown = word.empty() ? name : word;
         const std::string meant = did_you_mean(shown, known);
         fail_usage(in_quotes(shown) + ": no such option" +
-                   (meant.empty() ? "; a file of this name goes behind --" : meant));
+                   (meant.empty() ? "; a file of this name must come after --" : meant));
     }
 
     static std::string long_name(const OptionFacts& option) { return option.names.back(); }

@@ -84,7 +84,7 @@ Result<Struct> taken(const Struct* given, const char* name) {
     for (std::size_t i = sizeof(Struct); i < size; ++i) {
         if (bytes[i] != 0) {
             return wrong(std::string(name) +
-                         " asks for what this version of geodisk does not know");
+                         " asks for a feature that this version of geodisk lacks");
         }
     }
     Struct result{};

@@ -46,7 +46,7 @@ Result<Domain> make_surface(const Part& part, geodisk_metric metric) {
         return wrong("params->metric is none of the three");
     }
     if (part.mesh->dimension == 0) {
-        return wrong("params->metric needs coordinates, which the mesh has not");
+        return wrong("params->metric needs coordinates, which the mesh lacks");
     }
     return Domain::surface_in_space(part.mesh->view(), part.mesh->prepared, part.params,
                                     metric == GEODISK_EUCLIDEAN ? Metric::euclidean
@@ -130,7 +130,7 @@ geodisk_status geodisk_domain_surfaces(const geodisk_surface_part* parts, size_t
             return wrong("domain is NULL");
         }
         if (count == 0) {
-            return wrong("there are no parts");
+            return wrong("parts is empty");
         }
         const auto state = std::make_shared<DomainState>();
         state->parts.resize(count);

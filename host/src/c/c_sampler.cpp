@@ -22,7 +22,8 @@ geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, cons
 }
 
 Error run_in_progress() {
-    return Error{Status::busy, "the sampler has a run in progress, for geodisk_poll"};
+    return Error{Status::busy,
+                 "the sampler has a run in progress; call geodisk_poll until it ends"};
 }
 
 geodisk_progress progress_of(const Progress& state) {

@@ -51,7 +51,7 @@ std::filesystem::path name_of(const std::string& mesh, const BatchOptions& batch
 std::filesystem::path given_name(const std::string& name, const std::string& format) {
     Path path(name);
     if (!stays_inside(path)) {
-        fail_usage("--output: " + in_quotes(name) + " is no name of a file inside the folder");
+        fail_usage("--output: " + in_quotes(name) + " is not a file name inside the folder");
     }
     const std::string extension = lower_extension(path);
     const bool has_format =

@@ -43,8 +43,9 @@ void check_no_log(const std::string& path) {
     std::error_code ignored;
     const auto size = std::filesystem::file_size(Path(path), ignored);
     if (!ignored && size > 0) { // Without a line there is nothing to lose.
-        fail_usage(path + ": there is a log already; go on with that batch by --resume, or give "
-                          "another folder");
+        fail_usage(
+            path +
+            ": there is a log already; continue that batch with --resume, or give another folder");
     }
 }
 

@@ -26,7 +26,7 @@ std::string face_fault(const SampleRow& row, const std::string& mesh_path, const
                counted(mesh.prepared.face_count(), "triangle", "triangles");
     }
     if (!mesh.file.takes_part(row.face)) {
-        return face + " repeats a vertex or is a copy in " + mesh_path + ", so nothing lies on it";
+        return face + " repeats a vertex or is a copy in " + mesh_path + ", which holds no samples";
     }
     const auto polygon = mesh.polygon(row.face);
     if (row.polygon && polygon && *row.polygon != *polygon) {
@@ -46,7 +46,7 @@ double header_distance(const std::string& samples_path, const SampleHeader& head
     const std::optional<double> distance = parse_real(trimmed(*value));
     if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
         fail_input(samples_path, "its header has the minimum distance " + in_quotes(*value) +
-                                     ", which is not a positive number; give --min-distance");
+                                     ", not a positive number; give --min-distance");
     }
     return *distance;
 }
@@ -76,7 +76,7 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
         }
         if (!(least >= -kTolerance && std::abs(sum - 1) <= kTolerance)) {
             fail_input(samples_path, "sample " + std::to_string(i) +
-                                         ": the weights are not those of a point in a triangle");
+                                         ": its weights do not name a point in a triangle");
         }
     }
 }
@@ -131,9 +131,10 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
     if (used == options_of(additions)) {
         return;
     }
-    warnings.push_back({"other_surface", 1, "",
-                        "made with" + used + ", which is not what is looked at here",
-                        samples_path});
+    warnings.push_back(
+        {"other_surface", 1, "",
+         "made with" + used + ", but this command has other options; distances may differ",
+         samples_path});
     print_warning(samples_path + ": " + warnings.back().message);
 }
 
@@ -168,12 +169,12 @@ void check_same_distance(const std::string& samples_path, double min_distance,
             samples_path == first_path ? " and of " : ", " + first_path + " one of ";
         fail_input(samples_path, "has a minimum distance of " + rounded(min_distance, 6) + other +
                                      rounded(first_distance, 6) +
-                                     "; a spectrum is of samples that keep the same");
+                                     "; a spectrum needs samples with the same minimum distance");
     }
 }
 
 std::string offset_text(const StrayRow& stray) {
-    return rounded(stray.offset, 3) + " away from where its face and weights put it";
+    return rounded(stray.offset, 3) + " from the point given by its face and weights";
 }
 
 } // namespace geodisk::tools

@@ -36,7 +36,7 @@ std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& m
                                    const MeshInput& mesh, const std::string& given,
                                    SampleFile& samples, std::vector<MeshWarning>& warnings,
                                    ProgressLine& progress) {
-    progress.begin_stage("putting the points on the mesh");
+    progress.begin_stage("projecting the points onto the mesh");
     const NearestFace faces(mesh.file);
     const double tolerance = tolerance_on(given, faces.diagonal());
     std::vector<StrayRow> strays;

@@ -142,12 +142,12 @@ void add_analyze_command(Command app) {
     command
         .add_option("SAMPLES", options->samples, "",
                     "Samples to analyze: *.ply, *.csv or *.pcd, or points of\n"
-                    "another program, also *.obj and *.xyz; several of other seeds\n"
-                    "tell whether all places are as likely")
+                    "another program, also *.obj and *.xyz. Give several files with\n"
+                    "different seeds to test whether samples are spread evenly")
         .required();
     add_distance_options(command, options->distance);
     add_probes_option(command, options->probes);
-    command.add_option("--seed", options->seed, "S", "Seed of these places").shows_default();
+    command.add_option("--seed", options->seed, "S", "Seed of the random points").shows_default();
     add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
     add_json_option(command, options->out);

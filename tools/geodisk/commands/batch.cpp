@@ -28,7 +28,7 @@ constexpr const char* kFooter = R"(Examples:
   geodisk batch list.txt -o samples --count 10000 --shard 3/16
   geodisk batch list.txt -o samples --count 10000 --resume
 
-A manifest, whose paths are relative to it:
+A manifest (paths are relative to its folder):
   # mesh              options
   bunny.ply           --count 20000
   "old scans/a.obj"   --min-distance 0.5% --weld -o scans/first
@@ -36,8 +36,8 @@ A manifest, whose paths are relative to it:
 
 Exit status:
   0    all meshes are done
-  1    some failed, as the log tells; the others are done
-  2    wrong usage, a line of the manifest among it
+  1    some meshes failed, see the log; the others are done
+  2    wrong usage, also in a line of the manifest
   3    the folder or the manifest is missing, unreadable or names no mesh
   4    the log or the report cannot be written
   5    no Vulkan device that can run geodisk
@@ -45,7 +45,7 @@ Exit status:
   7    an error or crash inside geodisk or the driver
   130  interrupted (SIGINT)
   143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
-Files of meshes that are done stay, whatever the status, and --resume goes on behind them.)";
+Files of meshes that are done stay, whatever the status; --resume continues after them.)";
 
 /// Enough that one reads and writes while the device samples another.
 constexpr int kJobsPerDevice = 2;
@@ -112,8 +112,7 @@ void run_batch_command(const BatchOptions& options) {
     if (result.totals.failed > 0) {
         throw UserError(ExitCode::some_failed, counted(result.totals.failed, "mesh", "meshes") +
                                                    " of " + grouped(result.meshes) + " failed; " +
-                                                   result.log +
-                                                   " tells why, and --resume tries again");
+                                                   result.log + " says why, and --resume retries");
     }
 }
 

@@ -77,8 +77,8 @@ void add_box_command(Command app) {
         app.add_command("box", "Put samples in a box of R^n, by straight-line distance");
     const auto options = std::make_shared<BoxOptions>();
     add_output_or_dry_run(command, options->out,
-                          "File to write: *.csv, *.npz, or with 0 for coordinates that a box\n"
-                          "of fewer than three lacks *.ply, *.pcd, *.glb, *.gltf, *.obj, *.xyz");
+                          "File to write: *.csv or *.npz; or *.ply, *.pcd, *.glb, *.gltf, *.obj\n"
+                          "or *.xyz with 0 for coordinates that the box lacks");
     add_box_options(command, *options);
     add_calls_option(command, options->method);
     add_run_options(command, options->run);

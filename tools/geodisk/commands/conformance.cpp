@@ -47,9 +47,9 @@ void run_conformance(const ConformanceOptions& options) {
     }
     publish(options.out, report.json(), report.summary());
     if (report.same() != sets.size()) {
-        throw UserError(ExitCode::violation,
-                        "this device gives " + grouped(sets.size() - report.same()) + " of " +
-                            counted(sets.size(), "set", "sets") + " otherwise than it should");
+        throw UserError(ExitCode::violation, grouped(sets.size() - report.same()) + " of " +
+                                                 counted(sets.size(), "set", "sets") +
+                                                 " differ from the known ones on this device");
     }
 }
 
@@ -65,11 +65,11 @@ void add_conformance_command(Command app) {
     add_verbose_option(command, options->device);
     add_quiet_option(command, options->out);
     command.add_option("--sets", options->sets, "FILE",
-                       "Check the sets of a file instead, as --print-sets prints them",
+                       "Check the sets in FILE instead, in the form of --print-sets",
                        "Development");
     command.add_flag("--print-sets", options->prints_sets,
-                     "Print the sets that the device gives: a fingerprint, a number of\n"
-                     "samples and a job per line",
+                     "Print one set of this device per line: fingerprint, number of\n"
+                     "samples, job",
                      "Development");
     command.has_footer(help_footer(kExamples));
     command.calls([options] { run_conformance(*options); });

@@ -6,9 +6,9 @@ namespace {
 constexpr const char* kExitStatus = R"(
 Exit status:
   0    success
-  1    verify found samples too close, off the mesh or of another radius; meshes of a list failed;
-       conformance found another set
-  2    wrong usage: an unknown option, no or several distances, a value out of range
+  1    verify found samples too close, off the mesh or with a wrong radius; some meshes of a list
+       failed; conformance found a set that differs
+  2    wrong usage: an unknown option, no distance or several, a value out of range
   3    an input file is missing, unreadable or malformed
   4    an output cannot be written
   5    no Vulkan device that can run geodisk
@@ -16,8 +16,8 @@ Exit status:
   7    the device was lost, or an error or crash inside geodisk or the driver
   130  interrupted (SIGINT)
   143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
-Whenever the status is 2 or more, no output file is written or replaced, except for the meshes of
-a list or batch that are done.)";
+If the status is 2 or more, no output file is written or replaced, except for meshes of a list or
+batch that are done.)";
 
 } // namespace
 

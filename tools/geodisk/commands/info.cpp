@@ -151,7 +151,7 @@ void run_info(const OutputOptions& out) {
         take(Result<std::size_t>(chosen), kDeviceVariable);
     }
     if (!chosen) {
-        throw UserError(ExitCode::no_device, "none of the Vulkan devices listed can run geodisk");
+        throw UserError(ExitCode::no_device, "none of these Vulkan devices can run geodisk");
     }
 }
 
@@ -168,22 +168,21 @@ void add_info_command(Command app) {
             .may_lack_value();
     const Option kernels =
         command.add_flag("--kernels", options->kernels,
-                         "Instead, compile the kernels on one device and tell the registers,\n"
-                         "spills and so on that its driver reports",
+                         "Compile the kernels on one device instead, and print the driver's\n"
+                         "statistics, such as registers and spills",
                          "Development");
     command
         .add_option("--device", options->of_kernels.device, "NAME|INDEX",
-                    "The device for --kernels, by name, index or UUID", "Development")
+                    "Device for --kernels, by name, index or UUID", "Development")
         .needs(kernels);
     command
         .add_option("--reads", options->of_kernels.reads, "WAY",
-                    "Kernels that read storage or texels, instead of what suits the device",
-                    "Development")
+                    "Variant of the kernels: auto, storage or texels (default auto)", "Development")
         .offers({"auto", "storage", "texels"})
         .needs(kernels);
     command
         .add_flag("--count-calls", options->of_kernels.count_calls,
-                  "Kernels as for sample --count-calls", "Development")
+                  "Variant of the kernels for sample --count-calls", "Development")
         .needs(kernels);
     command.has_footer(help_footer(kExamples));
     command.calls([options, json] { // Owns them, as the options refer to them.

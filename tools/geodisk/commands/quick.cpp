@@ -203,14 +203,14 @@ void check_mesh(Command app, const std::string& word) {
         return;
     }
     if (is_folder(word)) {
-        fail_usage(one_line(word) + " is a folder; sample all meshes in it by geodisk batch " +
+        fail_usage(one_line(word) + " is a folder; to sample all meshes in it, run geodisk batch " +
                    shell_word(word) + " -o OUT --count N");
     }
     if (exists(word)) {
         return;
     }
     if (app.find_command(word)) {
-        fail_usage("options go behind the command: geodisk " + word + " ...");
+        fail_usage("options come after the command: geodisk " + word + " ...");
     }
     std::vector<std::string> known = app.command_names();
     for (std::string& shape : builtin_names("builtin:")) {

@@ -30,12 +30,12 @@ constexpr double kPointPart = 0.3;
 void check_options(const RenderOptions& options) {
     const std::string extension = lower_extension(options.mesh.mesh);
     if (extension != ".ply" && extension != ".csv" && options.mesh.mesh != "-") {
-        fail_usage("SAMPLES is required, except for samples in a box, *.ply or *.csv, which are "
-                   "shown without a mesh");
+        fail_usage("SAMPLES is required, except for samples in a box (*.ply or *.csv), which need "
+                   "no mesh");
     }
     if (!options.mesh.additions().empty()) {
-        fail_usage("options of surfaces need MESH and SAMPLES; a single file is one of samples in "
-                   "a box");
+        fail_usage(
+            "options for surfaces need MESH and SAMPLES; a single file must hold samples in a box");
     }
     check_outputs(options.out, "the picture", {{"the samples", options.mesh.mesh}},
                   check_picture_path);
@@ -50,7 +50,7 @@ BoxParams read_box(const RenderOptions& options, const SampleFile& samples) {
     }
     if (box.extents.size() != 2 && box.extents.size() != 3) {
         fail_input(path, "its box has " + counted(box.extents.size(), "dimension", "dimensions") +
-                             "; pictures are of those with 2 or 3");
+                             "; a picture needs 2 or 3");
     }
     return box;
 }
@@ -71,8 +71,8 @@ void render_balls(const RenderOptions& options, const PictureParams& params, con
     if (params.style != Style::automatic && params.style != Style::disks &&
         params.style != Style::points) {
         fail_usage("--style " + options.style +
-                   " is of surfaces; samples in a box of 3 dimensions are shown as disks, which "
-                   "are balls there, or as points");
+                   " is for surfaces; samples in a box of 3 dimensions take --style disks (balls) "
+                   "or points");
     }
     if (samples.rows.empty()) {
         fail_input(subject.samples_file, "has no samples to show");

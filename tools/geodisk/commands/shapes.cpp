@@ -39,7 +39,7 @@ void list_shapes() {
         std::cout << padded(prefix + std::string(shape.name), name_width) << padded(range, 20)
                   << shape.summary << '\n';
     }
-    std::cout << "\nAnother resolution goes behind the name, as in builtin:icosphere:6\n";
+    std::cout << "\nTo change the resolution, append it to the name, as in builtin:icosphere:6\n";
     std::cout.flush();
     if (!std::cout) {
         fail_output("the list of shapes cannot be written");

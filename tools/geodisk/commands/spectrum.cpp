@@ -110,7 +110,7 @@ std::string harmonics_line(const SurfaceSpectrum& spectrum, double min_distance,
 
 void spectrum_of_surface(const SpectrumOptions& options) {
     if (!options.reach.empty()) {
-        fail_usage("--reach is for samples in boxes; on a mesh --harmonics tells how far it goes");
+        fail_usage("--reach is for samples in boxes; on a mesh, give --harmonics");
     }
     parse_harmonics(options.harmonics); // Before the files are read.
     check_tolerance(options.tolerance);
@@ -173,7 +173,7 @@ void add_spectrum_command(Command app) {
         options->mesh.mesh = files->front();
         options->samples.assign(files->begin() + 1, files->end());
         if (options->samples.empty()) {
-            fail_usage("SAMPLES: " + files->front() + " is a mesh; samples on it come after it");
+            fail_usage("SAMPLES: " + files->front() + " is a mesh; give samples on it after it");
         }
         spectrum_of_surface(*options);
     });

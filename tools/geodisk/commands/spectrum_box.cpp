@@ -51,7 +51,7 @@ void check_box_spectrum_path(const Path& path) {
 BoxParams read_box(const std::string& path, const SampleFile& samples) {
     BoxParams box = box_of(path, "", samples);
     if (box.extents.size() < 2) {
-        fail_input(path, "its box has one dimension; spectra are of those with more");
+        fail_input(path, "its box has one dimension; a spectrum needs 2 or more");
     }
     if (samples.rows.empty()) {
         fail_input(path, "has no samples");
@@ -62,13 +62,13 @@ BoxParams read_box(const std::string& path, const SampleFile& samples) {
 PowerSpectrum make_spectrum(const std::string& path, const BoxParams& box, double reach) {
     const double highest = reach / box.min_distance;
     if (PowerSpectrum::count(box, highest) > kMostFrequencies) {
-        throw UserError(ExitCode::out_of_memory,
-                        path + ": there are too many frequencies up to " + rounded(reach, 3) +
-                            " waves per minimum distance; give less with --reach");
+        throw UserError(ExitCode::out_of_memory, path + ": too many frequencies up to " +
+                                                     rounded(reach, 3) +
+                                                     " waves per minimum distance; lower --reach");
     }
     if (highest * *std::min_element(box.extents.begin(), box.extents.end()) < 2) {
-        fail_input(path, "its box is too small for its minimum distance: there are no two waves "
-                         "along its sides up to the frequency of --reach");
+        fail_input(path, "its box is too small for its minimum distance: fewer than two waves fit "
+                         "along a side; raise --reach");
     }
     return PowerSpectrum(box, highest);
 }
@@ -120,10 +120,11 @@ void spectrum_of_boxes(const SpectrumOptions& options) {
                              ? kReach
                              : parse_ratio("--reach", options.reach, kLeastReach, kMostReach);
     if (!options.harmonics.empty()) {
-        fail_usage("--harmonics is for samples on a mesh, which is given before them");
+        fail_usage("--harmonics is for samples on a mesh; give the mesh before them");
     }
     if (options.distance.parsed()) {
-        fail_usage("--min-distance and --radius are for samples on a mesh; boxes have theirs");
+        fail_usage("--min-distance and --radius are for samples on a mesh; the header of a box has "
+                   "its own");
     }
     std::vector<NamedFile> read;
     for (const std::string& samples : options.samples) {

@@ -65,7 +65,7 @@ void check_connectivity(const TransferOptions& options, const MeshFile& from, co
         fail_input(options.to.mesh, "has " +
                                         counted(to.triangles.size() / 3, "triangle", "triangles") +
                                         ", but " + options.from.mesh + " has " + grouped(count) +
-                                        "; samples go over between meshes of the same faces alone");
+                                        "; transfer needs two meshes with identical faces");
     }
     const std::vector<std::uint32_t>& corners = from.corners_in_file();
     const auto difference =
@@ -75,8 +75,7 @@ void check_connectivity(const TransferOptions& options, const MeshFile& from, co
         fail_input(options.to.mesh,
                    "face " + std::to_string(face) + " has the corners " + corners_text(to, face) +
                        ", but " + corners_text(from, face) + " in " + options.from.mesh +
-                       " (all counted from 0); samples go over between meshes of the same faces "
-                       "alone");
+                       " (all counted from 0); transfer needs two meshes with identical faces");
     }
 }
 
@@ -164,8 +163,8 @@ void add_transfer_command(Command app) {
                     "Samples of MESH_A: *.ply, *.csv or *.pcd, or points of\n"
                     "another program, also *.obj and *.xyz")
         .required();
-    add_mesh_argument(command, options->from, "Mesh they were made on", "MESH_A");
-    add_mesh_argument(command, options->to, "Mesh of the same faces to put them on", "MESH_B");
+    add_mesh_argument(command, options->from, "Mesh that the samples were made on", "MESH_A");
+    add_mesh_argument(command, options->to, "Mesh with identical faces to move them to", "MESH_B");
     add_output_argument(command, options->out);
     add_format_option(command, options->from, "-a");
     add_format_option(command, options->to, "-b");

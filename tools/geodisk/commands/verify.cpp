@@ -215,12 +215,11 @@ void check_box(const VerifyOptions& options) {
         options.mesh.mesh == "-" ||
         (!extension.empty() && kOfSamples.find(extension + ' ') != std::string_view::npos);
     if (!is_known) {
-        fail_usage("SAMPLES is required, except for samples in a box, which "
-                   "are verified without a mesh");
+        fail_usage("SAMPLES is required, except for samples in a box, which need no mesh");
     }
     if (!options.mesh.additions().empty() || options.density.is_given()) {
-        fail_usage("options of surfaces need MESH and SAMPLES; a single file "
-                   "is one of samples in a box");
+        fail_usage(
+            "options for surfaces need MESH and SAMPLES; a single file must hold samples in a box");
     }
 }
 
@@ -253,24 +252,24 @@ void run_verify(const VerifyOptions& options) {
 } // namespace
 
 void add_verify_command(Command app) {
-    const Command command = app.add_command(
-        "verify", "Check the distances in a sample file, exactly and without a device");
+    const Command command =
+        app.add_command("verify", "Check the distances of samples (exact, CPU only)");
     const auto options = std::make_shared<VerifyOptions>();
-    add_mesh_argument(command, options->mesh, "Mesh they were made on");
+    add_mesh_argument(command, options->mesh,
+                      "Mesh that the samples were made on; or, without SAMPLES,\n"
+                      "samples of geodisk box");
     command.add_option("SAMPLES", options->samples, "",
                        "Samples to check: *.ply, *.csv or *.pcd, or points of another\n"
-                       "program, also *.obj and *.xyz; those of geodisk box stand\n"
-                       "alone, without a mesh");
+                       "program, also *.obj and *.xyz");
     command.add_option("-d,--min-distance", options->min_distance, "D",
-                       "Minimum distance along the surface, in mesh units,\n"
-                       "or with % of the bounding-box diagonal;\n"
-                       "without it, the radii of the file where it has them,\n"
-                       "else the distance of its header");
+                       "Minimum distance along the surface, in mesh units or % of the\n"
+                       "bounding-box diagonal (default: radii in the file, else the\n"
+                       "distance in its header)");
     add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
     add_density_options(command, options->density);
     add_json_option(command, options->out);
-    add_quiet_option(command, options->out, "No progress and no result but the exit status");
+    add_quiet_option(command, options->out, "No progress, no result; only the exit status");
     command.has_footer(help_footer(kExamples));
     command.calls([options] { run_verify(*options); });
 }

@@ -37,8 +37,7 @@ BoxParams box_of(const std::string& path, const std::string& min_distance,
                  const SampleFile& samples) {
     const std::string* const sides = samples.header.find("box");
     if (sides == nullptr) {
-        fail_input(path, "its header tells of no box; samples on a mesh are given "
-                         "after it: MESH SAMPLES");
+        fail_input(path, "its header has no box; for samples on a mesh, give MESH SAMPLES");
     }
     BoxParams box;
     box.extents = parse_sides(*sides);
@@ -53,8 +52,7 @@ BoxParams box_of(const std::string& path, const std::string& min_distance,
     }
     const std::string* const kind = samples.header.find("sides");
     if (kind == nullptr || (*kind != "open" && *kind != "periodic")) {
-        fail_input(path,
-                   "its header does not tell whether the sides of the box are open or periodic");
+        fail_input(path, "its header does not say whether the box is open or periodic");
     }
     box.is_periodic = *kind == "periodic";
     box.min_distance =

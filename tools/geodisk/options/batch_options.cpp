@@ -75,8 +75,8 @@ Shard BatchOptions::parsed_shard() const {
 void add_batch_options(Command command, BatchOptions& options) {
     command
         .add_option("INPUT", options.inputs, "",
-                    "Folders of meshes, with those in it; meshes; and manifests,\n"
-                    "text files with a mesh on each line, and options for it")
+                    "Meshes, folders of meshes (with subfolders), and manifests:\n"
+                    "text files with a mesh on each line and options for it")
         .offers(builtin_names("builtin:"))
         .required();
     command
@@ -84,33 +84,34 @@ void add_batch_options(Command command, BatchOptions& options) {
                     "Folder to write to: samples and batch.jsonl, the log")
         .required();
     command
-        .add_option("--format", options.format, "NAME", "Of the samples, as geodisk sample has it")
+        .add_option("--format", options.format, "NAME",
+                    "Format of the samples, as for geodisk sample")
         .offers(sample_formats())
         .shows_default();
     const char* const group = "Batch";
     command
         .add_option("--jobs", options.jobs, "K",
-                    "Meshes to read, sample and write at a time, 1 to 32;\n"
-                    "without it, 2 for each device",
+                    "Meshes in work at the same time, 1 to 32 (default 2 per\n"
+                    "device)",
                     group)
         .takes_range(1, kMostJobs);
     command.add_option("--shard", options.shard, "I/N",
-                       "Only each Nth mesh, from the Ith on, counted from 0; the\n"
-                       "log is then batch-I-of-N.jsonl",
+                       "Sample every Nth mesh only, starting with the Ith, counted\n"
+                       "from 0; the log is then batch-I-of-N.jsonl",
                        group);
     command.add_flag("--resume", options.resumes,
-                     "Go on with a batch: leave out what the logs in DIR tell\n"
-                     "is done with the same options",
+                     "Continue a batch: skip meshes that are done with the same\n"
+                     "options according to the logs in DIR",
                      group);
     command.add_flag("--keep-extensions", options.keeps_extensions,
-                     "Name the samples of a.obj a.obj.ply, so that those of a.ply\n"
-                     "can stand beside them",
+                     "Name the samples of a.obj a.obj.ply, so that they do not\n"
+                     "collide with those of a.ply",
                      group);
     command
         .add_option("--device", options.devices, "NAME|INDEX",
                     "Device by name, index or UUID (geodisk info), or all; may\n"
-                    "be given several times. Without it, that of GEODISK_DEVICE;\n"
-                    "without both, all GPUs, or else the best device",
+                    "be given several times (default GEODISK_DEVICE; else all\n"
+                    "GPUs; else the best device)",
                     group)
         .takes_one_value();
     add_subject_options(command, options.sample);

@@ -60,11 +60,12 @@ std::vector<double> parse_sides(const BoxOptions& options) {
 
 void add_box_options(Command command, BoxOptions& options) {
     const char* const box = "Box";
-    command.add_option("--dim", options.dimension, "N", "Dimensions, 1 to 6; sides of 1", box);
+    command.add_option("--dim", options.dimension, "N",
+                       "Number of dimensions, 1 to 6; all sides have length 1", box);
     command.add_option("--extents", options.extents, "A,...",
-                       "Sides instead; the box begins at the origin", box);
+                       "Lengths of the sides instead; the box begins at the origin", box);
     command.add_flag("--periodic", options.is_periodic,
-                     "Glue opposite sides together: distances go around", box);
+                     "Glue opposite sides together: distances wrap around", box);
     const char* const distance = "Distance, give one";
     command.add_option("-d,--min-distance", options.min_distance, "D",
                        "Minimum distance, in the units of the sides, or with %\n"

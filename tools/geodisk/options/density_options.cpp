@@ -186,26 +186,27 @@ HeaderEntries DensityOptions::added_to(HeaderEntries entries) const {
 void add_density_options(Command command, DensityOptions& options) {
     const char* const density = "Density, give one";
     command.add_option("--density", options.density, "SOURCE",
-                       "Spread samples in proportion to a density: 0 for none, any\n"
-                       "unit. attribute:NAME, a vertex property of a PLY, or just\n"
-                       "NAME; file:FILE, one value per line and vertex; map:FILE,\n"
-                       "the grey of an image at the texture coordinates; or\n"
-                       "curvature. Distances are then those where it is largest",
+                       "Make samples per area proportional to a density, in any\n"
+                       "unit; 0 for none. SOURCE: attribute:NAME or NAME (vertex\n"
+                       "property of a PLY), file:FILE (one value per vertex and\n"
+                       "line), map:FILE (grey of an image at the texture\n"
+                       "coordinates) or curvature. The distance applies where the\n"
+                       "density is largest",
                        density);
     command.add_option("--radius-factor", options.radius_factor, "SOURCE",
-                       "Multiply the radius by a factor g, 0 < g <= 1: the smaller,\n"
-                       "the more samples. Sources as for --density. Distances are\n"
-                       "those where g is 1. (--density-attribute, -file, -map and\n"
-                       "-curvature of earlier versions do the same)",
+                       "Multiply the radius by a factor g, 0 < g <= 1; smaller\n"
+                       "factors give more samples. SOURCE as for --density. The\n"
+                       "distance applies where g is 1. (Aliases: the options\n"
+                       "--density-attribute, -file, -map and -curvature)",
                        density);
     command.add_option("--radius-factor-floor", options.factor_floor, "G",
-                       "Raise smaller factors to this; for curvature 0.1 unless given", density);
+                       "Raise smaller factors to G (default for curvature 0.1)", density);
     const char* const hidden = "";
     command.add_option("--density-attribute", options.attribute, "NAME", "Factors", hidden);
     command.add_option("--density-file", options.file, "FILE", "Factors", hidden);
     command.add_option("--density-map", options.map, "FILE", "Factors", hidden);
     command.add_flag("--density-curvature", options.curvature, "Factors", hidden);
-    command.add_option("--density-floor", options.floor, "G", "Least factor", hidden);
+    command.add_option("--density-floor", options.floor, "G", "Minimum factor", hidden);
 }
 
 } // namespace geodisk::tools

@@ -7,7 +7,7 @@ namespace geodisk::tools {
 
 std::optional<Length> DistanceOptions::parsed() const {
     if (!min_distance.empty() && !radius.empty()) {
-        fail_usage("--min-distance and --radius say the same; give one of them");
+        fail_usage("--min-distance and --radius contradict each other; give just one of them");
     }
     if (!min_distance.empty()) {
         return parse_length("--min-distance", min_distance);
@@ -22,9 +22,9 @@ std::optional<Length> DistanceOptions::parsed() const {
 
 void add_distance_options(Command command, DistanceOptions& options) {
     command.add_option("-d,--min-distance", options.min_distance, "D",
-                       "Minimum distance, in mesh units or with % of the diagonal;\n"
-                       "without it, that of the samples' header or their own radii");
-    command.add_option("-r,--radius", options.radius, "R", "The same as a radius, half of it");
+                       "Minimum distance, in mesh units or % of the bounding-box\n"
+                       "diagonal (default: radii or header of the samples)");
+    command.add_option("-r,--radius", options.radius, "R", "Half the minimum distance instead");
 }
 
 } // namespace geodisk::tools

@@ -92,19 +92,21 @@ void add_sidecar_options(Command command, MeshOptions& options, const std::strin
                          const std::string& suffix) {
     command.add_option(
         "--coordinates" + suffix, options.coordinates, "FILE",
-        "Text file with 3 to 8 coordinates per line and vertex,\nin place of those of " + mesh_name,
+        "Text file with 3 to 8 coordinates per vertex, one vertex\nper line, which replace those "
+        "of " +
+            mesh_name,
         kSurfaceGroup);
     command.add_option("--edge-lengths" + suffix, options.edge_lengths, "FILE",
                        "Text file with a line VERTEX VERTEX LENGTH per edge, which\n"
-                       "make the surface; vertices count from 1 in OBJ, else 0",
+                       "replace coordinates; vertices count from 1 in OBJ, else 0",
                        kSurfaceGroup);
 }
 
 void add_format_option(Command command, MeshOptions& options, const std::string& suffix) {
     command
         .add_option("--mesh-format" + suffix, options.format, "NAME",
-                    "Read the mesh as gltf, glb, obj, off, ply or stl, whatever its\n"
-                    "extension; with it, - is standard input",
+                    "Read the mesh as gltf, glb, obj, off, ply or stl, ignoring its\n"
+                    "extension; MESH may then be - for standard input",
                     kSurfaceGroup)
         .offers(mesh_formats());
 }
@@ -112,9 +114,9 @@ void add_format_option(Command command, MeshOptions& options, const std::string&
 void add_lift_option(Command command, MeshOptions& options, const std::string& suffix) {
     command
         .add_option("--lift" + suffix, options.lifts, "LIFT",
-                    "normals:W or attribute:NAME:W: measure along the surface with\n"
-                    "W times the vertex normal or PLY property NAME as further\n"
-                    "coordinates; may be given several times",
+                    "Add W times the vertex normal (normals:W) or a PLY property\n"
+                    "(attribute:NAME:W) as further coordinates, and measure along\n"
+                    "the lifted surface; may be given several times",
                     kSurfaceGroup)
         .takes_one_value();
 }
@@ -122,13 +124,13 @@ void add_lift_option(Command command, MeshOptions& options, const std::string& s
 void add_weld_options(Command command, MeshOptions& options, const std::string& suffix) {
     // A flag: an option whose value may be absent would take the argument after it.
     command.add_flag("--weld" + suffix, options.weld,
-                     "Join vertices that lie in one place; with --weld" + suffix +
-                         "=EPS,\nalso those no farther apart, in mesh units or % of the\n"
+                     "Join vertices at the same place; with --weld" + suffix +
+                         "=EPS, also\nthose at most EPS apart, in mesh units or % of the\n"
                          "bounding-box diagonal",
                      kSurfaceGroup);
     command.add_flag("--keep-seams" + suffix, options.keep_seams,
-                     "Keep border edges apart that lie exactly on others; they are\n"
-                     "joined otherwise, as along seams of texture coordinates",
+                     "Do not join border edges that coincide exactly, as along seams\n"
+                     "of texture coordinates (default: join them)",
                      kSurfaceGroup);
 }
 

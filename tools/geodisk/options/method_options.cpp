@@ -23,12 +23,12 @@ void check_method(const MethodOptions& options) {
         fail_choice("--method", options.method, std::vector<std::string>{"pool", "darts"});
     }
     if (options.throws_darts() && !options.pool_ratio.empty()) {
-        fail_usage("--pool-ratio is for --method pool; with darts, --darts "
-                   "tells how many darts to throw");
+        fail_usage("--pool-ratio is for --method pool; with darts, give the number of darts by "
+                   "--darts");
     }
     if (!options.throws_darts() && !options.throws.empty()) {
-        fail_usage("--darts is for --method darts; with pool, --pool-ratio "
-                   "tells how many candidates to draw");
+        fail_usage("--darts is for --method darts; with pool, give the number of candidates by "
+                   "--pool-ratio");
     }
 }
 
@@ -36,8 +36,8 @@ void check_method(const MethodOptions& options) {
 std::uint32_t parse_candidates(const std::string& option, const std::string& text) {
     const double value = parse_count(option, text);
     if (value > kMostCandidates) {
-        fail_usage(option + ": " + in_quotes(text) + " is more than the " +
-                   grouped(kMostCandidates) + " that are possible");
+        fail_usage(option + ": " + in_quotes(text) + " is too many; the maximum is " +
+                   grouped(kMostCandidates));
     }
     return static_cast<std::uint32_t>(value);
 }
@@ -59,11 +59,9 @@ double Method::expected(double samples) const {
 
 void Method::check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const {
     if (throws == 0 && samples < stop_count) {
-        fail_usage("--count: only " + grouped(samples) + " of " + grouped(stop_count) +
-                   " samples " + rounded(min_distance, 6) + " apart found room with " +
-                   grouped(darts) +
-                   " darts; ask for fewer samples, a smaller distance or, with --darts, for what "
-                   "there is");
+        fail_usage("--count: placed only " + grouped(samples) + " of " + grouped(stop_count) +
+                   " samples at distance " + rounded(min_distance, 6) + " with " + grouped(darts) +
+                   " darts; lower --count or the distance, or accept fewer samples with --darts");
     }
 }
 
@@ -77,8 +75,7 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     }
     if (method.throws_darts) {
         if (count.empty() && options.throws.empty()) {
-            fail_usage("nothing to stop at; with --method darts give --count, "
-                       "--darts or both");
+            fail_usage("--method darts needs a number to stop at; give --count, --darts or both");
         }
         method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
         method.throws = options.throws.empty() ? 0 : parse_candidates("--darts", options.throws);
@@ -111,30 +108,29 @@ void check_one_distance(const MethodOptions& options,
 void add_method_options(Command command, MethodOptions& options, const std::string& domain) {
     command
         .add_option("--method", options.method, "NAME",
-                    "pool: from a pool of candidates; darts: throw darts until\n"
-                    "there are --count samples or --darts were thrown (psdp and\n"
-                    "pdts in the paper and in earlier versions)",
+                    "pool: sample a pool of candidates; darts: throw darts until\n"
+                    "there are --count samples or --darts are thrown (aliases\n"
+                    "psdp and pdts, as in the paper)",
                     kMethodGroup)
         .offers({"pool", "darts"})
         .shows_default();
     command.add_option("--darts,--throws", options.throws, "K",
                        "Maximum number of darts, up to 4294967295; fewer samples than\n"
-                       "--count are then no error. If not given, 1000 for each\n"
-                       "sample that " +
-                           domain + " has room for",
+                       "--count are then no error (default 1000 per sample that fits\n" +
+                           domain + ")",
                        kMethodGroup);
     command
         .add_option("--pool-ratio", options.pool_ratio, "Q",
-                    "Candidates of the pool per expected sample, 1 to 10000; more\n"
-                    "leave fewer gaps",
+                    "Candidates in the pool per expected sample, 1 to 10000; more\n"
+                    "candidates leave fewer gaps",
                     kMethodGroup)
         .shows_default(exact_text(kDefaultPoolRatio));
 }
 
 void add_calls_option(Command command, MethodOptions& options) {
     command.add_flag("--count-calls", options.count_calls,
-                     "Count how often the paper's CheckStatus would call itself;\n"
-                     "takes a little time, does not change the samples",
+                     "Count calls of the paper's CheckStatus; takes a little time\n"
+                     "and does not change the samples",
                      kMethodGroup);
 }
 

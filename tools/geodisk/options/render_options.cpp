@@ -23,34 +23,33 @@ std::uint32_t parse_side(const std::string& text, std::string_view side) {
 
 void add_render_options(Command command, RenderOptions& options) {
     add_mesh_argument(command, options.mesh,
-                      "Mesh that the samples were made on; or, alone, the samples\n"
-                      "of geodisk box, of 2 or 3 dimensions");
+                      "Mesh that the samples were made on; or, without SAMPLES,\n"
+                      "samples of geodisk box in 2 or 3 dimensions");
     command.add_option("SAMPLES", options.samples, "",
                        "Samples to show: *.ply, *.csv or *.pcd, or points of another\nprogram, "
                        "also *.obj and *.xyz");
     add_tolerance_option(command, options.tolerance);
     add_output_argument(command, options.out, "Picture to write: *.png");
-    command.add_option("--size", options.size, "WxH", "Pixels of the picture").shows_default();
+    command.add_option("--size", options.size, "WxH", "Size of the picture in pixels")
+        .shows_default();
     command
         .add_option("--style", options.style, "STYLE",
-                    "auto      disks, or points where disks would be less than\n"
-                    "          14 pixels wide\n"
-                    "disks     the geodesic disk of each sample, of its radius;\n"
-                    "          where two overlap, orange\n"
-                    "points    the samples\n"
-                    "voronoi   the places that are nearest to each sample\n"
-                    "distance  how far the nearest sample is; where another one\n"
-                    "          would have room, orange\n"
-                    "density   how dense they are, dark blue for few, yellow for\n"
-                    "          many: cividis, whose lightness grows evenly and\n"
-                    "          which colour-blind people see alike")
+                    "auto      disks; points if disks are under 14 pixels wide\n"
+                    "disks     geodesic disk of each sample, with its radius;\n"
+                    "          overlaps are orange\n"
+                    "points    samples only\n"
+                    "voronoi   geodesic Voronoi cell of each sample\n"
+                    "distance  distance to the nearest sample; orange where\n"
+                    "          another sample would fit\n"
+                    "density   samples per area, from dark blue (few) to yellow\n"
+                    "          (many): cividis, safe for colour-blind people")
         .offers({"auto", "disks", "points", "voronoi", "distance", "density"})
         .shows_default();
     command
         .add_option("--view", options.views, "VIEW",
-                    "Where to look from: front, back, left, right, top, bottom,\n"
-                    "AZIMUTH,ELEVATION in degrees, or auto for where most is\n"
-                    "seen from; several make a sheet")
+                    "Direction of view: front, back, left, right, top, bottom,\n"
+                    "AZIMUTH,ELEVATION in degrees, or auto for the one that\n"
+                    "shows most; give several for several views")
         .offers(picture::named_views())
         .takes_one_value();
     add_up_option(command, options.up);
@@ -63,8 +62,8 @@ void add_render_options(Command command, RenderOptions& options) {
                      "Add a legend below each view: samples, distance, scale bar,\n"
                      "and a colour bar for --style distance and density");
     command.add_flag("--cut", options.cuts,
-                     "Of a box of 3 dimensions, cut away the eighth nearest to\n"
-                     "the eye, and show sections of balls");
+                     "Cut the nearest eighth out of a box of 3 dimensions, and\n"
+                     "show the cut through the balls");
     add_distance_options(command, options.distance);
     add_mesh_options(command, options.mesh);
     add_json_option(command, options.out);

@@ -15,16 +15,16 @@ void add_report_options(Command command, ReportOptions& options) {
     add_output_argument(command, options.sample.out, "Page to write: *.html");
     command
         .add_option("--view", options.view, "VIEW",
-                    "Where to look from at first: front, back, left, right,\n"
-                    "top, bottom, AZIMUTH,ELEVATION in degrees, or auto for\n"
-                    "where most is seen from")
+                    "First direction of view: front, back, left, right, top,\n"
+                    "bottom, AZIMUTH,ELEVATION in degrees, or auto for the one\n"
+                    "that shows most")
         .offers(picture::named_views())
         .shows_default();
     add_up_option(command, options.up);
     add_probes_option(command, options.probes);
     command.add_option("--harmonics", options.harmonics, "K",
-                       "Show the power spectrum, by K waves of the surface (none);\n"
-                       "blue noise takes some five per sample");
+                       "Show the power spectrum from K waves of the surface (default\n"
+                       "no spectrum); blue noise needs about five per sample");
     add_job_options(command, options.sample);
     add_json_option(command, options.sample.out);
     add_quiet_option(command, options.sample.out);

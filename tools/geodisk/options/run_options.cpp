@@ -42,21 +42,21 @@ void add_quiet_option(Command command, OutputOptions& options, const std::string
 void add_text_options(Command command, OutputOptions& options) {
     command.add_flag("--ascii", options.ascii, "Write PLY or PCD as text");
     command.add_flag("--no-header", options.no_header,
-                     "Write no comments on mesh, seed and so on, for programs that\n"
+                     "Write no comments with mesh, seed and so on, for programs that\n"
                      "read plain CSV; geodisk verify then needs --min-distance");
 }
 
 void add_columns_option(Command command, OutputOptions& options) {
     command.add_option("--columns", options.columns, "LIST",
-                       "Further columns for each sample, of mesh, primitive and node:\n"
-                       "their numbers in a glTF file, such as mesh,primitive");
+                       "Add columns with numbers of a glTF file: any of mesh,\n"
+                       "primitive and node, separated by commas");
 }
 
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
     command
         .add_option("--format", options.format, "NAME",
-                    "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, whatever\n"
+                    "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, ignoring\n"
                     "the extension of OUT")
         .offers(sample_formats());
     add_text_options(command, options);
@@ -78,7 +78,7 @@ double RunOptions::stall_seconds() const {
 
 void add_validate_option(Command command, DeviceOptions& options) {
     command.add_flag("--validate", options.validate,
-                     "Run with the Vulkan validation layer, fail on any message", "Development");
+                     "Use the Vulkan validation layer; fail on any message", "Development");
 }
 
 void add_verbose_option(Command command, DeviceOptions& options) {
@@ -88,8 +88,8 @@ void add_verbose_option(Command command, DeviceOptions& options) {
 
 void add_device_options(Command command, DeviceOptions& options) {
     command.add_option("--device", options.device, "NAME|INDEX",
-                       "Device by name, index or UUID (geodisk info); without it,\n"
-                       "that of GEODISK_DEVICE, or the best");
+                       "Device by name, index or UUID (geodisk info; default\n"
+                       "GEODISK_DEVICE, else the best device)");
     add_validate_option(command, options);
 }
 

@@ -103,8 +103,8 @@ void add_sample_options(Command command, SampleOptions& options) {
     add_output_or_dry_run(command, options.out, kSampleFiles);
     add_job_options(command, options);
     command.add_option("--picture", options.picture, "FILE",
-                       "Draw the samples and their disks as well: *.png; geodisk render\n"
-                       "has other styles and views");
+                       "Also draw the samples and their disks, to *.png; geodisk render\n"
+                       "has more styles and views");
     command.add_flag("--legend", options.legend,
                      "Add a legend to the picture: samples, distance, scale bar");
     add_output_options(command, options.out);
@@ -130,9 +130,9 @@ void add_subject_options(Command command, SampleOptions& options) {
 
     command
         .add_option("--metric", options.metric, "NAME",
-                    "geodesic: exact, along the surface. For comparison alone,\n"
-                    "euclidean: straight through space; approximate: a closed\n"
-                    "form by normals (Bowers et al. 2010)")
+                    "geodesic: exact, along the surface. For comparison only:\n"
+                    "euclidean: straight line through space; approximate:\n"
+                    "closed form from normals (Bowers et al. 2010)")
         .offers(metric_names())
         .shows_default();
     add_method_options(command, options.method, "the surface");

@@ -8,17 +8,18 @@ void add_spectrum_options(Command command, SpectrumOptions& options,
                           std::vector<std::string>& files) {
     command
         .add_option("MESH SAMPLES", files, "",
-                    "Samples of one mesh, *.ply, *.csv or *.pcd, or points of another\n"
-                    "program, and before them the mesh; or samples of boxes. Of\n"
-                    "several the mean is taken")
+                    "A mesh and samples on it: *.ply, *.csv or *.pcd, or points of\n"
+                    "another program; or samples of boxes without a mesh. Several\n"
+                    "files of samples give their mean")
         .required();
     command.add_option("-o,--output", options.out.output, "OUT",
-                       "Spectrum to write: *.csv, radial mean and anisotropy, or of\n"
-                       "boxes of 2 dimensions *.png, a picture with 0 in the middle");
+                       "File to write: *.csv with radial mean and anisotropy; or, for\n"
+                       "boxes of 2 dimensions, a picture *.png with 0 in the middle");
     command.add_option("--harmonics", options.harmonics, "K",
-                       "Waves of the surface, from the longest on (1000)");
+                       "Number of waves of the surface, longest first (default 1000)");
     command.add_option("--reach", options.reach, "F",
-                       "Highest frequency in boxes, in waves per minimum distance (4)");
+                       "Maximum frequency in boxes, in waves per minimum distance\n"
+                       "(default 4)");
     add_distance_options(command, options.distance);
     add_tolerance_option(command, options.tolerance);
     add_mesh_options(command, options.mesh);

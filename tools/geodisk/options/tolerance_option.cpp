@@ -7,8 +7,9 @@ namespace geodisk::tools {
 
 void add_tolerance_option(Command command, std::string& tolerance) {
     command.add_option("--tolerance", tolerance, "L",
-                       "Farthest that points of other programs, which have no faces,\n"
-                       "may lie off the mesh, in mesh units or % of the diagonal (0.1%)");
+                       "Maximum distance from the mesh for points without faces (of\n"
+                       "other programs), in mesh units or % of the bounding-box\n"
+                       "diagonal (default 0.1%)");
 }
 
 void check_tolerance(const std::string& tolerance) {

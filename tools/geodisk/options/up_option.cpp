@@ -11,7 +11,7 @@ std::optional<picture::Up> UpOption::parsed() const {
 void add_up_option(Command command, UpOption& option) {
     command
         .add_option("--up", option.axis, "AXIS",
-                    "Axis that points up: x, y or z (guessed from what the mesh\nstands on)")
+                    "Axis that points up: x, y or z (default: guess from the mesh)")
         .offers({"x", "y", "z"});
 }
 

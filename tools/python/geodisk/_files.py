@@ -76,5 +76,5 @@ def _take_rights(partial: str, replaced: os.stat_result, path: str) -> None:
         try:
             os.chown(partial, replaced.st_uid, replaced.st_gid)
         except PermissionError:
-            raise PermissionError(f"{path}: belongs to somebody else, and would no longer") from None
+            raise PermissionError(f"{path}: belongs to another user; replacing it would change its owner") from None
     os.chmod(partial, stat.S_IMODE(replaced.st_mode))

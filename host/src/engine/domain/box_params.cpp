@@ -121,7 +121,7 @@ Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
         const double wanted = std::ceil(stages.candidates());
         if (!(wanted <= kMostCandidates)) {
             return invalid("the minimum distance is too small for this box: the pool would take " +
-                           number_text(wanted) + " candidates, the most is " +
+                           number_text(wanted) + " candidates, the maximum is " +
                            number_text(kMostCandidates));
         }
         return static_cast<std::uint32_t>(wanted);

@@ -37,7 +37,7 @@ Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& pa
             return Error{Status::invalid_argument,
                          "the minimum distance is too small for this mesh: face " +
                              std::to_string(face) + " alone expects " + number_text(expected) +
-                             " candidates at once, the most is " + number_text(kMostPerFace) +
+                             " candidates at once, the maximum is " + number_text(kMostPerFace) +
                              "; split it",
                          face};
         }
@@ -124,7 +124,8 @@ Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& pa
         if (!(wanted <= kMostCandidates)) {
             return invalid(
                 "the minimum distance is too small for this surface: the pool would take " +
-                number_text(wanted) + " candidates, the most is " + number_text(kMostCandidates));
+                number_text(wanted) + " candidates, the maximum is " +
+                number_text(kMostCandidates));
         }
         const double longest = mesh.statistics().longest_edge / params.min_distance;
         if (!(longest <= kLongestEdge)) {

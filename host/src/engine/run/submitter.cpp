@@ -72,7 +72,7 @@ Error Submitter::failed(const char* call, VkResult result) {
 
 Result<Done> Submitter::ready() const {
     if (abandoned_) {
-        return Error{Status::device_lost, "the device has not answered an earlier submission"};
+        return Error{Status::device_lost, "the device did not respond to an earlier submission"};
     }
     if (lost_) {
         return Error{Status::device_lost, "the device was lost earlier"};
@@ -159,7 +159,7 @@ bool Submitter::is_over(std::chrono::milliseconds patience) {
     if (waited_ > stall_limit_) {
         abandoned_ = true;
         end_ = Error{Status::device_lost,
-                     "the device has not answered for " + number_text(stall_limit_.count()) +
+                     "the device did not respond for " + number_text(stall_limit_.count()) +
                          " seconds",
                      kNoElement, status};
         return true;
