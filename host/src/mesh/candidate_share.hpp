@@ -1,15 +1,16 @@
-// How many candidates a share of the samples takes.
+// Share of the candidates that a share of the samples needs.
 #pragma once
 
 namespace geodisk {
 
-/// The share of a pool's candidates that gives the share x of the samples, both in [0, 1], where
-/// all radii are alike. Dart throwing saturates, so that half of the samples take 5 % of the
-/// candidates. A fit to the counts of pools of 1 to 20 candidates per sample, and below to the
-/// series of Schaaf and Talbot (1989) for random sequential adsorption; to 2 % of the candidates.
+/// Returns the share of a pool's candidates that gives the share x of the samples, both in [0, 1],
+/// if all radii are alike. Dart throwing saturates, so half of the samples need only 5 % of the
+/// candidates. The formula is a fit to counts with pools of 1 to 20 candidates per sample, and
+/// below that to the series of Schaaf and Talbot (1989) for random sequential adsorption. It is
+/// accurate to 2 % of the candidates.
 ///
-/// Convex, 0 at 0, and up to rounding 1 at 1. The same operations as in shaders/lib/candidate.glsl,
-/// with `quotient(a, b)` = a / b clamped to 1.
+/// Convex, 0 at 0, and 1 at 1 except for rounding. Uses the same operations as
+/// shaders/lib/candidate.glsl, with `quotient(a, b)` = a / b clamped to 1.
 template <class Real, class Quotient>
 Real candidates_for_share(Real x, Quotient quotient) {
     const Real rest = static_cast<Real>(1.14f) - x;

@@ -14,14 +14,15 @@
 namespace geodisk {
 namespace {
 
-// Half-edge indices carry two flag bits in places, faces two in their cell word.
+// Some words hold half-edge indices with two flag bits; the cell word of a face also has two.
 constexpr std::uint64_t kMaxFaces = (std::uint64_t{1} << 30) / 3;
-// Above a vertex's number the kernels keep two flags.
+// Kernels keep two flags above the vertex number.
 constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
-// Beyond them squared lengths could leave the range of double.
+// Larger coordinates could make squared lengths overflow double.
 constexpr double kLargestCoordinate = 1e100;
 constexpr double kSmallestExtent = 1e-100;
-/// What a triangle may lack to close, of its longest side: lengths rounded to float do.
+/// Allowed violation of the triangle inequality, relative to the longest side. Lengths rounded to
+/// float need it.
 constexpr double kRoundedLength = 1e-6;
 constexpr double kAgreement = 1e-9;
 
@@ -35,7 +36,7 @@ Error index_rejected(std::size_t corner, std::uint32_t vertex, std::uint64_t ver
                     corner / 3);
 }
 
-/// Elements of some bytes, each a stride after the one before, made of parts of a type's size.
+/// Checks the layout of an array: elements `stride` bytes apart, made of parts of a type's size.
 Result<Done> check_layout(const std::string& name, const void* data, std::size_t count,
                           std::size_t stride, std::size_t element, std::size_t part) {
     if (count == 0) {
@@ -83,11 +84,11 @@ Result<Done> check_shape(const MeshView& mesh) {
     return check_counts(mesh.face_count(), mesh.vertex_count());
 }
 
-/// Whether all coordinates will do, those of unused vertices included.
+/// Returns true if all coordinates, also of unused vertices, are finite and not too large.
 template <class Coordinate>
 bool all_coordinates_fit(const MeshView& mesh) {
     const PositionView& positions = mesh.positions;
-    // What is packed is one long row.
+    // Packed coordinates are one long row.
     const std::size_t rows = positions.is_packed() ? 1 : positions.count();
     const std::size_t length = positions.is_packed() ? positions.count() : mesh.dimension;
     bool fit = true;
@@ -96,7 +97,7 @@ bool all_coordinates_fit(const MeshView& mesh) {
             reinterpret_cast<const Coordinate*>(static_cast<const std::byte*>(positions.data()) +
                                                 row * positions.stride(mesh.dimension));
         for (std::size_t i = 0; i < length; ++i) {
-            fit &= std::abs(first[i]) <= kLargestCoordinate; // False also for what is no number.
+            fit &= std::abs(first[i]) <= kLargestCoordinate; // Also false for NaN.
         }
     }
     return fit;
@@ -129,7 +130,7 @@ Result<Done> check_vertex(const MeshView& mesh, std::uint32_t v) {
 
 Result<Done> check_elements(const MeshView& mesh) {
     if (all_elements_fit(mesh)) {
-        return Done{}; // In memory order: several times as fast as face by face.
+        return Done{}; // Checked in memory order: several times faster than face by face.
     }
     const std::uint64_t vertices = mesh.vertex_count();
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

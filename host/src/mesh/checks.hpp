@@ -1,4 +1,4 @@
-// What a caller's mesh must satisfy before it is prepared.
+// Checks of a caller's mesh before it is prepared.
 #pragma once
 
 #include <span>
@@ -10,21 +10,21 @@ namespace geodisk {
 
 inline constexpr std::uint32_t kMostDimensions = 8;
 
-/// Sizes, the indices of all faces and the coordinates of all vertices they use.
+/// Checks sizes, the indices of all faces, and the coordinates of all vertices they use.
 Result<Done> check_mesh(const MeshView& mesh);
 
-/// Sizes, indices and lengths, and the triangle inequality.
+/// Checks sizes, indices, lengths, and the triangle inequality.
 Result<Done> check_mesh(const LengthMeshView& mesh);
 
-/// Whether the faces of each edge agree about its length, once they are linked.
+/// Checks that the faces of each edge agree about its length. The half-edges must be linked.
 Result<Done> check_agreement(std::span<const HalfEdge> half_edges);
 
-/// Whether the area of all faces is more than rounding for a mesh of this extent.
+/// Returns true if the area of all faces is more than rounding for a mesh of this extent.
 bool has_area(double area, double extent);
 
 Result<Done> check_threads(const ThreadOptions& threads);
 
-/// Whether a mesh of so many faces and vertices can be indexed and has any face.
+/// Checks that a mesh of this size has faces and can be indexed.
 Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices);
 
 } // namespace geodisk

@@ -6,8 +6,8 @@
 namespace geodisk {
 namespace {
 
-/// An edge at the vertex in question, to be sorted by its other vertex and then by half-edge, so
-/// that cycles do not depend on the sort used.
+/// Returns a key that sorts the edges at a vertex by their other vertex, then by half-edge. Cycles
+/// then do not depend on the sort algorithm.
 std::uint64_t make_entry(std::uint32_t other, std::uint32_t half_edge) {
     return std::uint64_t{other} << 32 | half_edge;
 }
@@ -22,7 +22,7 @@ std::uint32_t half_edge_of(std::uint64_t entry) {
 
 void list_corners(IndexView triangles, std::span<VertexFan> fans,
                   std::vector<std::uint32_t>& corners) {
-    // ends[v] counts the corners of v, becomes where they start, and ends as where they end.
+    // ends[v] first counts the corners of v, then holds where they start, finally where they end.
     std::vector<std::uint32_t> ends(fans.size(), 0);
     for (std::size_t h = 0; h < triangles.size(); h += 3) {
         const auto face = triangles.face(h / 3);

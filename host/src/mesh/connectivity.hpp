@@ -1,5 +1,4 @@
-// Which half-edges share an undirected edge, which corners a vertex has, and which vertices a path
-// can join.
+// Connectivity: half-edges that share an undirected edge, corners of each vertex, and components.
 #pragma once
 
 #include <array>
@@ -13,27 +12,28 @@
 
 namespace geodisk {
 
-/// Whether a face names three vertices. One that does not is kept, but takes no part.
+/// Returns true if a face names three different vertices. Other faces are kept but ignored.
 constexpr bool takes_part(const std::array<std::uint32_t, 3>& face) {
     return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
 }
 
-/// A half-edge while the mesh is being connected. Connecting reads and writes in the order of the
-/// vertices, which may be any, so this is kept apart from the large HalfEdge.
+/// Connectivity of a half-edge while the mesh is being connected. Connecting accesses memory in the
+/// order of vertices, which may be random, so this is separate from the large HalfEdge.
 struct Link {
     std::uint32_t origin; ///< As in HalfEdge, like `around`.
     std::uint32_t around;
-    std::uint32_t angle; ///< pack_corner_angle(); once its fan is measured, HalfEdge::fan_angles.
+    std::uint32_t angle; ///< pack_corner_angle(), and HalfEdge::fan_angles once its fan is
+                         ///< measured.
 };
 
-/// `HalfEdge::around` of a half-edge that shares its edge with no other.
+/// Returns `HalfEdge::around` for a half-edge that is alone on its edge.
 constexpr std::uint32_t lone_half_edge(std::uint32_t h) {
     return h << 1 | 1u;
 }
 
-/// Lists the corners of the faces that take part by vertex, each
-/// named by the half-edge that starts at it: fills `corners`, in ascending order for each vertex,
-/// and `first_corner` and `corner_count` of `fans`, one fan per vertex.
+/// Lists the corners of each vertex, from all faces that take part. A corner is named by the
+/// half-edge that starts at it. Fills `corners`, in ascending order per vertex, and `first_corner`
+/// and `corner_count` of `fans`, one fan per vertex.
 void list_corners(IndexView triangles, std::span<VertexFan> fans,
                   std::vector<std::uint32_t>& corners);
 
@@ -41,18 +41,18 @@ void list_corners(IndexView triangles, std::span<VertexFan> fans,
 /// counts border edges, non-manifold edges and components.
 class EdgeLinker {
   public:
-    /// All half-edges must be alone.
+    /// All half-edges of `links` must be alone.
     EdgeLinker(std::span<Link> links, std::uint32_t vertex_count);
 
-    /// Links the edges from vertex v to those of higher index, given all its corners (some). To be
-    /// called for all vertices that have corners in ascending order: then all edges at v are
+    /// Links the edges from vertex v to higher vertices, given all corners of v (at least one).
+    /// Call it in ascending order for all vertices that have corners. Afterwards all edges at v are
     /// linked.
     void link_at(std::uint32_t v, std::span<const std::uint32_t> corners);
 
-    /// Fills in what all calls have counted.
+    /// Writes the counts of all calls.
     void count(MeshStatistics& statistics) const;
 
-    /// The half-edges that are the only ones of their edges.
+    /// Returns the half-edges that are alone on their edges.
     std::vector<std::uint32_t> take_borders() { return std::move(borders_); }
 
   private:
@@ -61,7 +61,7 @@ class EdgeLinker {
     std::span<Link> links_;
     VertexSets components_;
     std::vector<std::uint32_t> borders_;
-    std::vector<std::uint64_t> entries_; ///< Of link_at(), kept for its memory.
+    std::vector<std::uint64_t> entries_; ///< Scratch memory of link_at().
     std::uint64_t vertices_ = 0, joins_ = 0, nonmanifold_edges_ = 0;
 };
 

@@ -1,9 +1,9 @@
 // Radii and candidates from a density, which may be zero and is linear in each face.
 //
-// The radius at a point is r_max / sqrt(s) with s, the packing, linear in each face too. Where s is
-// the density, candidates as dense as s give samples as dense as s. Elsewhere s is larger: radii
-// keep below r_max, and within a face they differ by no more than kMostInFace. There candidates are
-// thinned to the share that gives the density.
+// The radius at a point is r_max / sqrt(s). The packing s is also linear in each face. Where s
+// equals the density, candidates as dense as s give samples as dense as s. Elsewhere s is larger,
+// because radii are limited to r_max and vary by at most kMostInFace within a face. There,
+// candidates are thinned to the share that gives the density.
 #include "geodisk/radius_field.hpp"
 
 #include <algorithm>
@@ -19,13 +19,14 @@
 namespace geodisk {
 namespace {
 
-/// Packings differ by no more than this over the surface, so radii by a factor of 32, and in a face
-/// by no more than that: large disks among small ones take long to compute.
+/// Maximum ratio of packings over the surface, so that radii differ by a factor of at most 32; and
+/// in a face, because large disks among small ones take long to compute.
 constexpr double kMostPacking = 1024;
 constexpr float kMostInFace = 16;
-/// Of the least packing. What is less dense counts as zero, so that no product becomes denormal.
+/// Smallest density that does not count as zero, in units of the smallest packing. Avoids denormal
+/// products.
 constexpr double kLeastDensity = 0x1p-40;
-/// Strips along each side of a face in which the share goes from 0 to 1, for the integral.
+/// Number of strips along each side of a face, for the integral over a share from 0 to 1.
 constexpr double kStrips = 16;
 
 Result<Done> check_density(const PreparedMesh& mesh, std::span<const double> density) {
@@ -53,7 +54,7 @@ Result<Done> check_density(const PreparedMesh& mesh, std::span<const double> den
     return Done{};
 }
 
-/// Densities in units of the least packing; zero at unused vertices.
+/// Returns the densities in units of the smallest packing; zero at unused vertices.
 std::vector<float> scaled_density(const PreparedMesh& mesh, std::span<const double> density) {
     double most = 0;
     for (std::size_t v = 0; v < density.size(); ++v) {
@@ -74,7 +75,7 @@ std::vector<float> scaled_density(const PreparedMesh& mesh, std::span<const doub
     return scaled;
 }
 
-/// The packing at each vertex, in the same unit.
+/// Returns the packing at each vertex, in the same unit.
 std::vector<float> packing_for(const PreparedMesh& mesh, const std::vector<float>& density) {
     std::vector<float> packing(density.size());
     for (std::size_t v = 0; v < density.size(); ++v) {
@@ -96,7 +97,7 @@ double quotient(double a, double b) {
     return std::min(1.0, a / b);
 }
 
-/// The mean over a face of how dense candidates are, in the same unit.
+/// Returns the mean density of candidates over a face, in the same unit.
 double mean_candidates(const float* density, const float* packing) {
     std::array<double, 3> u{}, s{};
     double least = 1, most = 0;
@@ -111,7 +112,7 @@ double mean_candidates(const float* density, const float* packing) {
     }
     const int strips = 1 + static_cast<int>(kStrips * (most - least));
     double sum = 0;
-    const auto add = [&](double i, double k) { // The part with its center so many thirds along.
+    const auto add = [&](double i, double k) { // Adds the part with its center at this many thirds.
         const double w1 = i / (3 * strips), w2 = k / (3 * strips), w0 = 1 - w1 - w2;
         const double here = w0 * s[0] + w1 * s[1] + w2 * s[2];
         const double share = quotient(w0 * u[0] + w1 * u[1] + w2 * u[2], here);

@@ -6,7 +6,8 @@
 namespace geodisk {
 namespace {
 
-/// Lengths of paths along edges from one vertex of each component to all others, breadth first.
+/// Returns the longest path from one vertex of each component to the others along edges of a
+/// breadth-first tree.
 double longest_tree_path(const PreparedMesh& mesh) {
     const auto half_edges = mesh.half_edges();
     std::vector<double> lengths(mesh.vertex_count(), -1);
@@ -43,7 +44,7 @@ double longest_tree_path(const PreparedMesh& mesh) {
 } // namespace
 
 double distance_bound(const PreparedMesh& mesh) {
-    // From a point to a vertex of its face, over the root, and the same way down.
+    // From a point to a vertex of its face, to the root, and the same way to the other point.
     return 2 * (longest_tree_path(mesh) + mesh.statistics().longest_edge);
 }
 

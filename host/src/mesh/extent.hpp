@@ -1,12 +1,12 @@
-// How far apart two points of a mesh can be along the surface.
+// Upper bound of geodesic distances on a mesh.
 #pragma once
 
 #include "geodisk/mesh.hpp"
 
 namespace geodisk {
 
-/// A bound of every finite geodesic distance: no two points of one component are farther apart.
-/// Linear in the mesh; a few times too large. Throws std::bad_alloc.
+/// Returns an upper bound of all finite geodesic distances, a few times too large. Takes time
+/// linear in the mesh. Throws std::bad_alloc.
 double distance_bound(const PreparedMesh& mesh);
 
 } // namespace geodisk

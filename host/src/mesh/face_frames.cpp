@@ -16,11 +16,11 @@ namespace {
 
 using Face = std::array<std::uint32_t, 3>;
 
-/// Zero beyond the mesh's dimension, which adds nothing to any sum.
+/// Coordinates of a vertex, padded with zeros, which add nothing to sums.
 template <std::size_t kAxes>
 using Vertex = std::array<double, kAxes>;
 
-/// The vertices of a view, whose coordinates are of this type.
+/// Reads vertices of a view whose coordinates have this type.
 template <class Coordinate>
 class Vertices {
   public:
@@ -35,7 +35,7 @@ class Vertices {
     Vertex<kAxes> load(std::uint32_t v) const {
         Vertex<kAxes> vertex{};
         if (dimension_ == kAxes) {
-            std::copy_n((*this)[v], kAxes, vertex.begin()); // A known number takes no loop.
+            std::copy_n((*this)[v], kAxes, vertex.begin()); // A constant count needs no loop.
         } else {
             std::copy_n((*this)[v], dimension_, vertex.begin());
         }
@@ -58,8 +58,8 @@ double distance(const Vertex<kAxes>& a, const Vertex<kAxes>& b) {
     return std::sqrt(sum);
 }
 
-/// The apex of a face in the frame of its edge from a to b. Rejection keeps the height of a needle,
-/// where Heron's formula would lose it.
+/// Returns the apex of a face in the frame of its edge from a to b. Orthogonal rejection keeps the
+/// height of a needle, where Heron's formula would lose it.
 template <std::size_t kAxes>
 void place_apex(const Vertex<kAxes>& a, const Vertex<kAxes>& b, const Vertex<kAxes>& c,
                 HalfEdge& edge) {
@@ -93,7 +93,7 @@ void place_face(const Vertex<kAxes> (&corners)[3], HalfEdge (&edges)[3]) {
     }
 }
 
-/// Fills in all faces, their edges by `place(f, face, edges)`, block by block.
+/// Fills in all faces block by block; `place(f, face, edges)` computes the edges.
 template <typename Place>
 void place_all(const ThreadOptions& threads, const IndexView& triangles,
                UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
@@ -132,7 +132,7 @@ void place_vertices(const ThreadOptions& threads, const MeshView& mesh,
                     MeshStatistics& statistics) {
     const std::size_t faces = mesh.face_count();
     const Vertices<Coordinate> vertices(mesh);
-    constexpr std::size_t kAhead = 8; // Faces that take about as long as memory does.
+    constexpr std::size_t kAhead = 8; // Number of faces that take about as long as a memory access.
     place_all(threads, mesh.triangles, half_edges, links, statistics,
               [&](std::size_t f, const Face& face, HalfEdge(&edges)[3]) {
                   if (f + kAhead < faces) {
@@ -156,8 +156,9 @@ void place_coordinates(const ThreadOptions& threads, const MeshView& mesh,
         : place_vertices<kAxes, double>(threads, mesh, half_edges, links, statistics);
 }
 
-/// Twice the area of a triangle with these sides, 0 where they only just reach each other or, by
-/// rounding, do not (Kahan 2000). In units of the longest side, so that no product overflows.
+/// Returns twice the area of a triangle with these sides; 0 if they only just reach each other or,
+/// by rounding, do not (Kahan 2000). Computes in units of the longest side, so that no product
+/// overflows.
 double double_area(double a, double b, double c) {
     if (a < b) {
         std::swap(a, b);
@@ -175,14 +176,15 @@ double double_area(double a, double b, double c) {
                : 0;
 }
 
-/// The apex of a face from the lengths of its edge, the next and the previous one.
+/// Computes the apex of a face from the lengths of the next and previous edges.
 void place_apex(double next, double previous, double twice_area, HalfEdge& edge) {
     const double length = edge.length;
     if (twice_area > 0) {
         edge.apex_x = 0.5 * (length + (previous - next) / length * (previous + next));
         edge.apex_y = twice_area / length;
     } else {
-        // On the edge's line, beyond its origin if the next edge spans the other two.
+        // A flat face: the apex lies on the line of the edge, before its origin if the next edge
+        // spans the other two.
         edge.apex_x = next > length && next > previous ? -previous : previous;
         edge.apex_y = 0;
     }
@@ -191,7 +193,7 @@ void place_apex(double next, double previous, double twice_area, HalfEdge& edge)
 } // namespace
 
 Direction HalfEdge::angle() const noexcept {
-    // Not std::hypot: its last bit differs between C libraries.
+    // Not std::hypot, whose last bit differs between C libraries.
     const double left = std::sqrt(apex_x * apex_x + apex_y * apex_y);
     return left > 0 ? Direction{apex_x / left, apex_y / left} : Direction{1, 0};
 }

@@ -1,5 +1,4 @@
-// The intrinsic geometry of faces: lengths, apexes and corner angles, from coordinates or
-// from the lengths of edges.
+// Intrinsic geometry of faces (lengths, apexes, corner angles) from coordinates or edge lengths.
 #pragma once
 
 #include <span>
@@ -10,12 +9,11 @@
 
 namespace geodisk {
 
-/// Fills `half_edges` with the half-edges of all faces and everything that the face alone
-/// determines, and `links` with their links, each alone; adds up `area`, `longest_edge`,
-/// `triangles`, `zero_area_faces` and `repeated_index_faces`.
+/// Fills in everything that a face alone determines: its half-edges, and their links, each alone.
+/// Adds to `area`, `longest_edge`, `triangles`, `zero_area_faces` and `repeated_index_faces`.
 ///
-/// A face that names a vertex twice gets neither lengths nor area: its sides must neither widen the
-/// tolerances nor take cells. The mesh must have passed check_mesh().
+/// A face that names a vertex twice gets no lengths and no area, so that it neither widens
+/// tolerances nor gets cells. The mesh must have passed check_mesh().
 void place_faces(const ThreadOptions& threads, const MeshView& mesh,
                  UninitializedVector<HalfEdge>& half_edges, UninitializedVector<Link>& links,
                  MeshStatistics& statistics);
@@ -26,8 +24,8 @@ void place_faces(const ThreadOptions& threads, const LengthMeshView& mesh,
 /// Adds a face to the statistics of its block of faces. Returns its area.
 double add_face(bool takes_part, const HalfEdge (&edges)[3], MeshStatistics& block);
 
-/// Adds up what add_face() said of all faces; areas in their order, so that the sum is always the
-/// same.
+/// Sums up the results of add_face() for all faces. Areas are added in their order, so that the sum
+/// is always the same.
 void sum_up(std::span<const double> areas, std::span<const MeshStatistics> blocks,
             MeshStatistics& statistics);
 

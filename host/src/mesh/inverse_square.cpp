@@ -9,7 +9,7 @@ double inverse_square(double g) {
     return 1 / (g * g);
 }
 
-/// Radon's rule of seven points, exact for polynomials of degree 5 (1948).
+/// Applies Radon's seven-point rule, exact for polynomials of degree 5 (1948).
 double radon_mean(double a, double b, double c) {
     constexpr double kNearCorner = 0.79742698535308732, kAside = 0.10128650732345634;
     constexpr double kNearSide = 0.059715871789769820, kBetween = 0.47014206410511509;
@@ -41,7 +41,7 @@ double mean_inverse_square(double a, double b, double c) {
     if (c <= kGentle * a) {
         return radon_mean(a, b, c);
     }
-    // The edge that g changes along most is cut in half.
+    // Split the edge along which g changes most.
     const double middle = (a + c) / 2;
     return (mean_inverse_square(a, b, middle) + mean_inverse_square(middle, b, c)) / 2;
 }

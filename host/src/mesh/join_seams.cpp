@@ -16,7 +16,7 @@ Result<WeldedMesh> join_seams(const MeshView& mesh) noexcept {
         VertexSets sets(mesh.vertex_count());
         WeldedMesh result = with_joined(mesh, sets);
         std::uint64_t joined_edges = 0;
-        // Once more where triangles vanished: their neighbours may have new borders.
+        // Repeat if triangles vanished: their neighbours may have new borders.
         for (std::uint64_t vanished = ~std::uint64_t{0}; vanished != result.degenerate_faces;) {
             vanished = result.degenerate_faces;
             const MeshView joined{mesh.positions, result.triangles, mesh.dimension};

@@ -39,7 +39,7 @@ Result<std::vector<double>> means_of_joined(std::span<const std::uint32_t> verti
             }
             ++counts[vertices[v]];
         }
-        // Each part is divided first: a sum of large values leaves the range of double.
+        // Divide each term first: the sum of large values could overflow double.
         for (std::size_t v = 0; v < values.size(); ++v) {
             means[vertices[v]] += values[v] / counts[vertices[v]];
         }

@@ -19,21 +19,21 @@
 namespace geodisk {
 namespace {
 
-// How far apart the ends of two edges may be: a part of the shorter edge, which no feature of the
-// mesh should be as small as, and of the bounding box.
+// Maximum gap between the ends of two edges: as a part of the shorter edge, since features of the
+// mesh should not be that small, and as a part of the bounding box.
 constexpr double kPartOfEdge = 1e-2;
 constexpr double kPartOfDiagonal = 1e-4;
 
-/// What weld() rounds when it compares distances, with some room.
+/// Allows for the rounding in weld().
 constexpr double kRounding = 1 + 1e-9;
 
-/// What weld() takes at least, with some room, as a part of the longest side.
+/// Minimum epsilon of weld() with some room, relative to the longest side.
 constexpr double kLeastEpsilon = 0x1p-42;
 
 using Place = std::array<double, kMostDimensions>;
 
-/// Coordinates times a power of two that makes the longest side of the borders about 1, so that
-/// squares of distances neither overflow nor vanish.
+/// Scales coordinates by a power of two so that the longest side of the borders is about 1. Squares
+/// of distances then neither overflow nor vanish.
 class ScaledMesh {
   public:
     ScaledMesh(const MeshView& mesh, const std::vector<EdgeEnds>& edges) : mesh_(mesh) {
@@ -55,7 +55,7 @@ class ScaledMesh {
         diagonal_ = squares * scale_;
     }
 
-    /// False for no borders, and for borders in one point.
+    /// Returns false without borders, or if all borders are one point.
     bool is_sized() const { return longest_side_ > 0 && std::isfinite(longest_side_); }
     double longest_side() const { return longest_side_; } ///< In mesh units.
     double diagonal() const { return diagonal_; }
@@ -75,13 +75,13 @@ class ScaledMesh {
     }
 
   private:
-    static constexpr int kMostExponent = 1000; // Of a scale that stays finite.
+    static constexpr int kMostExponent = 1000; // Maximum exponent of a finite scale.
 
     const MeshView& mesh_;
     double longest_side_ = 0, scale_ = 1, diagonal_ = 0;
 };
 
-/// Whether two vertices share a face, for those that are near each other.
+/// Finds out whether two near vertices share a face.
 class ShortEdges {
   public:
     ShortEdges(const ScaledMesh& mesh, double longest) {
@@ -107,12 +107,12 @@ class ShortEdges {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;
 };
 
-/// A cell of the grid below: those of a level have sides of one length.
+/// A cell of EdgeGrid. Cells of one level have the same size.
 struct EdgeCell {
     int level = 0;
     std::array<double, 3> at{};
 
-    /// Differs for most cells. Those of a block have numbers that follow each other.
+    /// Returns a hash. Cells of a block have consecutive numbers.
     std::uint64_t hash() const {
         std::uint64_t block = static_cast<std::uint64_t>(level), cell = 0;
         for (const double x : at) {
@@ -123,19 +123,20 @@ struct EdgeCell {
     }
 
   private:
-    /// A block is some edges wide, so that an edge in a block has a number or two.
+    /// Cells per block. A block is several edges wide, so that an edge meets only one or two
+    /// hashes.
     static constexpr int kPerBlock = 32;
     static constexpr std::uint64_t kNumbersOfBlock = 64;
 
     static std::uint64_t mixed(std::uint64_t hash, double x) {
-        hash ^= std::bit_cast<std::uint64_t>(x + 0.0); // There is no -0 then.
+        hash ^= std::bit_cast<std::uint64_t>(x + 0.0); // Adding 0 turns -0 into 0.
         hash *= 0x9e3779b97f4a7c15;
         return hash ^ hash >> 32;
     }
 };
 
-/// Border edges in a grid by their midpoints. Its cells grow with the length of the edges, so that
-/// few edges share a cell however small the parts of the mesh are.
+/// Grid of border edges by their midpoints. Cells grow with the length of the edges, so that few
+/// edges share a cell even in very small parts of a mesh.
 class EdgeGrid {
   public:
     EdgeGrid(const ScaledMesh& mesh, std::vector<EdgeEnds> edges)
@@ -155,8 +156,8 @@ class EdgeGrid {
         }
     }
 
-    /// Calls `visit` with the distance of each edge, neighbours one after the other, to the nearest
-    /// other one whose ends are close to its own, in mesh units; 0 for none.
+    /// Calls `visit` for each edge with the gap to the nearest edge whose ends are close, in mesh
+    /// units; 0 if there is none. Neighbouring edges are visited together.
     template <class Visit>
     void visit_gaps(const Visit& visit) const {
         for (const Member& member : members_) {
@@ -166,13 +167,13 @@ class EdgeGrid {
 
   private:
     struct Member {
-        std::uint32_t tag = 0; ///< Of the cell: others share its bucket.
+        std::uint32_t tag = 0; ///< Identifies the cell among those in the bucket.
         std::uint32_t edge = 0;
     };
 
-    // So that most neighbourhoods lie in one cell, and all in two along each axis.
+    // Cell size: most neighbourhoods lie in one cell, and all in two along each axis.
     static constexpr double kCellsPerEdge = 8;
-    /// Bounds the time where very many edges share a cell.
+    /// Limits the time if very many edges share a cell.
     static constexpr int kMostCandidates = 256;
 
     static std::uint32_t tag_of(std::uint64_t hash) {
@@ -244,7 +245,7 @@ class EdgeGrid {
         }
     }
 
-    /// 0 where the edges coincide or are no near misses.
+    /// Returns the gap between two edges; 0 if they coincide or are not close.
     double gap_between(std::uint32_t i, std::uint32_t k, double radius) const {
         radius = std::min(radius, kPartOfEdge * length_of(k));
         const auto [a, b] = edges_[i];
@@ -253,7 +254,7 @@ class EdgeGrid {
             std::swap(c, d);
         }
         const double gap = std::max(mesh_.distance(a, c), mesh_.distance(b, d));
-        // Across a narrow part of the surface, edges are near each other as they should be.
+        // Edges of a narrow part of the surface are near each other without a seam.
         return gap <= radius && !short_edges_.join(a, c) && !short_edges_.join(b, d) ? gap : 0;
     }
 
@@ -262,12 +263,13 @@ class EdgeGrid {
     double most_;
     ShortEdges short_edges_;
     std::uint32_t axes_;
-    std::uint64_t mask_;                ///< Of the number of buckets, a power of two, less 1.
-    std::vector<std::uint32_t> starts_; ///< Of each bucket in members_, and the end.
+    std::uint64_t mask_;                ///< Number of buckets, a power of two, minus 1.
+    std::vector<std::uint32_t> starts_; ///< First index of each bucket in members_, and the end.
     std::vector<Member> members_;
 };
 
-/// The next number of `digits` digits, or of a single 1 for none, that is at least `least`.
+/// Returns the smallest number of at least `least` with `digits` digits, or for 0 digits a power of
+/// ten.
 double rounded_up(double least, int digits) {
     const int exponent = static_cast<int>(std::floor(std::log10(least))) - std::max(digits - 1, 0);
     for (int more = 0;; ++more) {
@@ -287,7 +289,7 @@ double rounded_up(double least, int digits) {
     }
 }
 
-/// Fills in a number that joins all of them, round and, if there is one, without loss of faces.
+/// Chooses an epsilon that joins all of them: round and, if possible, without loss of faces.
 Result<Done> choose_epsilon(const MeshView& mesh, double least, NearSeams& seams) {
     for (const int digits : {0, 1, 3}) {
         const double epsilon = rounded_up(least, digits);
@@ -328,7 +330,7 @@ Result<NearSeams> find_near_seams(const MeshView& mesh) noexcept {
                 return chosen.error();
             }
         }
-        // As many triangles as edges: then the surface itself is that narrow.
+        // If as many triangles vanish as edges join, the surface itself is that narrow.
         return seams.degenerate_faces < std::max<std::uint64_t>(seams.edges, 1) ? seams
                                                                                 : NearSeams{};
     });

@@ -27,7 +27,7 @@ std::uint32_t PositionTable::first_at(std::uint32_t v) {
 std::size_t PositionTable::hash(std::uint32_t v) const {
     std::uint64_t sum = 0;
     for (std::uint32_t axis = 0; axis < mesh_.dimension; ++axis) {
-        // Adding 0 makes 0 of -0.
+        // Adding 0 turns -0 into 0.
         sum ^= std::bit_cast<std::uint64_t>(mesh_.coordinate(v, axis) + 0.0);
         sum *= 0x9e3779b97f4a7c15u;
         sum ^= sum >> 32;

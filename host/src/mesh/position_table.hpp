@@ -1,4 +1,4 @@
-// Which vertices lie in one place.
+// Finds vertices at the same position.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,14 @@
 
 namespace geodisk {
 
-/// A hash table of vertices by their position. The view must outlive it.
+/// Hash table of vertices by position. The view must outlive it.
 class PositionTable {
   public:
-    /// Takes so many vertices.
+    /// Makes a table for at most this many vertices.
     PositionTable(const MeshView& mesh, std::size_t most);
 
-    /// The first vertex asked for that has exactly the finite position of v, -0 being 0.
+    /// Returns the first vertex passed to this function with exactly the position of v, which must
+    /// be finite. -0 equals 0.
     std::uint32_t first_at(std::uint32_t v);
 
   private:
@@ -23,7 +24,7 @@ class PositionTable {
     bool coincide(std::uint32_t a, std::uint32_t b) const;
 
     const MeshView& mesh_;
-    std::vector<std::uint32_t> slots_; ///< A power of two, at most half of them taken.
+    std::vector<std::uint32_t> slots_; ///< Size is a power of two; at most half are used.
 };
 
 } // namespace geodisk

@@ -18,7 +18,7 @@
 namespace geodisk {
 namespace {
 
-/// Fills what a face alone does not determine: `around` and `fan_angles` of the half-edges, the
+/// Fills in what a face alone does not determine: `around` and `fan_angles` of the half-edges, the
 /// fans and the lists of corners. Returns the half-edges on borders.
 std::vector<std::uint32_t> connect(const ThreadOptions& threads, IndexView triangles,
                                    std::span<Link> links, std::span<HalfEdge> half_edges,
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> connect(const ThreadOptions& threads, IndexView trian
     list_corners(triangles, fans, corners);
     EdgeLinker linker(links, static_cast<std::uint32_t>(fans.size()));
     FanBuilder builder(links);
-    constexpr std::size_t kAhead = 32; // Corners, of some six vertices.
+    constexpr std::size_t kAhead = 32; // Number of corners, of about six vertices.
     for (std::uint32_t v = 0; v < fans.size(); ++v) {
         VertexFan& fan = fans[v];
         if (fan.corner_count > 0) {
@@ -38,10 +38,10 @@ std::vector<std::uint32_t> connect(const ThreadOptions& threads, IndexView trian
             for (std::size_t i = ahead; i < std::min(ahead + own.size(), corners.size()); ++i) {
                 const std::uint32_t first = corners[i] - corners[i] % 3;
                 prefetch(&links[first]);
-                prefetch(&links[first + 2]); // A face's links may lie in two cache lines.
+                prefetch(&links[first + 2]); // The links of a face may lie in two cache lines.
             }
             linker.link_at(v, own);
-            builder.build(v, own, fan); // While the links are in the cache.
+            builder.build(v, own, fan); // The links are in the cache now.
         }
     }
     linker.count(statistics);
@@ -54,7 +54,8 @@ std::vector<std::uint32_t> connect(const ThreadOptions& threads, IndexView trian
     return linker.take_borders();
 }
 
-/// The length that areas are measured against: of coordinates, the diagonal of their box.
+/// Returns the length that areas are compared with: for coordinates, the diagonal of the bounding
+/// box.
 Result<double> measure_extent(const MeshView& mesh, std::span<const HalfEdge>,
                               std::span<const VertexFan> fans, MeshStatistics& statistics) {
     std::array<double, kMostDimensions> low;
@@ -78,7 +79,7 @@ Result<double> measure_extent(const MeshView& mesh, std::span<const HalfEdge>,
     return statistics.diagonal;
 }
 
-/// Of lengths, which may contradict each other, the longest.
+/// For edge lengths, which may contradict each other, the longest edge.
 Result<double> measure_extent(const LengthMeshView&, std::span<const HalfEdge> half_edges,
                               std::span<const VertexFan>, MeshStatistics& statistics) {
     if (auto checked = check_agreement(half_edges); !checked) {
@@ -99,7 +100,7 @@ std::uint64_t seams_of(const MeshView& mesh, std::span<const HalfEdge> half_edge
 
 std::uint64_t seams_of(const LengthMeshView&, std::span<const HalfEdge>,
                        std::span<const std::uint32_t>) {
-    return 0; // Nothing tells where they lie.
+    return 0; // There are no positions.
 }
 
 std::size_t vertices_of(const MeshView& mesh) {

@@ -12,7 +12,8 @@
 namespace geodisk {
 namespace {
 
-/// g^(2/3), by Newton's method from above: by + - * / alone, so it is the same on every machine.
+/// Returns g^(2/3), by Newton's method from above. Uses only + - * /, so the result is the same on
+/// every machine.
 float spread_of(float g) {
     const double square = static_cast<double>(g) * static_cast<double>(g);
     double x = 1;
@@ -57,7 +58,7 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
         if (auto checked = check_factors(mesh, factors); !checked) {
             return checked.error();
         }
-        // Faces that take no part may name vertices that nothing else does.
+        // Ignored faces may name vertices that no other face uses.
         std::vector<float> values(factors.size(), 1.0f);
         std::vector<float> spreads(factors.size(), 1.0f);
         for (std::size_t v = 0; v < factors.size(); ++v) {

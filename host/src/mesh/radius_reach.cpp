@@ -1,12 +1,11 @@
-// How far disks reach where radii vary (paper section 5.8 cuts every disk at r(p) + r_max).
+// Reach of disks with varying radii (paper section 5.8 cuts every disk at r(p) + r_max).
 //
-// Let U(x) be the largest r(q) - d(x, q) over all points q of the surface. A path from p that has
-// come the way l to x can go on to a point it conflicts with only if l < r(p) + U(x): that is what
-// a disk may be cut at without losing anything. U is at least r, and is the least function that
-// nowhere changes by more than the way does; so any function V >= r that is linear in each face
-// with a gradient of at most 1 there is nowhere less than U. Such a V is made by raising r at
-// vertices: where g changes slowly, nothing is raised at all. Only lengths within faces enter, so
-// this serves every surface that geodisk takes.
+// Let U(x) be the largest r(q) - d(x, q) over all points q of the surface. A path from p of length
+// l to x can only reach a conflicting point if l < r(p) + U(x). So a disk may be cut there without
+// losing anything. U is the smallest function above r with a slope of at most 1. Therefore any
+// function V >= r that is linear in each face with a gradient of at most 1 is an upper bound of U.
+// Such a V is made by raising r at vertices; where g changes slowly, nothing is raised. Only
+// lengths within faces matter, so this works for every surface that geodisk accepts.
 #include "geodisk/radius_field.hpp"
 
 #include <algorithm>
@@ -20,13 +19,13 @@
 namespace geodisk {
 namespace {
 
-// To what the gradient is lowered where it is more than 1: a little further than need be, so that
-// vertices that raise each other in turn come to an end.
+// Target for gradients of more than 1. A little lower than necessary, so that vertices that raise
+// each other in turn converge.
 constexpr double kTarget = 0.95;
-// A face lower than this, in units of the distance, gets one value. Small steps would take for
-// ever.
+// A face of lower height, in units of the distance, gets a single value: small steps would take too
+// long.
 constexpr double kNarrow = 0x1p-12;
-// For the rounding of distances and radii on the device, see host/docs/precision.md.
+// Padding for the rounding of distances and radii on the device, see host/docs/precision.md.
 constexpr double kPadding = 0x1p-15;
 
 /// Values at the vertices of a mesh, raised until no face has a gradient of more than 1.
@@ -39,7 +38,7 @@ class Slopes {
         for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
             relax(f);
         }
-        // The highest vertex first: what it raises mostly needs raising no more.
+        // Highest vertex first: vertices that it raises rarely need to be raised again.
         while (!raised_.empty()) {
             const auto [value, vertex] = raised_.top();
             raised_.pop();
@@ -66,8 +65,8 @@ class Slopes {
         raised_.emplace(value, mesh_.half_edges()[h].origin);
     }
 
-    /// The least value at the apex over h with which the gradient is no more than `gradient`, if
-    /// that along h is not.
+    /// Returns the smallest value at the apex over h with a gradient of at most `gradient`, if the
+    /// gradient along h allows it.
     double least_at_apex(std::uint32_t h, double gradient) {
         const HalfEdge& edge = mesh_.half_edges()[h];
         const double along = edge.length > 0 ? (end(h) - start(h)) / length(h) : 0;
@@ -75,12 +74,12 @@ class Slopes {
         return start(h) + along * (edge.apex_x / unit_) - across * (edge.apex_y / unit_);
     }
 
-    /// Raises vertices of a face that are too far below the others; one step of it.
+    /// Raises the vertices of a face that are too low; one step.
     void relax(std::uint32_t face) {
         const std::uint32_t first = 3 * face;
         const double longest = std::max({length(first), length(first + 1), length(first + 2)});
         if (!(longest > 0)) {
-            return; // It takes no part.
+            return; // The face is ignored.
         }
         const double highest = std::max({start(first), end(first), apex(first)});
         const double area = length(first) * mesh_.half_edges()[first].apex_y / unit_;
@@ -102,7 +101,7 @@ class Slopes {
 
     const PreparedMesh& mesh_;
     double unit_;
-    std::vector<double> values_; ///< In units of the distance.
+    std::vector<double> values_; ///< Values in units of the distance.
     std::priority_queue<std::pair<double, std::uint32_t>> raised_;
 };
 
@@ -113,7 +112,7 @@ Result<std::vector<float>> RadiusField::reach_bounds(const PreparedMesh& mesh,
     return guarded([&]() -> Result<std::vector<float>> {
         std::vector<double> radii(mesh.vertex_count(), 0.0);
         for (std::size_t h = 0; h < factors_.size(); ++h) {
-            // Faces that take no part have no length.
+            // Ignored faces have no lengths.
             if (mesh.half_edges()[h].length > 0) {
                 radii[mesh.half_edges()[h].origin] = 0.5 * static_cast<double>(factors_[h]);
             }

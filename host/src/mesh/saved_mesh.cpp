@@ -1,6 +1,6 @@
 // Prepared meshes as bytes: a header, the shapes of half-edges, their links, the fans, the corners
-// and a checksum. What follows from these is not stored but computed again, and all that could lead
-// a run astray is checked, as the bytes may come from anywhere.
+// and a checksum. Derived values are computed again. Everything that could harm a run is checked,
+// because the bytes may come from any source.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -35,7 +35,7 @@ struct Header {
     double diagonal;
 };
 
-/// What coordinates or lengths alone determine; the rest of a frame follows.
+/// Part of a frame that depends on coordinates or lengths; the rest follows from it.
 struct Shape {
     double length, apex_x, apex_y;
 };
@@ -46,8 +46,8 @@ static_assert(std::has_unique_object_representations_v<Link>);
 static_assert(std::has_unique_object_representations_v<VertexFan>);
 static_assert(sizeof(Header) == 64 && sizeof(Shape) == 24);
 
-/// Any change of eight bytes changes it, as each step can be undone. Four sums, which a processor
-/// can add to at once.
+/// Returns a checksum. A change of eight adjacent bytes always changes it, since each step is
+/// invertible. Four independent sums are faster on a processor.
 Checksum checksum_of(std::span<const std::byte> bytes) {
     constexpr std::size_t kLanes = 4;
     Checksum sums[kLanes] = {bytes.size(), 1, 2, 3};
@@ -99,7 +99,7 @@ class Writer {
     std::vector<std::byte> bytes_;
 };
 
-/// Elements one after the other, wherever they lie in memory.
+/// Array of elements in memory without alignment.
 template <class T>
 class Stored {
   public:
@@ -135,13 +135,13 @@ Result<Header> read_header(std::span<const std::byte> bytes) {
         return invalid("the mesh was saved in version " + std::to_string(header.version) +
                        " of the format; this is version " + std::to_string(kVersion));
     }
-    // Counts first: then the size cannot overflow.
+    // Check counts first, so that the size cannot overflow.
     if (header.half_edges % 3 != 0 || header.corners > header.half_edges ||
         !check_counts(header.half_edges / 3, header.vertices) ||
         bytes.size() != saved_size(header)) {
         return invalid("the saved mesh is not complete");
     }
-#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION // Fuzzers are to get behind it.
+#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION // Lets fuzzers get past the checksum.
     Checksum sum;
     std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
     if (sum != checksum_of(bytes.first(bytes.size() - sizeof sum))) {
@@ -155,11 +155,11 @@ bool is_empty(const HalfEdge& edge) {
     return edge.length == 0 && edge.apex_x == 0 && edge.apex_y == 0;
 }
 
-/// Whether the three frames of a face describe one triangle, as far as rounding leaves that open.
+/// Returns true if the three frames of a face describe one triangle, up to rounding.
 bool frames_agree(const HalfEdge* edges) {
-    constexpr double kLargest = 1e102;   // Beside 1e100 of coordinates and lengths.
-    constexpr double kSmallest = 1e-150; // Below, squares lose digits.
-    constexpr double kAgreement = 1e-5;  // Lengths may miss a triangle by 1e-6.
+    constexpr double kLargest = 1e102;   // Coordinates and lengths are at most 1e100.
+    constexpr double kSmallest = 1e-150; // Squares of smaller lengths lose digits.
+    constexpr double kAgreement = 1e-5;  // Lengths may violate the triangle inequality by 1e-6.
     double longest = 0, shortest = kLargest;
     for (std::size_t k = 0; k < 3; ++k) {
         const HalfEdge& edge = edges[k];
@@ -183,7 +183,7 @@ bool frames_agree(const HalfEdge* edges) {
     return agree;
 }
 
-/// Checks all of a mesh but its header.
+/// Checks everything except the header.
 class Loader {
   public:
     Loader(const ThreadOptions& threads, const Header& header, std::span<const std::byte> bytes)
@@ -215,12 +215,13 @@ class Loader {
     }
 
   private:
-    /// Half-edges and links, with what follows from them; all indices of vertices are in range
-    /// then, and the angles of corners fit.
+    /// Loads half-edges and links and computes what follows from them. Afterwards all vertex
+    /// indices are in range and the angles of corners fit.
     Result<Done> load_faces(std::span<HalfEdge> half_edges, std::span<const VertexFan> fans,
                             MeshStatistics& statistics) {
         const std::size_t faces = half_edges.size() / 3;
-        std::vector<std::size_t> wrong(block_count(faces), faces); // The first in each block.
+        std::vector<std::size_t> wrong(block_count(faces),
+                                       faces); // First wrong face of each block.
         UninitializedVector<double> areas(faces);
         std::vector<MeshStatistics> blocks(block_count(faces));
         for_blocks(threads_, faces, [&](std::size_t begin, std::size_t end) {
@@ -269,7 +270,7 @@ class Loader {
         return true;
     }
 
-    /// The cycles of half-edges around edges, which it counts.
+    /// Checks the cycles of half-edges around edges, and counts them.
     Result<Done> check_edges(MeshStatistics& statistics) const {
         const std::size_t count = links_.size();
         std::vector<bool> seen(count, false);
@@ -278,7 +279,7 @@ class Loader {
             for (std::uint32_t h = first; !seen[h]; ++size) {
                 seen[h] = true;
                 const std::uint32_t next = around_half_edge(links_[h].around);
-                // Each is met once, so a cycle can end where it began alone.
+                // Each half-edge is visited once, so a cycle can only end where it began.
                 if (next >= count || !shares_edge(h, next) || (seen[next] && next != first)) {
                     return invalid("the links of face " + std::to_string(h / 3) +
                                        " in the saved mesh are wrong",
@@ -298,7 +299,8 @@ class Loader {
         return Done{};
     }
 
-    /// Whether the half-edges run between the same vertices, and the first says which way.
+    /// Returns true if the half-edges run between the same vertices, in the direction that the
+    /// first one says.
     bool shares_edge(std::uint32_t h, std::uint32_t next) const {
         const std::uint32_t from = links_[h].origin, to = links_[next_in_face(h)].origin;
         const std::uint32_t other_from = links_[next].origin;
@@ -307,7 +309,8 @@ class Loader {
                                                  : from == other_to && to == other_from;
     }
 
-    /// Every corner is in the fan of its vertex, and fans are as FanBuilder makes them.
+    /// Checks that every corner is in the fan of its vertex, and that fans are as FanBuilder makes
+    /// them.
     Result<Done> check_fans(std::span<const VertexFan> fans, std::span<const std::uint32_t> corners,
                             MeshStatistics& statistics) {
         std::uint64_t total = 0;
@@ -351,7 +354,7 @@ class Loader {
             "the corners of vertex " + std::to_string(v) + " in the saved mesh are wrong", v);
     }
 
-    /// Takes over what does not follow from the rest.
+    /// Copies the statistics that do not follow from the rest.
     Result<Done> check_statistics(MeshStatistics& statistics) const {
         statistics.components = header_.components;
         statistics.coinciding_border_edges = header_.coinciding_border_edges;

@@ -1,4 +1,4 @@
-// Borders that lie on each other, as where the vertices along a seam are doubled.
+// Borders that coincide, for example where the vertices along a seam are duplicated.
 #pragma once
 
 #include <compare>
@@ -10,13 +10,13 @@
 
 namespace geodisk {
 
-/// An edge by the vertices at its ends.
+/// The vertices at the ends of an edge.
 struct EdgeEnds {
     std::uint32_t from, to;
 };
 
-/// An edge that lies exactly on another one. Those in one place have the same `places`, and their
-/// `from` lie in one place, as do their `to`.
+/// An edge that coincides exactly with another one. Edges at the same place have the same `places`.
+/// Their `from` vertices are at one position, and so are their `to` vertices.
 struct CoincidingEdge {
     std::uint64_t places;
     std::uint32_t from, to;
@@ -24,11 +24,11 @@ struct CoincidingEdge {
     friend auto operator<=>(const CoincidingEdge&, const CoincidingEdge&) = default;
 };
 
-/// The edges of a single face. A face and its copies count as one.
+/// Returns the edges of a single face. A face and its copies count as one.
 std::vector<EdgeEnds> border_edges(const MeshView& mesh);
 
-/// Those of `borders` with both ends exactly where those of another one are, sorted by place. Edges
-/// with both ends in one place are points and coincide with nothing.
+/// Returns those of `borders` that coincide with another one at both ends, sorted by place. Edges
+/// with both ends at one position are points and coincide with nothing.
 std::vector<CoincidingEdge> coinciding_edges(const MeshView& mesh,
                                              std::span<const EdgeEnds> borders);
 

@@ -14,29 +14,29 @@ namespace {
 /// shows, and stored in units of 2^-13.
 constexpr std::uint32_t kFinePerUnit = 1u << 7;
 
-/// The bit of a packed angle that tells of a short side; angles take 22 bits.
+/// Bit of a packed angle that marks a short side; angles take 22 bits.
 constexpr std::uint32_t kShortSide = 1u << 31;
 
 constexpr std::uint32_t kIrregularFlags = gpu::kFanIrregular | gpu::kFanBends;
 
-/// Of a fan in rotational order.
+/// Returns the flags of a fan in rotational order.
 std::uint32_t regular_flags(bool open, std::uint32_t total_angle) {
-    // A shortest path makes at least pi on either side of a vertex it passes.
+    // A shortest path has an angle of at least pi on either side of a vertex.
     const std::uint32_t needed = open ? gpu::kAnglePi : 2 * gpu::kAnglePi;
     return (open ? gpu::kFanOpen : 0u) |
            (total_angle + gpu::kAngleTolerance >= needed ? gpu::kFanBends : 0u);
 }
 
-/// Whether the corner has a side of next to no length beside the other. Such a side joins two
-/// vertices into one place, whose angle is that of both together: neither fan alone tells whether
-/// a path may bend there, nor in which direction the other lies.
+/// Returns true if one side of the corner is almost zero compared with the other. Such a side joins
+/// two vertices into one place with the sum of their angles. Neither fan alone shows whether a path
+/// may bend there, nor in which direction the other vertex lies.
 bool at_short_side(double from, double to) {
     constexpr double kShort = 0x1p-20;
     return std::min(from, to) <= kShort * std::max(from, to);
 }
 
-/// One step of a walk around a vertex: the corner, and whether it was entered by its own half-edge
-/// (and is left by the previous one of its face) or the other way round.
+/// One step of a walk around a vertex: the corner, and true if it was entered through its own
+/// half-edge and is left through the previous one of its face, false for the reverse.
 struct Step {
     std::uint32_t corner;
     bool entered_by_own;
@@ -54,8 +54,8 @@ bool is_border(std::span<const Link> links, std::uint32_t h) {
     return around_half_edge(links[h].around) == h;
 }
 
-/// Crosses the exit edge into the next corner at vertex v; nothing at a border or where three or
-/// more faces meet.
+/// Crosses the exit edge into the next corner at vertex v. Returns nothing at a border, or where
+/// three or more faces meet.
 std::optional<Step> next_step(std::span<const Link> links, std::uint32_t v, Step step) {
     const std::uint32_t h = exit_edge(step);
     const std::uint32_t g = around_half_edge(links[h].around);
@@ -142,7 +142,7 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
 bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed) {
     const std::uint32_t fine = packed & ~kShortSide;
     const std::uint32_t size = (fan_angles >> 16) * kFinePerUnit;
-    // The start is rounded down and the end up.
+    // Starts are rounded down, ends up.
     return (packed & kShortSide) == 0 && size + 1 >= fine && size <= fine + 2 * kFinePerUnit;
 }
 
@@ -163,7 +163,7 @@ bool FanBuilder::fits(std::uint32_t v, const VertexFan& fan,
     std::uint32_t end = 0;
     for (const std::uint32_t corner : corners) {
         const std::uint32_t start = links_[corner].angle & 0xffffu;
-        if (start != end && start + 1 != end) { // Starts are rounded down and ends up.
+        if (start != end && start + 1 != end) { // Starts are rounded down, ends up.
             return false;
         }
         end = start + (links_[corner].angle >> 16);

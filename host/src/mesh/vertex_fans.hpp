@@ -1,4 +1,4 @@
-// The corners around each vertex in rotational order, with their angles.
+// Corners around each vertex in rotational order, with their angles.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace geodisk {
 
-/// What a fan needs to know of a corner's shape, given the half-edges from the corner and to it:
-/// its angle, and whether one side has next to no length beside the other.
+/// Packs what a fan needs to know of a corner, given the half-edges from and to the corner: its
+/// angle, and a bit that is set if one side is almost zero compared with the other.
 std::uint32_t pack_corner_angle(const HalfEdge& from, const HalfEdge& to);
 
-/// Whether this may be HalfEdge::fan_angles of such a corner in a fan of rotational order, up to
-/// the last bit of the angle.
+/// Returns true if this may be HalfEdge::fan_angles of such a corner in a fan in rotational order,
+/// up to the last bit of the angle.
 bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed);
 
 /// Orders and measures fans one by one.
@@ -27,18 +27,19 @@ class FanBuilder {
     /// `HalfEdge::fan_angles` and fills the rest of the fan. All edges at v must be linked.
     void build(std::uint32_t v, std::span<std::uint32_t> corners, VertexFan& fan);
 
-    /// Whether the corners of v, whose angles fit, are in order, and these angles and the fan as
-    /// build() makes them. All edges at v must be linked.
+    /// Returns true if the corners of v, whose angles fit, are in order, and the angles and the fan
+    /// are as build() makes them. All edges at v must be linked.
     bool fits(std::uint32_t v, const VertexFan& fan, std::span<const std::uint32_t> corners);
 
   private:
-    /// False where no single walk around v covers the corners; these stay as they are then.
+    /// Orders the corners along a walk around v. Returns false, and changes nothing, if no single
+    /// walk covers them.
     bool order_corners(std::uint32_t v, std::span<std::uint32_t> corners, bool& open);
     void measure(std::span<const std::uint32_t> corners, bool ordered, bool open, VertexFan& fan);
 
     std::span<Link> links_;
-    std::vector<std::uint32_t> copy_; ///< Of fits(), kept for its memory.
-    std::vector<std::uint32_t> walk_; ///< Of order_corners(), kept for its memory.
+    std::vector<std::uint32_t> copy_; ///< Scratch memory of fits().
+    std::vector<std::uint32_t> walk_; ///< Scratch memory of order_corners().
 };
 
 } // namespace geodisk

@@ -1,4 +1,4 @@
-// Vertices that belong together: a forest with a tree for each set.
+// Disjoint sets of vertices, as a forest with one tree per set.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace geodisk {
 
-/// Sets of vertices, each known by its lowest one; at first of one each.
+/// Disjoint sets of vertices, each represented by its lowest one. Initially each vertex is a set.
 class VertexSets {
   public:
     explicit VertexSets(std::size_t count) : parents_(count) {
@@ -24,7 +24,7 @@ class VertexSets {
         return v;
     }
 
-    /// Returns whether they were in two sets.
+    /// Joins two sets. Returns true if they were different.
     bool join(std::uint32_t a, std::uint32_t b) {
         const auto [low, high] = std::minmax({lowest(a), lowest(b)});
         parents_[high] = low;

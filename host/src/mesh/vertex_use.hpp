@@ -1,4 +1,4 @@
-// Vertices that no face uses: what they have does not matter.
+// Vertices that no face uses; their values are ignored.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace geodisk {
 
-/// Whether a face that takes part has the vertex.
+/// Returns true if a face that takes part uses the vertex.
 inline bool is_used(const PreparedMesh& mesh, std::size_t vertex) {
     return mesh.fans()[vertex].corner_count > 0;
 }

@@ -17,11 +17,11 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// Pairs of vertices within epsilon, by a grid of the first three coordinates. Cells are sorted, so
-/// that of those around a cell each row lies together.
+/// Finds pairs of vertices within epsilon, with a grid of the first three coordinates. Cells are
+/// sorted so that each row around a cell is contiguous.
 class NearPairs {
   public:
-    /// `vertices` are in different places.
+    /// `vertices` must be at different positions.
     NearPairs(const MeshView& mesh, double epsilon, std::span<const std::uint32_t> vertices)
         : mesh_(mesh), epsilon_(epsilon), axes_(std::min(mesh.dimension, 3u)) {
         std::array<double, 3> low{};
@@ -50,7 +50,7 @@ class NearPairs {
         starts_.push_back(members_.size());
     }
 
-    /// False where rounding is too much for the grid.
+    /// Returns false if rounding is too large for the grid.
     bool fits() const { return fits_; }
 
     void join(VertexSets& sets) const {
@@ -69,12 +69,13 @@ class NearPairs {
         auto operator<=>(const Member&) const = default;
     };
 
-    // In units of epsilon. Three coordinates of a cell are within it, with some room for rounding,
-    // and what is within it lies two cells away at most.
+    // Side of a cell in units of epsilon. Vertices with three coordinates in one cell are within
+    // epsilon, with some room for rounding, and vertices within epsilon are at most two cells
+    // apart.
     static constexpr double kSide = 0.55;
     static constexpr std::int64_t kReach = 2;
     static constexpr double kMostCells = 0x1p44;
-    /// The rows to one side of a cell, near ones first: most cells are joined by then.
+    /// Rows to one side of a cell, nearest first: most cells are joined by then.
     static constexpr std::pair<int, int> kRows[] = {{0, 0}, {0, 1},  {1, 0},  {1, -1}, {1, 1},
                                                     {0, 2}, {2, 0},  {1, -2}, {1, 2},  {2, -1},
                                                     {2, 1}, {2, -2}, {2, 2}};
@@ -97,7 +98,7 @@ class NearPairs {
     void join_cell(std::size_t cell, VertexSets& sets) const {
         const auto members = members_of(cell);
         for (std::size_t i = 1; i < members.size(); ++i) {
-            // In three dimensions all of a cell are near each other.
+            // In up to three dimensions, all vertices of a cell are within epsilon.
             const std::size_t most = cells_are_near() ? 1 : i;
             for (std::size_t k = 0; k < most; ++k) {
                 join_near(members[k].vertex, members[i].vertex, sets);
@@ -105,7 +106,7 @@ class NearPairs {
         }
     }
 
-    /// Each cell with those of the row at this distance, or with those after it in its own.
+    /// Joins each cell with the cells of the row at this offset, or with later ones in its own row.
     void join_row(std::int64_t x, std::int64_t y, VertexSets& sets) const {
         const bool is_own = x == 0 && y == 0;
         std::size_t next = 0;
@@ -127,7 +128,7 @@ class NearPairs {
         for (const Member& from : members_of(a)) {
             for (const Member& to : members_of(b)) {
                 if (cells_are_near() && sets.lowest(from.vertex) == sets.lowest(to.vertex)) {
-                    return; // Joined are all of both then.
+                    return; // All vertices of both cells are joined now.
                 }
                 join_near(from.vertex, to.vertex, sets);
             }
@@ -146,8 +147,8 @@ class NearPairs {
     double epsilon_;
     std::uint32_t axes_;
     bool fits_ = true;
-    std::vector<Member> members_;     ///< By cell.
-    std::vector<std::size_t> starts_; ///< Of each cell, and the end.
+    std::vector<Member> members_;     ///< Sorted by cell.
+    std::vector<std::size_t> starts_; ///< First index of each cell, and the end.
 };
 
 std::vector<std::uint32_t> used_vertices(const MeshView& mesh) {

@@ -1,4 +1,4 @@
-// A large array worked on by several threads.
+// Divides work on a large array among threads.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace geodisk {
 
-/// Elements of a block: some milliseconds of work, beside which starting a thread is nothing.
+/// Elements per block: several milliseconds of work, much more than the start of a thread.
 inline constexpr std::size_t kBlock = 32768;
 
 constexpr std::size_t block_count(std::size_t count) {
@@ -20,8 +20,8 @@ constexpr std::size_t block_count(std::size_t count) {
 }
 
 /// Calls `work(begin, end)` once for each block of [0, count), on as many threads as the options
-/// and the machine allow, the calling one included, and returns when all is done. Which blocks
-/// there are does not depend on the threads, and what no other thread does the calling one does.
+/// and the machine allow, including the calling one. Returns when all blocks are done. The blocks
+/// do not depend on the threads. The calling thread does the blocks that no other thread does.
 /// `work` must not throw.
 template <class Work>
 void for_blocks(const ThreadOptions& options, std::size_t count, const Work& work) {
@@ -53,7 +53,7 @@ void for_blocks(const ThreadOptions& options, std::size_t count, const Work& wor
                 threads.emplace_back(take_rest);
             }
         } catch (const std::exception&) {
-            // Those that could be started do.
+            // Continue with the threads that could be started.
         }
     }
     take_rest();

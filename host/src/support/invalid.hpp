@@ -1,4 +1,4 @@
-// What a caller asked for that cannot be.
+// Makes `invalid_argument` errors.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 
 namespace geodisk {
 
-/// A large or small number, three digits.
+/// Returns a number with three digits.
 inline std::string number_text(double value) {
     if (!std::isfinite(value)) {
         return "more than 1e308";
@@ -17,7 +17,7 @@ inline std::string number_text(double value) {
     return {text, end.ptr};
 }
 
-/// The shortest text that reads back as the same number.
+/// Returns the shortest text that reads back as the same number.
 inline std::string exact_text(double value) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};

@@ -1,11 +1,11 @@
-// Asking for memory before it is needed, where its addresses follow no pattern.
+// Prefetches memory whose addresses follow no pattern.
 #pragma once
 
 namespace geodisk {
 
-/// Starts to load what `address` points to into the cache, on compilers that can say so. Any
-/// address will do. To be called from code that does something else too: GCC takes a function that
-/// only prefetches to have no effect, and drops calls of it.
+/// Prefetches the cache line of `address`, if the compiler supports it. Any address is allowed.
+/// Call it from a function that also does something else: GCC drops calls of functions that only
+/// prefetch.
 inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
     __builtin_prefetch(address);

@@ -35,7 +35,7 @@ GEODISK_API const char* to_string(Status status) noexcept {
     case Status::internal:
         return "internal";
     }
-    return "unknown"; // A value from outside the enumeration, such as a newer library's.
+    return "unknown"; // A value outside the enumeration, for example of a newer library.
 }
 
 GEODISK_API void end_misuse(const Error* error) noexcept {
