@@ -63,7 +63,7 @@ geodisk_status tell_success(geodisk_error* error) noexcept {
 
 void copy_text(std::string_view text, char* to, std::size_t capacity) noexcept {
     std::size_t size = std::min(text.size(), capacity - 1);
-    if (size < text.size()) { // Back to the first byte of a character.
+    if (size < text.size()) { // Cut before a whole UTF-8 character.
         while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0u) == 0x80u) {
             --size;
         }

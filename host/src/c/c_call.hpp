@@ -1,4 +1,4 @@
-// What all C functions do alike: structs of other versions, failures, exceptions.
+// Shared by all C functions: structs of other versions, failures, exceptions.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 
 namespace geodisk::c {
 
-/// A failure that is the caller's mistake.
+/// Makes an `invalid_argument` error.
 Error wrong(std::string message);
 
-/// Tells the caller, if it wants to know. Returns the status.
+/// Writes the failure to `error`, if it is not null. Returns the status.
 geodisk_status tell(geodisk_error* error, const Error& failure) noexcept;
 geodisk_status tell_success(geodisk_error* error) noexcept;
 
@@ -30,7 +30,7 @@ geodisk_status answer(geodisk_error* error, Body&& body) noexcept {
     return result ? tell_success(error) : tell(error, result.error());
 }
 
-/// Has an object that is for one call at a time, as long as a call takes.
+/// Locks an object that one call at a time may use.
 class Hold {
   public:
     explicit Hold(std::atomic<bool>& is_held) noexcept
@@ -48,14 +48,15 @@ class Hold {
     std::atomic<bool>* held_;
 };
 
-/// Runs `body()` unless another call has the object, "the sampler" or so.
+/// Runs `body()` unless another call uses the object. `what` names it in the error, such as "the
+/// sampler".
 template <class Body>
 Result<Done> hold(std::atomic<bool>& is_held, const char* name, const Body& body) {
     const Hold held(is_held);
     return held ? body() : Error{Status::busy, std::string("another call has ") + name};
 }
 
-/// Copies as much as fits and ends it with 0, not within a character of UTF-8.
+/// Copies as much as fits, ends it with 0, and never cuts within a UTF-8 character.
 void copy_text(std::string_view text, char* to, std::size_t capacity) noexcept;
 
 template <std::size_t kCapacity>
@@ -63,14 +64,14 @@ void copy_text(std::string_view text, char (&to)[kCapacity]) noexcept {
     copy_text(text, to, kCapacity);
 }
 
-/// Whether a struct of some version can have so many bytes: then none of its fields is cut.
+/// Returns true if a struct of some version can have this size, so that no field is cut.
 template <class Struct>
 bool is_size_of(std::size_t size) noexcept {
     return size >= sizeof(std::size_t) && size % alignof(Struct) == 0;
 }
 
-/// The caller's struct as this version has it: what an older one lacks is 0. Fails where a later
-/// one asks for what this version does not know.
+/// Returns the caller's struct as this version has it. Fields that an older version lacks are 0.
+/// Fails if a later version sets fields that this one lacks.
 template <class Struct>
 Result<Struct> taken(const Struct* given, const char* name) {
     if (given == nullptr) {
@@ -92,13 +93,13 @@ Result<Struct> taken(const Struct* given, const char* name) {
     return result;
 }
 
-/// The same of a struct that may be NULL, for all 0.
+/// Returns the caller's struct, or all 0 for NULL.
 template <class Struct>
 Result<Struct> taken_if_any(const Struct* given, const char* name) {
     return given != nullptr ? taken(given, name) : Struct{};
 }
 
-/// Writes as much as the caller's version of the struct has.
+/// Writes the fields that the caller's version of the struct has.
 template <class Struct>
 Result<Done> give(Struct* to, const char* name, Struct value) {
     if (to == nullptr) {
@@ -113,7 +114,7 @@ Result<Done> give(Struct* to, const char* name, Struct value) {
     return Done{};
 }
 
-/// The i-th of an array of the caller's structs, as large as its version has them.
+/// Returns element i of an array of the caller's structs, with the size of its version.
 template <class Struct>
 Struct* element_of(Struct* array, std::size_t i) noexcept {
     using Byte = std::conditional_t<std::is_const_v<Struct>, const unsigned char, unsigned char>;

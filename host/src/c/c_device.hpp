@@ -1,4 +1,4 @@
-// The devices of the C API.
+// Devices of the C API.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace geodisk::c {
 
-/// Device memory by the caller's functions.
+/// Adapts the caller's memory functions to MemoryHooks.
 class LentMemory {
   public:
     explicit LentMemory(const geodisk_vulkan_device& lent)
@@ -31,7 +31,7 @@ class LentMemory {
     MemoryHooks hooks_{this, &allocate, &free};
 };
 
-/// A device of geodisk's own, or a borrowed one.
+/// A device that geodisk opened, or a borrowed one.
 class Device {
   public:
     explicit Device(Context context)
@@ -47,10 +47,10 @@ class Device {
     const QueueRef& queue() const noexcept { return queue_; }
     const DeviceReport& report() const noexcept { return report_; }
 
-    /// Compiled at the first call, and shared.
+    /// Returns the shared sampler; compiles it at the first call.
     Result<std::shared_ptr<const Sampler>> sampler(bool count_calls) const;
 
-    /// Fails for what the validation layer had to say, where it is on.
+    /// Fails if the validation layer is on and reported messages.
     Result<Done> check_validation() const;
 
   private:
@@ -60,7 +60,7 @@ class Device {
     QueueRef queue_;
     DeviceReport report_;
     mutable std::mutex mutex_;
-    mutable std::shared_ptr<const Sampler> samplers_[2]; ///< By count_calls.
+    mutable std::shared_ptr<const Sampler> samplers_[2]; ///< Indexed by count_calls.
 };
 
 } // namespace geodisk::c

@@ -11,7 +11,7 @@
 namespace geodisk::c {
 namespace {
 
-/// Its params refer to what the part owns, so it must not move afterwards.
+/// Fills in a part. Its params refer to data of the part, so it must not move afterwards.
 Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& given, Part& part) {
     if (mesh == nullptr) {
         return wrong("mesh is NULL");
@@ -214,7 +214,7 @@ geodisk_status geodisk_box_distance_for_count(const geodisk_box_params* params, 
             return checked.error();
         }
         const double found = distance_for_count(*box, count);
-        box->min_distance = found; // All else of it is checked, so that none comes of a wrong box.
+        box->min_distance = found; // Every other field was checked, so the distance is valid.
         box->throws = 1;
         if (const auto size = pool_size(*box); !size) {
             return size.error();

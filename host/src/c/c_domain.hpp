@@ -1,4 +1,4 @@
-// The domains of the C API.
+// Domains of the C API.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace geodisk::c {
 
-/// A surface of a domain, and all that its C++ counterpart refers to.
+/// A surface of a domain, and everything that its C++ counterpart refers to.
 struct Part {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Radii> radii;
@@ -21,10 +21,10 @@ struct Part {
     SampleParams params;
 };
 
-/// What is sampled: surfaces, or a box where there are none. Stays where it is.
+/// A domain with its surfaces, or a box if there are none. Must not move.
 struct DomainState {
     std::vector<Part> parts;
-    double min_distance = 0; ///< Of the first.
+    double min_distance = 0; ///< Minimum distance of the first surface.
     std::optional<Domain> domain;
 
     bool is_box() const noexcept { return parts.empty(); }

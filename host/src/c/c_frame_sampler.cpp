@@ -17,7 +17,7 @@ struct geodisk_frame_sampler {
     std::shared_ptr<const geodisk::c::Device> device;
     std::shared_ptr<const geodisk::c::DomainState> domain;
     geodisk::FrameSampler recorded;
-    std::atomic<bool> is_held = false; ///< A call has it.
+    std::atomic<bool> is_held = false; ///< True while a call uses it.
 };
 
 namespace geodisk::c {
@@ -37,7 +37,7 @@ FrameSamplerOptions options_of(const geodisk_frame_options& given) {
     return options;
 }
 
-/// Runs `body(*frames)` unless another call has the object.
+/// Runs `body(*frames)` unless another call uses the object.
 template <class Body>
 geodisk_status with_frames(geodisk_frame_sampler* frames, geodisk_error* error, const Body& body) {
     return answer(error, [&]() -> Result<Done> {

@@ -1,4 +1,4 @@
-// Vulkan's handles as the C API has them: pointers or numbers of 64 bits, by platform.
+// Vulkan handles as the C API passes them: pointers, or 64-bit numbers.
 #pragma once
 
 #include <bit>

@@ -29,13 +29,13 @@ static_assert(sizeof(geodisk_sample_record) == sizeof(gpu::SampleRec) &&
               offsetof(geodisk_sample_record, face) == offsetof(gpu::SampleRec, face) &&
               offsetof(geodisk_sample_record, weight2) == offsetof(gpu::SampleRec, weight2));
 
-constexpr std::uint64_t kPoolBytes = std::uint64_t{256} << 20; // As RunnerOptions has it.
+constexpr std::uint64_t kPoolBytes = std::uint64_t{256} << 20; // Same default as RunnerOptions.
 
 std::uint64_t& needed_by(geodisk_job& job, BufferRole role) {
     return job.needed[static_cast<std::size_t>(role)];
 }
 
-/// Plans for whole buffers, as at first.
+/// Plans the run and all its buffers.
 Result<Done> plan_buffers(geodisk_job& job, const Domain& domain, const RunPlan& plan) {
     const auto needs = job.sampler->workspace_needs(domain, plan, job.regrowths);
     if (!needs) {
@@ -46,7 +46,7 @@ Result<Done> plan_buffers(geodisk_job& job, const Domain& domain, const RunPlan&
     return Done{};
 }
 
-/// What comes next asks for other buffers.
+/// Computes the buffers that the next step needs.
 Result<Done> ask_for_buffers(geodisk_job& job, const Advice& advice) {
     if (advice.next == Next::larger_pool) {
         job.plan = advice.plan;
@@ -133,7 +133,7 @@ Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges) {
     return Done{};
 }
 
-/// Fails where the buffers lack what is to be uploaded: the samples would be none.
+/// Fails if a buffer with upload_bytes was not written: there would be no samples.
 Result<Done> check_uploads(const geodisk_job& job) {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         const auto role = static_cast<BufferRole>(i);
@@ -151,7 +151,7 @@ Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next wha
     const std::uint32_t dispatches = amount != 0 ? amount : kAllDispatches;
     const Sampler& sampler = *job.sampler;
     const bool begins = what == GEODISK_BEGIN || what == GEODISK_START_OVER;
-    if (!begins && !job.is_begun) { // What kernels would read has no values yet.
+    if (!begins && !job.is_begun) { // Kernels would read uninitialized buffers.
         return wrong("GEODISK_BEGIN comes first");
     }
     if (begins) {
@@ -187,7 +187,7 @@ Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next wha
 
 Result<geodisk_advice> advise(geodisk_job& job, const gpu::ControlRec& control) {
     geodisk_advice advice{};
-    // Until that is done the control record says the same.
+    // Until that is done, the control record stays the same.
     if (job.to_bind || job.to_record) {
         advice.next = static_cast<geodisk_next>(job.to_bind ? *job.to_bind : *job.to_record);
         advice.ready = job.ready;
@@ -213,7 +213,7 @@ Result<BufferRole> role_of(std::uint32_t buffer) {
     return static_cast<BufferRole>(buffer);
 }
 
-/// Plans a run of the domain, which is the job's then; after an error all is as it was.
+/// Plans a run of the domain, which then belongs to the job. An error changes nothing.
 Result<Done> plan_domain(geodisk_job& job, std::shared_ptr<const DomainState> state) {
     const Domain& domain = *state->domain;
     if (const auto prepared = job.sampler->prepare(domain); !prepared) {

@@ -1,4 +1,4 @@
-// The jobs of the C API: runs that the caller records.
+// Jobs of the C API: runs that the caller records.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace geodisk::c {
 
-/// A failure for calls that come before geodisk_job_bind.
+/// Makes the error for calls before geodisk_job_bind.
 Error needs_buffers();
 
-/// A range as C++ has it.
+/// Converts a range.
 BufferRange range_of(const geodisk_buffer_range& given) noexcept;
 
 } // namespace geodisk::c
@@ -29,34 +29,34 @@ struct geodisk_job {
     std::shared_ptr<const geodisk::Sampler> sampler;
     std::shared_ptr<const geodisk::c::DomainState> domain;
     std::uint64_t pool_bytes = 0;
-    std::uint32_t stages = 0; ///< At once, or 0.
+    std::uint32_t stages = 0; ///< Stages drawn at once, or 0.
     std::uint32_t regrowths = 0;
-    std::optional<std::uint64_t> seed; ///< Another than the domain's.
+    std::optional<std::uint64_t> seed; ///< Seed that replaces the domain's.
 
-    geodisk::RunPlan plan; ///< To go on with, once there are buffers for it.
+    geodisk::RunPlan plan; ///< Plan to continue with, once there are buffers for it.
     std::uint32_t sample_capacity = 0;
-    std::uint32_t ready = 0; ///< As geodisk_job_advance said last.
+    std::uint32_t ready = 0; ///< Latest value from geodisk_job_advance.
     std::array<std::uint64_t, geodisk::kBufferRoles> needed{};
     geodisk::Workspace workspace{};
-    std::optional<geodisk::Job> recorded; ///< Once it has buffers.
+    std::optional<geodisk::Job> recorded; ///< Set once buffers are bound.
 
-    /// What the buffers are to be bound for, if they are: larger_pool, larger_samples, or
-    /// start_over, as at first.
+    /// Step that needs new buffers: larger_pool, larger_samples, or start_over, as for a new job.
     std::optional<geodisk::Next> to_bind = geodisk::Next::start_over;
-    /// What has been bound for and is to be recorded: larger_pool or larger_samples.
+    /// Step that has its buffers and must be recorded: larger_pool or larger_samples.
     std::optional<geodisk::Next> to_record;
-    bool is_begun = false;                              ///< With these buffers and this seed.
-    std::array<bool, geodisk::kBufferRoles> uploaded{}; ///< Written for these buffers.
+    bool is_begun = false; ///< True if begun with these buffers and this seed.
+    std::array<bool, geodisk::kBufferRoles> uploaded{}; ///< True if the upload was written for
+                                                        ///< these buffers.
 
-    std::atomic<bool> is_held = false; ///< A call has it.
+    std::atomic<bool> is_held = false; ///< True while a call uses it.
 
-    /// Whether it has buffers for its domain, though maybe some that are to become larger.
+    /// Returns true if it has buffers for its domain, even if some must become larger.
     bool is_bound() const { return to_bind != geodisk::Next::start_over; }
 };
 
 namespace geodisk::c {
 
-/// Runs `body(*job)` with a job that no other call has.
+/// Runs `body(*job)` unless another call uses the job.
 template <class Body>
 geodisk_status with_job(geodisk_job* job, geodisk_error* error, const Body& body) {
     return answer(error, [&]() -> Result<Done> {

@@ -148,7 +148,7 @@ Result<Mesh> make_mesh(const geodisk_mesh_params& params) {
                                        : make_by_lengths(params, *indices, threads);
 }
 
-/// One value for each vertex, which an error calls `name`.
+/// Reads one value per vertex; `name` is for errors.
 Result<std::vector<double>> values_of(const void* values, geodisk_type type, std::size_t count,
                                       const std::string& name) {
     if (values == nullptr) {
@@ -165,7 +165,7 @@ Result<std::vector<double>> values_of(const void* values, geodisk_type type, std
     return wrong(name + " are not aligned GEODISK_FLOAT64 or GEODISK_FLOAT32");
 }
 
-/// What joined vertices have is the mean of values from `least` to `most`.
+/// Returns the mean of the values of joined vertices; values must be from `least` to `most`.
 Result<std::vector<double>> values_on(const Mesh& mesh, const std::vector<double>& given,
                                       double least, double most) {
     if (mesh.joined.empty()) {
@@ -184,7 +184,7 @@ Result<std::vector<double>> values_on(const Mesh& mesh, const std::vector<double
     return means_of_joined(mesh.joined, given);
 }
 
-/// The radii by a density or factors.
+/// Makes radii from a density or from factors.
 geodisk_status create_radii(bool is_density, const geodisk_mesh* mesh, const void* values,
                             geodisk_type type, size_t count, geodisk_radii** radii,
                             geodisk_error* error) {
@@ -194,7 +194,7 @@ geodisk_status create_radii(bool is_density, const geodisk_mesh* mesh, const voi
         }
         const PreparedMesh& prepared = mesh->shared->prepared;
         const std::string name = is_density ? "densities" : "factors";
-        if (count != prepared.vertex_count()) { // Before so many are read.
+        if (count != prepared.vertex_count()) { // Check the count before reading the values.
             return wrong("there are " + std::to_string(count) + " " + name + " for " +
                          std::to_string(prepared.vertex_count()) + " vertices");
         }

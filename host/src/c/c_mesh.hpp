@@ -1,4 +1,4 @@
-// The meshes and radii of the C API.
+// Meshes and radii of the C API.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace geodisk::c {
 
-/// A mesh, and what its samples are placed by.
+/// A mesh with the data that places samples.
 struct Mesh {
     PreparedMesh prepared;
-    std::uint32_t dimension = 0;            ///< Of the positions; 0 without any.
-    std::vector<double> positions{};        ///< `dimension` for each vertex.
-    std::vector<std::uint32_t> triangles{}; ///< Empty without positions.
-    std::vector<std::uint32_t> joined{};    ///< WeldedMesh::vertices; empty where none are joined.
+    std::uint32_t dimension = 0;            ///< Coordinates per vertex; 0 without positions.
+    std::vector<double> positions{};        ///< `dimension` coordinates per vertex.
+    std::vector<std::uint32_t> triangles{}; ///< Three indices per face; empty without positions.
+    std::vector<std::uint32_t> joined{}; ///< WeldedMesh::vertices; empty if no vertices are joined.
     std::uint64_t merged_vertices = 0;
     std::uint64_t joined_edges = 0;
 
@@ -26,7 +26,7 @@ struct Mesh {
 
 struct Radii {
     RadiusField field;
-    std::uint64_t mesh; ///< PreparedMesh::identity() of theirs.
+    std::uint64_t mesh; ///< PreparedMesh::identity() of their mesh.
 };
 
 } // namespace geodisk::c

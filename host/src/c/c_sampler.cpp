@@ -9,7 +9,7 @@
 namespace geodisk::c {
 namespace {
 
-/// Runs `body(state)` with a sampler that no other call has.
+/// Runs `body(state)` unless another call uses the sampler.
 template <class Body>
 geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, const Body& body) {
     return answer(error, [&]() -> Result<Done> {

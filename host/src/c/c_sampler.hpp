@@ -1,4 +1,4 @@
-// The samplers of the C API.
+// Samplers of the C API.
 #pragma once
 
 #include <atomic>
@@ -19,9 +19,10 @@ struct SamplerState {
 
     std::shared_ptr<const Device> device;
     Runner runner;
-    std::atomic<bool> is_held = false; ///< A call has it.
+    std::atomic<bool> is_held = false; ///< True while a call uses it.
     std::atomic<bool> is_cancelled = false;
-    std::shared_ptr<const DomainState> running; ///< Of the run in progress, if one was started.
+    std::shared_ptr<const DomainState> running; ///< Domain of the run in progress, if one was
+                                                ///< started.
 };
 
 } // namespace geodisk::c

@@ -12,21 +12,21 @@
 namespace geodisk::c {
 namespace {
 
-/// The most numbers of an attribute.
+/// Numbers of an attribute, at most 8.
 using Row = std::array<double, 8>;
 
-/// Samples of a surface, one after the other.
+/// Computes attributes of the samples on surfaces.
 class Places {
   public:
     Places(const DomainState& domain, const SampleSet& set) : domain_(domain), set_(set) {}
 
-    /// Its surface, of several.
+    /// Returns the number of the sample's surface.
     std::uint32_t part(std::size_t i) const {
         const auto first = domain_.domain->first_faces();
         const auto after = std::upper_bound(first.begin(), first.end(), set_.samples[i].face);
         return static_cast<std::uint32_t>(after - first.begin() - 1);
     }
-    /// Its face in that surface.
+    /// Returns the sample's face in that surface.
     std::uint32_t face(std::size_t i) const {
         return set_.samples[i].face - domain_.domain->first_faces()[part(i)];
     }
@@ -46,7 +46,7 @@ class Places {
     Row normal(std::size_t i) const {
         const Mesh& mesh = *domain_.parts[part(i)].mesh;
         const double* const a = vertex(mesh, face(i), 0);
-        // Edges of unit length first: products of very short or long ones leave the range of
+        // Normalize the edges first: products of very short or long ones overflow or underflow
         // double.
         const Vector ab = unit(difference(vertex(mesh, face(i), 1), a));
         const Vector ac = unit(difference(vertex(mesh, face(i), 2), a));
@@ -77,7 +77,7 @@ class Places {
     static Vector difference(const double* b, const double* a) {
         return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     }
-    /// Of length 1; 0 without a length.
+    /// Returns the vector with length 1; 0 if it has no length.
     static Vector unit(const Vector& v) {
         const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         return length > 0 ? Vector{v[0] / length, v[1] / length, v[2] / length} : Vector{};
@@ -96,7 +96,7 @@ std::size_t count_of(const geodisk_samples& samples) noexcept {
                                 : samples.set.samples.size();
 }
 
-/// Of surfaces, that all of them have; else 0.
+/// Returns the dimension that all surfaces have; 0 if they differ.
 std::uint32_t dimension_of(const DomainState& domain) noexcept {
     const std::uint32_t first = domain.parts[0].mesh->dimension;
     const bool same = std::ranges::all_of(
@@ -151,7 +151,7 @@ Row numbers_of(const geodisk_samples& samples, geodisk_attribute attribute, std:
     }
 }
 
-/// The caller's array.
+/// The caller's array to write to.
 struct Target {
     unsigned char* data;
     std::size_t stride;

@@ -1,4 +1,4 @@
-// The samples of the C API.
+// Samples of the C API.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 #include "c/c_domain.hpp"
 
-/// Not changed once made, and used without being copied.
+/// Immutable, and never copied.
 struct geodisk_samples {
     std::shared_ptr<const geodisk::c::DomainState> of;
     geodisk::SampleSet set;

@@ -13,7 +13,7 @@
 namespace geodisk {
 namespace {
 
-// The header that names it is still marked beta and not installed everywhere.
+// The header that defines it is still beta and not installed everywhere.
 constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
 
 std::vector<DeviceReport> take_reports(std::vector<FoundDevice>&& found) {
@@ -24,14 +24,14 @@ std::vector<DeviceReport> take_reports(std::vector<FoundDevice>&& found) {
     return reports;
 }
 
-/// Optional extensions that are enabled.
+/// Optional extensions to enable.
 struct Extensions {
     bool memory_budget = false;
     bool pipeline_statistics = false;
 };
 
-/// A device with one queue of `family`, the extensions that `enabled` names, and no optional
-/// feature but theirs, robustBufferAccess included: the kernels check their indices themselves.
+/// Creates a device with one queue of `family` and the extensions in `enabled`. Enables no optional
+/// features except theirs, not even robustBufferAccess: the kernels check their indices.
 Result<VkDevice> create_device(const Instance& instance, VkPhysicalDevice physical_device,
                                std::uint32_t family, const Extensions& enabled) {
     const Result<bool> portability =
@@ -52,7 +52,7 @@ Result<VkDevice> create_device(const Instance& instance, VkPhysicalDevice physic
     info.pQueueCreateInfos = &queue;
     info.pEnabledFeatures = &no_features;
     std::vector<const char*> extensions;
-    if (*portability) { // Where it is listed, Vulkan demands that it be enabled.
+    if (*portability) { // If it is listed, Vulkan requires that it be enabled.
         extensions.push_back(kPortabilitySubset);
     }
     if (enabled.memory_budget) {
@@ -61,7 +61,7 @@ Result<VkDevice> create_device(const Instance& instance, VkPhysicalDevice physic
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{};
     statistics.sType =
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
-    statistics.pipelineExecutableInfo = VK_TRUE; // Every device with the extension has it.
+    statistics.pipelineExecutableInfo = VK_TRUE; // Every device with the extension supports it.
     if (enabled.pipeline_statistics) {
         extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
         info.pNext = &statistics;
@@ -111,7 +111,7 @@ Result<Done> Context::Impl::choose_family(bool graphics) {
     return Done{};
 }
 
-/// Takes those that the device has; those that are asked for it must have.
+/// Enables extensions that the device has. Fails if it lacks one that an option requires.
 Result<Done> Context::Impl::choose_extensions(const ContextOptions& options) {
     const InstanceTable& vk = instance->functions();
     const Result<bool> budget =
@@ -132,7 +132,7 @@ Result<Done> Context::Impl::choose_extensions(const ContextOptions& options) {
     return Done{};
 }
 
-/// Creates the device of `physical_device` and `report`.
+/// Creates the device for `physical_device` and `report`.
 Result<Done> Context::Impl::open_device() {
     const OwnerTable& vk = instance->owner_functions();
     const Result<VkDevice> created = create_device(*instance, physical_device, family, extensions);

@@ -1,4 +1,4 @@
-// Context on a loader of the caller's choice: lets tests stand in for the loader and the drivers.
+// Context with a given loader: lets tests replace the loader and the drivers.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 namespace geodisk {
 
 struct ContextAccess {
-    /// As Context::create.
+    /// Creates a Context, as Context::create.
     static Result<Context> create(Loader loader, const ContextOptions& options) noexcept;
-    /// As list_devices.
+    /// Lists devices, as list_devices.
     static Result<std::vector<DeviceReport>> list(Loader loader) noexcept;
 };
 

@@ -1,4 +1,4 @@
-// select_device: from what the user wrote to one device.
+// select_device: finds the device that a name means.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -16,7 +16,7 @@ namespace {
 using Uuid = std::array<std::uint8_t, VK_UUID_SIZE>;
 using Reports = std::span<const DeviceReport>;
 
-/// Lower is better.
+/// Returns the rank of a device type; lower is better.
 int rank_of(VkPhysicalDeviceType type) noexcept {
     switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -32,7 +32,7 @@ int rank_of(VkPhysicalDeviceType type) noexcept {
     }
 }
 
-// Not std::tolower: the locale must not matter.
+// Lower case, independent of the locale.
 char lower(char c) noexcept {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-/// The functions that exist without an instance.
+/// Functions that need no instance.
 struct GlobalTable {
     PFN_vkEnumerateInstanceVersion vkEnumerateInstanceVersion = nullptr;
     PFN_vkEnumerateInstanceExtensionProperties vkEnumerateInstanceExtensionProperties = nullptr;
@@ -24,7 +24,7 @@ struct GlobalTable {
     PFN_vkCreateInstance vkCreateInstance = nullptr;
 };
 
-/// What vkCreateInstance is to enable.
+/// Layers and extensions for vkCreateInstance.
 struct InstancePlan {
     std::vector<const char*> extensions;
     VkInstanceCreateFlags flags = 0;
@@ -42,7 +42,8 @@ Error no_driver() {
                  "on the CPU, Mesa's lavapipe (Debian and Ubuntu: mesa-vulkan-drivers)"};
 }
 
-/// Creating an instance and listing devices fail in several ways where no driver works.
+/// Makes the error for a failed call that creates an instance or lists devices: without a working
+/// driver these fail in several ways.
 Error driver_error(const char* call, VkResult result) {
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_INITIALIZATION_FAILED) {
         Error error = no_driver();
@@ -54,7 +55,7 @@ Error driver_error(const char* call, VkResult result) {
 
 Result<GlobalTable> load_global_table(PFN_vkGetInstanceProcAddr get) {
     GlobalTable vk;
-    // Found only by loaders of Vulkan 1.1 and later.
+    // Only loaders of Vulkan 1.1 and later have it.
     vk.vkEnumerateInstanceVersion =
         find<PFN_vkEnumerateInstanceVersion>(get, VK_NULL_HANDLE, "vkEnumerateInstanceVersion");
     vk.vkEnumerateInstanceExtensionProperties = find<PFN_vkEnumerateInstanceExtensionProperties>(
@@ -66,7 +67,7 @@ Result<GlobalTable> load_global_table(PFN_vkGetInstanceProcAddr get) {
     if (vk.vkEnumerateInstanceVersion != nullptr)
         vk.vkEnumerateInstanceVersion(&version);
     if (version < Instance::kApiVersion) {
-        // Wine's loader has the function, and answers 1.0 where it reaches no driver.
+        // Wine's loader has the function, but returns 1.0 if it reaches no driver.
         if (vk.vkEnumerateInstanceVersion != nullptr)
             return Error{Status::no_device, "the Vulkan loader reaches no driver; install one or, "
                                             "under Wine, set DISPLAY to an X server (xvfb-run "
@@ -80,7 +81,7 @@ Result<GlobalTable> load_global_table(PFN_vkGetInstanceProcAddr get) {
     return vk;
 }
 
-/// Extensions that `layer`, or for nullptr the loader and the drivers, offer.
+/// Lists the extensions of `layer`, or for nullptr those of the loader and the drivers.
 Result<std::vector<VkExtensionProperties>> list_extensions(const GlobalTable& vk,
                                                            const char* layer) {
     std::vector<VkExtensionProperties> extensions;
@@ -92,7 +93,8 @@ Result<std::vector<VkExtensionProperties>> list_extensions(const GlobalTable& vk
     return extensions;
 }
 
-/// Adds what validation needs. The loader silently drops an unknown layer, hence the check.
+/// Adds the layer and extensions for validation. The loader silently drops an unknown layer, so
+/// check first.
 Result<Done> plan_validation(const GlobalTable& vk, InstancePlan& plan) {
     std::vector<VkLayerProperties> layers;
     const VkResult result = enumerate(layers, [&](auto* count, auto* elements) {
@@ -132,7 +134,7 @@ Result<InstancePlan> plan_instance(const GlobalTable& vk, bool validation) {
     const auto offered = list_extensions(vk, nullptr);
     if (!offered)
         return offered.error();
-    // Without it, drivers such as MoltenVK stay hidden.
+    // Otherwise drivers such as MoltenVK stay hidden.
     if (contains_extension(*offered, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
         plan.extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
         plan.flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
@@ -194,7 +196,7 @@ Result<Done> Instance::create_handle(bool validation) {
     info.ppEnabledExtensionNames = plan->extensions.data();
     VkDebugUtilsMessengerCreateInfoEXT messenger{};
 #ifdef VK_EXT_layer_settings
-    // Newer layers look at what shaders access only when told to.
+    // Newer layers check shader accesses only if told to.
     const VkBool32 on = VK_TRUE;
     const VkLayerSettingEXT shader_accesses{kValidationLayer, "syncval_shader_accesses_heuristic",
                                             VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &on};
@@ -204,7 +206,7 @@ Result<Done> Instance::create_handle(bool validation) {
     settings.pSettings = &shader_accesses;
 #endif
     if (validation) {
-        messenger = log_->messenger_info(); // For messages about the instance itself.
+        messenger = log_->messenger_info(); // Reports messages about vkCreateInstance itself.
         features.pNext = &messenger;
         info.pNext = &features;
 #ifdef VK_EXT_layer_settings
@@ -219,7 +221,7 @@ Result<Done> Instance::create_handle(bool validation) {
         handle_ = VK_NULL_HANDLE;
         return driver_error("vkCreateInstance", result);
     }
-    // Apart from the rest, so that a failure to load the table leaks nothing.
+    // Loaded separately, so that a failure to load the table leaks nothing.
     owner_functions_.vkDestroyInstance =
         find<PFN_vkDestroyInstance>(get, handle_, "vkDestroyInstance");
     Result<InstanceTable> table = load_instance_table(get, handle_);

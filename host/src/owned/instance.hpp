@@ -1,4 +1,4 @@
-// A Vulkan instance of our own, with the loader it came from.
+// A Vulkan instance that geodisk owns, with its loader.
 #pragma once
 
 #include <functional>
@@ -22,19 +22,20 @@ struct InstanceOptions {
     std::function<void(std::string_view)> on_validation_message;
 };
 
-/// A physical device and what `query_device` says about it.
+/// A physical device and its report.
 struct FoundDevice {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
     DeviceReport report;
 };
 
-/// Owns an instance of Vulkan 1.1. Neither copied nor moved, since the validation log is registered
-/// by its address. Functions returning a Result may throw std::bad_alloc.
+/// Owns a Vulkan 1.1 instance. Not copyable or movable, since the validation log is registered by
+/// its address. Functions that return a Result may throw std::bad_alloc.
 class Instance {
   public:
     static constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_1;
 
-    /// Errors: `no_device` without driver, `device_lacks` without the validation layer asked for.
+    /// Creates an instance. Errors: `no_device` without driver; `device_lacks` if the validation
+    /// layer is requested but missing.
     static Result<std::unique_ptr<Instance>> create(Loader loader, InstanceOptions options);
 
     Instance(const Instance&) = delete;
@@ -47,10 +48,10 @@ class Instance {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr() const noexcept {
         return loader_.get_instance_proc_addr();
     }
-    /// Null without validation.
+    /// Returns the log, or null without validation.
     const ValidationLog* validation_log() const noexcept { return log_.get(); }
 
-    /// All devices in the order of the driver. Errors: `no_device` when there is none.
+    /// Returns all devices in the order of the driver. Errors: `no_device` if there is none.
     Result<std::vector<FoundDevice>> find_devices() const;
 
   private:
@@ -58,7 +59,7 @@ class Instance {
     Result<Done> create_handle(bool validation);
     Result<Done> create_messenger();
 
-    Loader loader_; // First, so that the library is closed last.
+    Loader loader_; // First member, so that the library is closed last.
     std::unique_ptr<ValidationLog> log_;
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

@@ -10,11 +10,11 @@ namespace geodisk {
 /// Keeps the loader library open. Must outlive every Vulkan object made through it.
 class Loader {
   public:
-    /// Opens the library `path`, or for nullptr the loader of the system, by its usual name.
-    /// Errors: `no_device` with a hint what to install, `out_of_host_memory`.
+    /// Opens the library `path`, or for nullptr the system's loader. Errors: `no_device` with a
+    /// hint what to install; `out_of_host_memory`.
     static Result<Loader> open(const char* path = nullptr) noexcept;
 
-    /// A loader that is somebody else's: nothing is opened or closed.
+    /// Wraps a loader of the caller's: opens and closes nothing.
     explicit Loader(PFN_vkGetInstanceProcAddr function) noexcept
         : get_instance_proc_addr_(function) {}
 

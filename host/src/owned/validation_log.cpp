@@ -3,7 +3,7 @@
 namespace geodisk {
 namespace {
 
-// An error inside a loop would otherwise fill the memory.
+// Limits the memory of an error inside a loop.
 constexpr std::size_t kMaxKept = 256;
 
 std::string text_of(const VkDebugUtilsMessengerCallbackDataEXT& data) {
@@ -45,11 +45,12 @@ VkBool32 ValidationLog::receive(VkDebugUtilsMessageSeverityFlagBitsEXT /*severit
     ValidationLog& log = *static_cast<ValidationLog*>(user);
     {
         const std::lock_guard lock(log.mutex_);
-        ++log.count_; // First of all: the count must hold even if the text cannot be kept.
+        ++log.count_; // First, so that the count is right even if the text cannot be kept.
     }
     try {
         log.add(text_of(*data));
-    } catch (...) { // Out of memory, or thrown by the user's callback: Vulkan's code is above us.
+    } catch (...) { // Out of memory, or an exception of the user's callback. It must not reach the
+                    // Vulkan code that called this.
     }
     return VK_FALSE;
 }
@@ -60,7 +61,7 @@ void ValidationLog::add(const std::string& message) {
         if (messages_.size() < kMaxKept)
             messages_.push_back(message);
     }
-    if (on_message_) // Outside the lock, so that it may read the log.
+    if (on_message_) // Outside the lock, so that the callback may read the log.
         on_message_(message);
 }
 

@@ -1,4 +1,4 @@
-// Collects what the validation layer has to say.
+// Collects messages of the validation layer.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace geodisk {
 
-/// Messages of severity warning and above. Safe to use from several threads.
+/// Log of messages of severity warning or higher. Thread-safe.
 class ValidationLog {
   public:
     explicit ValidationLog(std::function<void(std::string_view)> on_message)
         : on_message_(std::move(on_message)) {}
 
-    /// A messenger description that reports to this log; the log must outlive the messenger and
-    /// the instance.
+    /// Returns the description of a messenger that reports to this log. The log must outlive the
+    /// messenger and the instance.
     VkDebugUtilsMessengerCreateInfoEXT messenger_info() noexcept;
 
     std::size_t count() const noexcept;

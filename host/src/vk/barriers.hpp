@@ -1,4 +1,4 @@
-// The few barriers geodisk records, by name.
+// The barriers that geodisk records.
 #pragma once
 
 #include "vk/dispatch.hpp"
@@ -15,7 +15,7 @@ inline void record_barrier(const DeviceTable& vk, VkCommandBuffer commands,
     vk.vkCmdPipelineBarrier(commands, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-/// One dispatch's writes become visible to the next one, and to its indirect size.
+/// Makes writes of dispatches visible to later dispatches and to their indirect sizes.
 inline void barrier_compute_to_compute(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
@@ -23,7 +23,7 @@ inline void barrier_compute_to_compute(const DeviceTable& vk, VkCommandBuffer co
                        VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
-/// Fills and copies become visible to dispatches.
+/// Makes fills and copies visible to dispatches.
 inline void barrier_transfer_to_compute(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
@@ -31,14 +31,14 @@ inline void barrier_transfer_to_compute(const DeviceTable& vk, VkCommandBuffer c
                        VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
-/// Dispatches become visible to copies, which may overwrite.
+/// Makes writes of dispatches visible to copies, which may overwrite them.
 inline void barrier_compute_to_transfer(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                    VK_PIPELINE_STAGE_TRANSFER_BIT,
                    VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
-/// Copies become visible to the host.
+/// Makes copies visible to the host.
 inline void barrier_transfer_to_host(const DeviceTable& vk, VkCommandBuffer commands) {
     record_barrier(vk, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);

@@ -32,7 +32,7 @@ std::optional<std::uint32_t> find_type(const VkPhysicalDeviceMemoryProperties& m
 std::optional<std::uint32_t> choose_type(const VkPhysicalDeviceMemoryProperties& memory,
                                          std::uint32_t allowed, MemoryKind kind) {
     if (kind == MemoryKind::host) {
-        // Cached memory reads back many times faster where the device is not the host.
+        // Host reads of cached memory are many times faster on a discrete device.
         const auto cached =
             find_type(memory, allowed, kMapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
         return cached ? cached : find_type(memory, allowed, kMapped);

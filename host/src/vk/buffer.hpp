@@ -1,4 +1,4 @@
-// A buffer with memory of its own.
+// DeviceBuffer: a buffer with its own memory.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 namespace geodisk {
 
 enum class MemoryKind {
-    device, ///< Fast for the device; the host may not see it.
+    device, ///< Fast for the device; maybe not host-visible.
     host,   ///< Mapped and coherent.
 };
 
 /// Owns a VkBuffer and its memory; movable. `device` and `vk` must outlive it.
 class DeviceBuffer {
   public:
-    /// Errors: `out_of_device_memory` naming the bytes, or as Vulkan fails.
+    /// Creates a buffer. Errors: `out_of_device_memory` naming the bytes; those of Vulkan.
     static Result<DeviceBuffer> create(const DeviceRefs& device, const DeviceTable& vk,
                                        const VkPhysicalDeviceMemoryProperties& memory,
                                        VkDeviceSize bytes, VkBufferUsageFlags usage,
@@ -28,12 +28,12 @@ class DeviceBuffer {
     DeviceBuffer& operator=(DeviceBuffer&& other) noexcept;
     ~DeviceBuffer();
 
-    /// Owns nothing any more, without destroying it: the device may still be using it.
+    /// Gives up the buffer without destroying it: the device may still be using it.
     void abandon() noexcept { vk_ = nullptr; }
 
     VkBuffer handle() const noexcept { return buffer_; }
     VkDeviceSize size() const noexcept { return size_; }
-    /// The mapped bytes of a host buffer.
+    /// Returns the mapped bytes of a host buffer.
     std::span<std::byte> bytes() const noexcept { return mapped_; }
 
   private:

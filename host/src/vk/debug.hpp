@@ -1,5 +1,4 @@
-// Names and labels for those who look at a device with a debugger; nothing where the caller has not
-// enabled VK_EXT_debug_utils.
+// Names and labels for debuggers. They do nothing unless the caller enabled VK_EXT_debug_utils.
 #pragma once
 
 #include <cstdint>

@@ -13,12 +13,12 @@
 
 namespace geodisk {
 
-/// For so many sets; null after an error, which is as Vulkan fails.
+/// Creates a pool for this many sets; it is null after an error. Errors: those of Vulkan.
 Result<Done> create_descriptor_pool(const DeviceRefs& device, const DeviceTable& vk,
                                     std::span<const VkDescriptorPoolSize> sizes, std::uint32_t sets,
                                     VkDescriptorPool& pool);
 
-/// A set of each layout.
+/// Allocates one set per layout.
 Result<Done> allocate_descriptor_sets(const DeviceRefs& device, const DeviceTable& vk,
                                       VkDescriptorPool pool,
                                       std::span<const VkDescriptorSetLayout> layouts,

@@ -12,15 +12,16 @@
 namespace geodisk {
 namespace {
 
-// What every kernel may rely on: at most the guaranteed minima of Vulkan 1.1, except for the
-// storage buffers per stage, of which the specification guarantees four.
+// Limits that every kernel relies on. They are at most the guaranteed minima of Vulkan 1.1, except
+// for the storage buffers per stage, of which the specification guarantees four.
 constexpr std::uint64_t kNeededStorageBufferRange = std::uint64_t{1} << 27;
 constexpr std::uint64_t kNeededStorageBuffersPerStage = 8;
 constexpr std::uint64_t kNeededWorkgroupSize = 128;
 constexpr std::uint64_t kNeededPushConstantsSize = 128;
 constexpr std::uint64_t kNeededSharedMemorySize = 16'384;
 
-/// A string of a fixed-size field, which a faulty driver may have left without its terminator.
+/// Returns the string of a fixed-size field, which a faulty driver may have left without its
+/// terminator.
 template <std::size_t kSize>
 std::string text_of(const char (&field)[kSize]) {
     return std::string(field, std::find(field, field + kSize, '\0'));
@@ -51,7 +52,7 @@ void read_properties(const VkPhysicalDeviceProperties& properties, DeviceReport&
     to.timestamp_period = from.timestampPeriod;
 }
 
-/// Reads what only Vulkan 1.1 devices can be asked for.
+/// Reads properties that only Vulkan 1.1 devices have.
 Result<Done> read_properties2(const InstanceTable& vk, VkPhysicalDevice physical_device,
                               DeviceReport& report) {
     const Result<bool> has_driver_properties =

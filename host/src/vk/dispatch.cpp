@@ -17,7 +17,7 @@ Error null_argument(const char* name) {
     return Error{Status::invalid_argument, std::string(name) + " is null"};
 }
 
-/// The first null member of `refs` that has to be set, or nullptr.
+/// Returns the name of the first null member of `refs` that must be set, or nullptr.
 const char* first_null(const DeviceRefs& refs) noexcept {
     if (refs.instance == VK_NULL_HANDLE)
         return "DeviceRefs::instance";
@@ -36,13 +36,13 @@ const char* first_null(const DeviceRefs& refs) noexcept {
     return nullptr;
 }
 
-// Of a table, by `find`; `missing` is the first that there is not.
+// Loads a function of a table with `find`; `missing` is the first that was not found.
 #define GEODISK_LOAD(name)                                                                         \
     table.name = reinterpret_cast<PFN_##name>(find(#name));                                        \
     if (table.name == nullptr && missing == nullptr)                                               \
         missing = #name;
 
-/// A table that `fill` fills by `find`, of functions of `owner`.
+/// Returns a table that `fill` fills with `find`, for functions of `owner`.
 template <class Table, class Find, class Fill>
 Result<Table> filled(const char* owner, const Find& find, Fill&& fill) {
     Table table;
@@ -112,7 +112,7 @@ Result<DeviceTable> load_device_table(const DeviceRefs& refs) noexcept {
             });
         if (!loaded || !refs.debug_utils)
             return loaded;
-        // Of an extension of the instance.
+        // Functions of an instance extension.
         DeviceTable& table = *loaded;
         const auto find = [&](const char* name) {
             return refs.get_instance_proc_addr(refs.instance, name);

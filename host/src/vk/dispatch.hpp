@@ -1,7 +1,7 @@
-// Tables of Vulkan functions, one per instance and one per device, filled from the function pointer
-// the caller lends. The library calls Vulkan through these tables only: there are no linked
-// prototypes and no globals. They are plain structs so that a test may replace single entries, for
-// instance by one that fails its third call.
+// Tables of Vulkan functions, one per instance and one per device, filled through the caller's
+// function pointer. The library calls Vulkan only through these tables: there are no linked
+// prototypes and no globals. They are plain structs, so that a test may replace single entries, for
+// example by one that fails at its third call.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -18,15 +18,15 @@
     X(vkGetPhysicalDeviceMemoryProperties)       \
     X(vkGetPhysicalDeviceQueueFamilyProperties)
 
-// What makes a device, for Context.
+// Functions that Context needs to create a device.
 #define GEODISK_OWNER_FUNCTIONS(X)               \
     X(vkDestroyInstance)                         \
     X(vkEnumeratePhysicalDevices)                \
     X(vkCreateDevice)                            \
     X(vkGetDeviceProcAddr)
 
-// Core Vulkan 1.0 and 1.1 only, so that each entry exists on every device geodisk accepts.
-// There is no vkDeviceWaitIdle or vkQueueWaitIdle: a borrowed device may be busy with other work.
+// Only core Vulkan 1.0 and 1.1, so that each function exists on every device geodisk accepts. There
+// is no vkDeviceWaitIdle or vkQueueWaitIdle: a borrowed device may be busy with other work.
 #define GEODISK_DEVICE_FUNCTIONS(X)       \
     X(vkQueueSubmit)                      \
                                           \
@@ -75,7 +75,7 @@
     X(vkResetFences)                      \
     X(vkWaitForFences)
 
-// For RunnerOptions::time_stages.
+// Functions for RunnerOptions::time_stages.
 #define GEODISK_QUERY_FUNCTIONS(X)        \
     X(vkCreateQueryPool)                  \
     X(vkDestroyQueryPool)                 \
@@ -83,7 +83,7 @@
     X(vkCmdResetQueryPool)                \
     X(vkCmdWriteTimestamp)
 
-// Of VK_EXT_debug_utils; null unless DeviceRefs::debug_utils.
+// Functions of VK_EXT_debug_utils; null unless DeviceRefs::debug_utils.
 #define GEODISK_DEBUG_FUNCTIONS(X)        \
     X(vkSetDebugUtilsObjectNameEXT)       \
     X(vkCmdBeginDebugUtilsLabelEXT)       \
@@ -94,17 +94,17 @@ namespace geodisk {
 
 #define GEODISK_MEMBER(name) PFN_##name name = nullptr;
 
-/// Functions of an instance and its physical devices. Members carry the names of the functions.
+/// Functions of an instance and its physical devices. Members have the names of the functions.
 struct InstanceTable {
     GEODISK_INSTANCE_FUNCTIONS(GEODISK_MEMBER)
 };
 
-/// Those of an instance that geodisk owns, beside.
+/// Further functions of an instance that geodisk owns.
 struct OwnerTable {
     GEODISK_OWNER_FUNCTIONS(GEODISK_MEMBER)
 };
 
-/// Functions of one device, without the loader's trampolines. Members carry the names of the
+/// Functions of one device, without the loader's trampolines. Members have the names of the
 /// functions.
 struct DeviceTable {
     GEODISK_DEVICE_FUNCTIONS(GEODISK_MEMBER)
@@ -122,7 +122,7 @@ struct QueryTable {
 GEODISK_API Result<InstanceTable>
 load_instance_table(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance) noexcept;
 
-/// The same, and its errors.
+/// Fills the table of further functions. Errors: those of load_instance_table().
 GEODISK_API Result<OwnerTable> load_owner_table(PFN_vkGetInstanceProcAddr get_instance_proc_addr,
                                                 VkInstance instance) noexcept;
 
@@ -131,7 +131,7 @@ GEODISK_API Result<OwnerTable> load_owner_table(PFN_vkGetInstanceProcAddr get_in
 /// the first function that is missing.
 GEODISK_API Result<DeviceTable> load_device_table(const DeviceRefs& refs) noexcept;
 
-/// The same, and its errors.
+/// Fills the table of query functions. Errors: those of load_device_table().
 GEODISK_API Result<QueryTable> load_query_table(const DeviceRefs& refs) noexcept;
 
 } // namespace geodisk

@@ -1,4 +1,4 @@
-// Vulkan's two-call idiom: ask for the count, then for the elements.
+// Vulkan's two-call idiom: query the count, then the elements.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace geodisk {
 
-/// Fills `out` from `call(std::uint32_t* count, T* elements) -> VkResult`, whose elements are
-/// `blank` before. Returns the first result that is not success. May throw std::bad_alloc.
+/// Fills `out` from `call(std::uint32_t* count, T* elements) -> VkResult`; elements are initialized
+/// to `blank`. Returns the first result that is not success. May throw std::bad_alloc.
 template <class T, class Call>
 VkResult enumerate(std::vector<T>& out, Call&& call, const T& blank = T{}) {
     VkResult result = VK_INCOMPLETE;

@@ -16,7 +16,7 @@ namespace geodisk {
 GEODISK_API bool contains_extension(std::span<const VkExtensionProperties> extensions,
                                     std::string_view name) noexcept;
 
-/// Whether the device offers the extension `name`. May throw std::bad_alloc.
+/// Returns true if the device offers the extension `name`. May throw std::bad_alloc.
 GEODISK_API Result<bool> has_device_extension(const InstanceTable& vk,
                                               VkPhysicalDevice physical_device,
                                               std::string_view name);

@@ -40,8 +40,8 @@ Status status_of(VkResult result) noexcept {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
         return Status::out_of_host_memory;
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-    case VK_ERROR_MEMORY_MAP_FAILED: // Mapping fails for want of contiguous address space.
-    case VK_ERROR_TOO_MANY_OBJECTS:  // vkAllocateMemory: the driver's allocation count is used up.
+    case VK_ERROR_MEMORY_MAP_FAILED: // Mapping fails without enough contiguous address space.
+    case VK_ERROR_TOO_MANY_OBJECTS:  // vkAllocateMemory: too many allocations for the driver.
     case VK_ERROR_FRAGMENTED_POOL:
     case VK_ERROR_OUT_OF_POOL_MEMORY:
         return Status::out_of_device_memory;
