@@ -11,16 +11,17 @@
 namespace geodisk {
 namespace {
 
-// Of candidates: deviations from what a stage expects that there is room for.
+// Room for random fluctuations: number of standard deviations above the expected candidates of a
+// stage.
 constexpr double kDeviations = 8;
-// Candidates for each range of orders by which samples are sorted.
+// Candidates per range of orders when samples are sorted.
 constexpr std::uint32_t kCandidatesPerBucket = 16;
 constexpr std::uint32_t kLeastBuckets = 256;
 constexpr std::uint32_t kMostBuckets = 1u << 22;
 
 } // namespace
 
-// Of darts the largest stage there may be.
+// For darts, the largest possible stage.
 std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept {
     double expected = std::min(at_once * stages.expected(0), stages.pool());
     if (stages.throws != 0) {

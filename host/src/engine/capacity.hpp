@@ -1,4 +1,4 @@
-// How large buffers must be: what domains and plans share.
+// Sizes of buffers that domains and plans share.
 #pragma once
 
 #include <array>
@@ -11,28 +11,29 @@
 
 namespace geodisk {
 
-/// Candidates to make room for, where so many stages are drawn at once.
+/// Returns the number of candidates to allocate for, if this many stages are drawn at once.
 std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept;
 
-/// As many stages as so many candidates allow; at least one.
+/// Returns the number of stages that fit this many candidates; at least one.
 std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept;
 
-/// Words of the buffer of states before the weights of a surface's candidates, see lib/states.glsl.
+/// Returns the words of states in the states buffer, before the weights of candidates on surfaces;
+/// see lib/states.glsl.
 std::uint64_t state_words(std::uint32_t candidates) noexcept;
 
-/// Ranges of orders by which samples are put in order, a power of two.
+/// Returns the number of ranges of orders by which samples are sorted, a power of two.
 std::uint32_t bucket_count(std::uint32_t capacity) noexcept;
 
-/// Bytes of samples, accepted and buckets.
+/// Returns the bytes of the buffers samples, accepted and buckets.
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept;
 
-/// Invocations that a CPU runs at a time.
+/// Returns the number of invocations that a CPU runs at the same time.
 std::uint32_t cpu_lanes(const DeviceReport& report);
 
-/// Not more samples than are asked for, or thrown, unless those are 0.
+/// Returns `full`, limited by the number of darts and the stop count unless they are 0.
 double samples_to_expect(double full, std::uint32_t throws, std::uint32_t stop_count) noexcept;
 
-/// The least power of two that is not less, up to 2^25.
+/// Returns the smallest power of two of at least x, up to 2^25.
 std::uint32_t pow2_at_least(double x);
 
 } // namespace geodisk

@@ -14,18 +14,18 @@
 namespace geodisk {
 namespace {
 
-// As in surface_domain.cpp; some iterations of a dispatch are before the trips.
+// As in surface_domain.cpp; some iterations of a dispatch come before the trips.
 constexpr std::uint32_t kLlvmpipeTrips =
     (65535 - 64 - gpu::kListPerDispatch) / gpu::kIterationsPerGridTrip;
 constexpr std::uint32_t kDefaultTrips = 1024;
 
-/// Volume of the unit ball in R^n.
+/// Returns the volume of the unit ball in R^n.
 double ball_volume(double n) {
     constexpr double kPi = 3.14159265358979323846;
     return std::pow(kPi, n / 2) / std::tgamma(n / 2 + 1);
 }
 
-/// Candidates in a disk, for each that a full box has per sample.
+/// Returns the candidates in a disk per candidate and sample of a full box.
 double crowd_of(const BoxParams& box) {
     return ball_volume(static_cast<double>(box.extents.size())) *
            density_in_box(box.extents.size());
@@ -53,7 +53,7 @@ GridDomain::GridDomain(BoxParams box, const DrawAxes& lattice, std::uint32_t wor
     has_lane_per_slot = true;
 }
 
-// Their points and the cells, too, must fit.
+// Points and cells must fit too.
 std::uint64_t GridDomain::most_candidates(const DeviceLimits& limits, std::uint32_t slots) const {
     const std::uint64_t words = limits.max_storage_buffer_range / 4;
     return std::min((words - std::uint64_t{slots} * words_per_point_) / (words_per_point_ + 1),
@@ -66,7 +66,7 @@ double GridDomain::in_disk(const RunPlan& plan, std::uint32_t candidates) const 
 }
 
 void GridDomain::plan_disks(RunPlan& plan, std::uint32_t candidates, const DeviceReport&) const {
-    // Slots need no lanes here; the least that plans may have.
+    // Slots need no lanes here; 1 is the minimum of a plan.
     plan.lanes = 1;
     plan.window_capacity = 2;
     plan.table_capacity = 1;
@@ -76,7 +76,8 @@ void GridDomain::plan_disks(RunPlan& plan, std::uint32_t candidates, const Devic
 }
 
 double GridDomain::disk_steps(const RunPlan& plan, std::uint32_t candidates) const {
-    // Rows of cells along the first axis that a ball of two cells' radius meets, by measurement.
+    // Number of rows of cells along the first axis that meet a ball with a radius of two cells
+    // (measured).
     const double n = kernels.dimension;
     const double rows = ball_volume(n - 1) * std::pow(2.5, n - 1);
     const double per_row = 2.5 * in_disk(plan, candidates) / rows;

@@ -1,4 +1,4 @@
-// Boxes, and whatever else has its candidates in a grid, with straight-line distances.
+// Domains with straight-line distances whose candidates are in a grid, such as boxes.
 #pragma once
 
 #include "engine/domain/box_grid.hpp"
@@ -27,9 +27,9 @@ class GridDomain : public Domain::Impl {
     double guard_for(double error_bound) const override { return error_bound; }
 
   protected:
-    /// Points of so many words, with coordinates on `lattice`. A disk holds about `crowd` of them
-    /// for each candidate that a full domain has per sample. The other members of Impl are left to
-    /// the caller.
+    /// Makes a domain whose points have this many words, with coordinates on `lattice`. A disk
+    /// holds about `crowd` candidates per candidate and sample of a full domain. The caller sets
+    /// the other members of Impl.
     GridDomain(BoxParams box, const DrawAxes& lattice, std::uint32_t words_per_point, double crowd,
                double guard);
 
@@ -40,7 +40,7 @@ class GridDomain : public Domain::Impl {
     BoxGrid grid(std::uint32_t candidates, double guard) const {
         return BoxGrid(box_, lattice_, candidates, guard);
     }
-    /// Candidates in a disk, of those drawn at once.
+    /// Returns the number of candidates in a disk, out of `candidates` drawn at once.
     double in_disk(const RunPlan& plan, std::uint32_t candidates) const;
 
     BoxParams box_;
@@ -50,7 +50,7 @@ class GridDomain : public Domain::Impl {
     double guard_;
 };
 
-/// A box that pool_size() finds no fault with.
+/// Makes the domain of a box that pool_size() accepts.
 class BoxDomain : public GridDomain {
   public:
     explicit BoxDomain(const BoxParams& box);

@@ -7,12 +7,11 @@
 namespace geodisk {
 namespace {
 
-// Odd, with bits all over: what the cells of an axis are multiplied by where a table cannot hold
-// them all.
+// Odd multipliers with well-mixed bits. They hash the cells of an axis if a table cannot hold them
+// all.
 constexpr std::uint32_t kHashStrides[gpu::kMostAxes] = {1u,          0x9E3779B1u, 0xB5297A4Du,
                                                         0x68E31DA5u, 0x1B56C4E9u, 0x7FEB352Du};
-// Bits of a coordinate below a cell that candidates are drawn by, where the side is of usual
-// length.
+// Bits of a coordinate within a cell for drawing candidates, if the side has the usual length.
 constexpr int kCellBits = 16;
 constexpr int kShortSideBits = 31;
 
@@ -20,8 +19,9 @@ double relative_side(const BoxParams& box, std::size_t axis) {
     return box.extents[axis] / unit_of(box);
 }
 
-/// Doublings of the width of the cells that candidates are drawn by, a distance otherwise: where
-/// the first stage of darts has fewer than kStageRatio for each sample, cells are larger likewise.
+/// Returns how often the width of cells for drawing candidates is doubled. It is normally one
+/// distance. If the first stage of darts has fewer than kStageRatio per sample, cells are larger in
+/// proportion.
 int doublings(const BoxParams& box) {
     const Stages stages = stages_of(box);
     const double fewer = kStageRatio / stages.per_sample(0);
@@ -31,8 +31,8 @@ int doublings(const BoxParams& box) {
                : 0;
 }
 
-// Steps follow from the unit alone, so that a larger box has the same; a periodic one needs a whole
-// number of them.
+// Steps depend only on the unit, so that a larger box has the same ones. A periodic box needs a
+// whole number of them.
 DrawAxis draw_axis(const BoxParams& box, std::size_t axis, int doubled) {
     const double side = relative_side(box, axis);
     DrawAxis draw{};
@@ -88,7 +88,7 @@ DrawAxes finest_axes(const BoxParams& box) noexcept {
 BoxGrid::BoxGrid(const BoxParams& box, const DrawAxes& lattice, std::uint32_t candidates,
                  double guard)
     : limit2(static_cast<float>((1 + guard) * (1 + guard))) {
-    // Cells are somewhat wider than the reach of a disk asks.
+    // Cells are slightly wider than the reach of a disk requires.
     const double slack = 1 + 4 * guard;
     const double unit = unit_of(box);
     double all_cells = 1;
@@ -106,12 +106,12 @@ BoxGrid::BoxGrid(const BoxParams& box, const DrawAxes& lattice, std::uint32_t ca
         axes[i].draw_cells = draw.cells;
         axes[i].draw_width = draw.width;
         axes[i].last_width = draw.last_width;
-        // Rounded down, so that cells are no narrower and no more than there are.
+        // Rounded down, so that cells are not narrower and not more numerous than planned.
         const double per_step = std::floor(cells * 0x1p32 / static_cast<double>(draw.steps));
         axes[i].per_step = cells > 1 ? static_cast<std::uint32_t>(per_step) : 0;
         axes[i].width = static_cast<float>(cells > 1 ? 0x1p32 / per_step * step : side);
     }
-    // A power of two of 32 bits, though no device binds as many.
+    // A 32-bit power of two, although no device binds that many.
     const double most = std::min(double{kHeadsPerCandidate} * candidates, 0x1p31);
     heads = std::bit_ceil(static_cast<std::uint32_t>(std::min(all_cells, most)));
     const bool fits = all_cells <= heads;

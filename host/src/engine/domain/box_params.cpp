@@ -17,18 +17,18 @@
 namespace geodisk {
 namespace {
 
-/// How many samples there are, by dimension: density / D^n * (side + 2 * overhang * D)^n, without
+/// Expected number of samples by dimension: density / D^n * (side + 2 * overhang * D)^n, without
 /// overhang in a periodic box. Measured by sequential dart throwing with 20 candidates per sample.
 struct Density {
     double density;
-    double overhang; ///< Border samples keep others away on one side only.
+    double overhang; ///< Border samples have neighbours on one side only.
 };
 constexpr Density kDensities[kMostBoxDimensions] = {{0.726, 0.281}, {0.601, 0.295}, {0.540, 0.280},
                                                     {0.523, 0.262}, {0.545, 0.245}, {0.597, 0.237}};
 
-// A float holds it.
+// Fits a float.
 constexpr double kLargestIntensity = 0x1p126;
-// The square root of 2.
+// Square root of 2.
 constexpr double kHalfStep = 1.4142135623730951;
 // A distance then still has 256 steps of a coordinate.
 constexpr double kLongestSide = 0x1p24;
@@ -91,8 +91,8 @@ double distance_for_count(const BoxParams& box, double count) noexcept {
         return 0;
     }
     const auto [shortest, longest] = std::minmax_element(box.extents.begin(), box.extents.end());
-    // The more samples the shorter. The bits of positive numbers compare as these do, so halving
-    // what is between them finds the same last bit everywhere, whatever the mathematical library.
+    // More samples need shorter distances. The bits of positive numbers order like the numbers, so
+    // bisection over them finds the same last bit with every mathematical library.
     auto low = std::bit_cast<std::uint64_t>(std::ldexp(*shortest, -44));
     auto high = std::bit_cast<std::uint64_t>(std::ldexp(*longest, 5));
     while (low + 1 < high) {
@@ -130,7 +130,7 @@ Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
 
 namespace {
 
-/// In units of length; no side is shorter than a step.
+/// Returns the volume in units of length; no side counts as shorter than a step.
 double volume_of(const BoxParams& box) {
     double volume = 1;
     for (const double extent : box.extents) {
@@ -142,7 +142,7 @@ double volume_of(const BoxParams& box) {
 } // namespace
 
 double samples_per_volume(const BoxParams& box) noexcept {
-    // More for the samples at borders, in steps of two: the box may grow.
+    // More candidates for the samples at borders, in steps of two: the box may grow.
     const double density = density_in_box(box.extents.size());
     const double samples = count_at(box, unit_of(box));
     double boost = 1;

@@ -15,8 +15,8 @@
 namespace geodisk {
 namespace {
 
-/// A length in units of the working distance; what is too small to be told from zero is zero, so
-/// that no product on the device becomes denormal.
+/// Returns a length in units of the working distance. Tiny lengths become zero, so that no product
+/// on the device becomes denormal.
 float scaled(double length, double unit) {
     const double x = length / unit;
     return static_cast<float>(x < 0x1p-40 && x > -0x1p-40 ? 0.0 : x);
@@ -38,13 +38,13 @@ float previous_length(const PreparedMesh& mesh, std::uint32_t h, double unit) {
     return scaled(mesh.half_edges()[previous_in_face(h)].length, unit);
 }
 
-/// The same arithmetic as in shaders/lib: apex_of, then cell_count.
+/// Counts cells with the same arithmetic as shaders/lib: apex_of, then cell_count.
 std::uint64_t cell_count(float extent, float cells_per_unit) {
     const float scaled = extent * cells_per_unit;
     return scaled < 0x1p30f ? static_cast<std::uint64_t>(scaled) + 1 : kTooMany;
 }
 
-/// The radii of a face, but for the bound; all half of the unit where they do not vary.
+/// Returns the radii of a face without the bound; all are half of the unit if radii do not vary.
 gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face) {
     if (params.radii == nullptr) {
         return {0.5f, 0.5f, 0.5f, 0, 0, 0, 0, 0};
@@ -59,7 +59,7 @@ gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face) {
     return {-packing[0], -packing[1], -packing[2], 0, s[0], s[1], s[2], density};
 }
 
-/// As shaders/lib/radii.glsl has it.
+/// Same as in shaders/lib/radii.glsl.
 float cells_per_unit(const gpu::RadiiRec& radii) {
     const float corner = std::max({radii.radius0, radii.radius1, radii.radius2});
     const float largest = corner < 0 ? 0.5f / std::sqrt(-corner) : corner;
@@ -100,12 +100,13 @@ void store(std::span<std::byte> out, std::size_t index, const Record& record) {
     std::memcpy(out.data() + index * sizeof(Record), &record, sizeof record);
 }
 
-/// A link to a half-edge, of those of all surfaces.
+/// Returns a link to a half-edge, numbered through all surfaces.
 std::uint32_t placed_around(const PlacedSurface& surface, std::uint32_t around) {
     return around + (3 * surface.first_face << 1);
 }
 
-/// The keys of several surfaces, which of them each face is of, and a record of each.
+/// Writes, for several surfaces, the keys of faces, the surface of each face, and a record per
+/// surface.
 void write_parts(PlacedSurfaces surfaces, std::span<std::byte> out) {
     const auto parts = out.subspan(face_count(surfaces) * sizeof(std::uint32_t));
     const auto records = parts.subspan(face_count(surfaces) * sizeof(std::uint32_t));
@@ -139,7 +140,7 @@ Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
     for (const PlacedSurface& surface : surfaces) {
         for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
             const Grid grid = face_grid(*surface.mesh, surface.params, f, surface.unit);
-            cells += grid.columns * grid.rows; // At most 2^62, and 2^30 before.
+            cells += grid.columns * grid.rows; // Cannot overflow: at most 2^62 is added to 2^30.
             if (cells > gpu::kFirstCellMask) {
                 const auto part = &surface - surfaces.data();
                 return Error{

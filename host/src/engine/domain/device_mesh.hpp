@@ -1,5 +1,6 @@
-// The prepared meshes of a job as the records of the shaders, lengths in units of the minimum
-// distance. What follows from the meshes alone comes before what their parameters tell.
+// Writes the prepared meshes of a job as records of the shaders, with lengths in units of the
+// minimum distance. Data that depends on the meshes alone comes first, then data that depends on
+// parameters.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +13,19 @@
 
 namespace geodisk {
 
-/// Cells of all faces together, 0 where each face has one; more than 2^30 is an error naming the
-/// face.
+/// Counts the cells of all faces; 0 if each face has one. Errors: more than 2^30, naming the face.
 Result<std::uint32_t> count_cells(PlacedSurfaces surfaces);
 
-/// The area of a face in units of working_distance(), which is `unit`, as kernels compute it.
+/// Returns the area of a face as kernels compute it, in units of working_distance(), which is
+/// `unit`.
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit);
 
-// Bytes of the buffers, and of what each function below fills.
+// Return the bytes that the functions below write.
 std::size_t half_edge_bytes(PlacedSurfaces surfaces);
 std::size_t length_bytes(PlacedSurfaces surfaces);
 std::size_t fan_bytes(PlacedSurfaces surfaces);
-std::size_t radii_bytes(PlacedSurfaces surfaces); ///< 0 where they do not vary.
-std::size_t key_bytes(PlacedSurfaces surfaces);   ///< A word even where the caller gives none.
+std::size_t radii_bytes(PlacedSurfaces surfaces); ///< 0 if radii do not vary.
+std::size_t key_bytes(PlacedSurfaces surfaces);   ///< At least one word.
 
 void write_half_edges(PlacedSurfaces surfaces, std::span<std::byte> out);
 void write_lengths(PlacedSurfaces surfaces, bool one_cell_each, std::span<std::byte> out);

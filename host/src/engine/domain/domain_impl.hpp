@@ -1,4 +1,4 @@
-// What a domain tells of itself to those who plan, record and run.
+// Domain::Impl: what planning, recording and running need to know of a domain.
 #pragma once
 
 #include <cstddef>
@@ -16,25 +16,24 @@
 
 namespace geodisk {
 
-/// Its members follow from the job, so they are derived once. Each domain is in a file of its own.
+/// Members are computed once from the job. Each kind of domain has its own file.
 struct Domain::Impl {
     KernelVariant kernels;
     Stages stages;
-    double largest_radius = 0;              ///< Of one surface, in its units.
-    std::vector<std::uint32_t> first_faces; ///< Of the surfaces, and one past the last.
-    std::vector<std::uint64_t> meshes;      ///< PreparedMesh::identity() of each.
-    double samples_per_measure = 0;         ///< Expected, per unit of area or volume.
-    double samples = 0;           ///< To reckon with: not more than are asked for, or thrown.
-    std::uint32_t stop_count = 0; ///< 0 for none.
+    double largest_radius = 0;              ///< Largest radius of one surface, in its units.
+    std::vector<std::uint32_t> first_faces; ///< First face of each surface, and one past the last.
+    std::vector<std::uint64_t> meshes;      ///< PreparedMesh::identity() of each mesh.
+    double samples_per_measure = 0;         ///< Expected samples per unit of area or volume.
+    double samples = 0; ///< Expected samples, limited by the stop count and the number of darts.
+    std::uint32_t stop_count = 0; ///< Stop count, or 0.
     std::uint64_t seed = 0;
-    ErrorModel error; ///< Of distances.
-    /// What candidates are drawn by: faces, or cells of a box.
+    ErrorModel error; ///< Bound on the error of distances.
+    /// Number of units that candidates are drawn by: faces, or cells of a box.
     std::uint64_t units = 0;
-    /// Of device memory, about.
+    /// Device memory per candidate, approximately.
     std::uint64_t bytes_per_candidate = 0;
-    std::uint32_t dimension = 0; ///< Of a box.
-    /// Whether the disk of each slot is computed by an invocation of its own, whatever
-    /// RunPlan::lanes.
+    std::uint32_t dimension = 0; ///< Dimension of a box.
+    /// True if each slot has its own invocation to compute its disk, whatever RunPlan::lanes.
     bool has_lane_per_slot = false;
 
     Impl() = default;
@@ -45,38 +44,39 @@ struct Domain::Impl {
     static const Impl& of(const Domain& domain) { return *domain.impl_; }
     static Domain wrap(std::unique_ptr<const Impl> impl) { return Domain(std::move(impl)); }
 
-    /// As many candidates as one binding holds, with so many slots.
+    /// Returns the maximum of candidates that one binding holds, with this many slots.
     virtual std::uint64_t most_candidates(const DeviceLimits& limits,
                                           std::uint32_t slots) const = 0;
-    /// Sets what disks ask of a plan with slots, for so many candidates at once: lanes,
+    /// Sets what disks need in a plan with slots, if this many candidates are drawn at once: lanes,
     /// window_capacity, table_capacity, list_capacity and error_bound.
     virtual void plan_disks(RunPlan& plan, std::uint32_t candidates,
                             const DeviceReport& report) const = 0;
-    /// Steps that a disk takes, where so many candidates are drawn at once.
+    /// Returns the steps of a disk, if this many candidates are drawn at once.
     virtual double disk_steps(const RunPlan& plan, std::uint32_t candidates) const = 0;
-    /// Steps that the disks of the samples are expected to take; 0 where that is not known.
+    /// Returns the expected steps of the disks of all samples; 0 if unknown.
     virtual double all_steps() const { return 0; }
-    /// Dispatches of detect in which a batch should be done, most of all batches.
+    /// Returns the dispatches of detect that should complete most batches.
     virtual double detect_passes(const RunPlan& plan, std::uint32_t candidates) const = 0;
-    /// Most steps that one dispatch of detect may safely take.
+    /// Returns the maximum of steps that one dispatch of detect may safely take.
     virtual std::uint32_t most_steps(const DeviceReport& report,
                                      const KernelVariant& variant) const = 0;
-    /// Words of the table of cells but two; 0 where it is that of the units' starts.
+    /// Returns the words of the table of cells minus two; 0 if the starts of units serve as the
+    /// table.
     virtual std::uint64_t cells(std::uint32_t candidates, double error_bound) const = 0;
-    /// Bytes of the buffers that the domain alone has, for so many candidates.
+    /// Adds the bytes of the buffers that only this domain has, for this many candidates.
     virtual void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                            const RunPlan& plan) const = 0;
-    /// What takes room besides candidates, for messages: " and 12 faces".
+    /// Returns what takes memory besides candidates, for messages: " and 12 faces".
     virtual std::string beside_candidates() const = 0;
-    /// Of a buffer, as the domain uses it.
+    /// Returns the name of a buffer as the domain uses it.
     virtual const char* name_of(BufferRole role) const { return to_string(role); }
-    /// The fields of the push block that neither the plan nor the stages tell.
+    /// Sets the fields of the push block that depend on neither the plan nor the stages.
     virtual void set_push(gpu::Push& push, const RunPlan& plan) const = 0;
-    /// Bytes of a buffer that is uploaded, 0 for others.
+    /// Returns the bytes to upload to a buffer; 0 for others.
     virtual std::size_t upload_size(BufferRole role) const = 0;
-    /// The first of them, which follow from `meshes` alone.
+    /// Returns how many of them, from the first on, depend on `meshes` alone.
     virtual std::size_t mesh_bytes(BufferRole) const { return 0; }
-    /// Those from a byte on: the first, or the one behind mesh_bytes().
+    /// Writes the bytes to upload from byte `from` on: 0 or mesh_bytes().
     virtual Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
                                       std::span<std::byte> out) const = 0;
     virtual double guard_for(double error_bound) const = 0;

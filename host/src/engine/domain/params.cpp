@@ -12,16 +12,15 @@ namespace geodisk {
 namespace {
 
 const double kTwoRootThree = 2 * std::sqrt(3.0);
-// Packing density that is reached on average, by which counts of 300 to 10,000 samples on scanned
-// and modelled meshes come out as asked for. Stages keep to kExpectedRho, so that a distance keeps
-// its samples.
+// Mean packing density, for which counts of 300 to 10,000 samples on scanned and modelled meshes
+// come out as requested. Stages use kExpectedRho, so that a distance keeps its samples.
 constexpr double kCountedRho = 0.721;
-// Of candidates to the samples expected of a surface much smaller than a disk.
+// Maximum ratio of candidates to expected samples, for a surface much smaller than a disk.
 constexpr double kLargestRatio = 1e12;
-// Edges longer than this many distances would need a guard of a percent.
+// Maximum edge length in distances: longer edges would need a guard of a percent.
 constexpr double kLongestEdge = 4000;
 
-/// No face may expect more candidates than the kernels can count.
+/// Checks that no face expects more candidates than the kernels can count.
 Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& params) {
     const Stages stages = stages_of(mesh, params);
     const double most = std::max(stages.expected(0), stages.expected(kLastOtherStage)) /
@@ -45,7 +44,7 @@ Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& pa
     return Done{};
 }
 
-/// The length of all borders, where radii vary in multiples of the largest one.
+/// Returns the length of all borders; if radii vary, in multiples of the largest one.
 double border_length(const PreparedMesh& mesh, const RadiusField* radii) {
     double length = 0;
     const auto edges = mesh.half_edges();

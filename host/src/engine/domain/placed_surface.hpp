@@ -9,18 +9,18 @@
 
 namespace geodisk {
 
-/// Faces, vertices and corners of fans follow those of the surfaces before.
+/// A surface of a job. Faces, vertices and corners are numbered through all surfaces.
 struct PlacedSurface {
     const PreparedMesh* mesh;
-    SampleParams params; ///< The distance in units of the mesh.
-    double unit;         ///< In which the device measures: working_distance().
+    SampleParams params; ///< Distance in units of the mesh.
+    double unit;         ///< Unit of the device: working_distance().
     std::uint32_t first_face, first_vertex, first_corner;
 };
 
 /// All surfaces of a job, at least one.
 using PlacedSurfaces = std::span<const PlacedSurface>;
 
-/// Of all of them.
+/// Returns the number of faces of all surfaces.
 inline std::uint32_t face_count(PlacedSurfaces surfaces) {
     return surfaces.back().first_face + surfaces.back().mesh->face_count();
 }

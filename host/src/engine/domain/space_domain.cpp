@@ -18,15 +18,15 @@
 namespace geodisk {
 namespace {
 
-// Candidates in a disk, for each that a full surface has per sample: several sheets may pass
-// through one.
+// Candidates in a disk per candidate and sample of a full surface: several sheets may pass through
+// one disk.
 constexpr double kCrowd = 4;
-// At a box of a million distances.
+// Reached for a box of a million distances.
 constexpr double kWidestGuard = 0x1p-10;
 
 using Vector = std::array<double, 3>;
 
-/// Normal of a face, of twice its area in length.
+/// Returns the normal of a face; its length is twice the area.
 Vector face_normal(const MeshView& view, std::size_t face) {
     std::array<Vector, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -41,7 +41,7 @@ Vector face_normal(const MeshView& view, std::size_t face) {
     return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// Of unit length, weighted by the areas of the faces; zero where those cancel out.
+/// Returns unit normals, weighted by the areas of the faces; zero where those cancel out.
 std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
     std::vector<Vector> sums(view.vertex_count(), Vector{});
     for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
@@ -56,7 +56,7 @@ std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
         const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         std::array<float, 3> unit{};
         for (std::size_t axis = 0; axis < 3 && length > 0; ++axis) {
-            // What is too small to be told from zero is zero, against denormal numbers.
+            // Tiny parts become zero, against denormal numbers.
             const double part = n[axis] / length;
             unit[axis] = static_cast<float>(std::abs(part) < 0x1p-40 ? 0.0 : part);
         }
@@ -88,13 +88,13 @@ SpaceFrame::SpaceFrame(const MeshView& view, const SampleParams& params)
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double least = std::numeric_limits<double>::infinity();
         double most = -least;
-        // Corners of faces alone: a vertex without faces may be anywhere.
+        // Only corners of faces: an unused vertex may be anywhere.
         for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
             const double x = view.coordinate(view.triangles[corner], axis);
             least = std::min(least, x);
             most = std::max(most, x);
         }
-        // A flat surface is given some thickness; the farthest vertices lie inside.
+        // Give a flat surface some thickness; the farthest vertices lie inside.
         double& side = box.extents[axis];
         side = std::max((most - least) * (1 + 0x1p-30), 0x1p-10 * params.min_distance);
         for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
@@ -106,8 +106,8 @@ SpaceFrame::SpaceFrame(const MeshView& view, const SampleParams& params)
 }
 
 double SpaceFrame::guard() const {
-    // Coordinates of two candidates are each less than two units too small, so their difference is
-    // off by less than two, and a distance by twice that at most.
+    // The coordinates of a candidate are less than two units too small. Their difference is
+    // therefore off by less than two, and a distance by at most twice that.
     const double longest = *std::max_element(box.extents.begin(), box.extents.end());
     return kBoxGuard + 0x1p-30 * longest / box.min_distance;
 }
@@ -137,7 +137,7 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
 SpaceDomain::SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
                          Metric metric, SpaceFrame frame)
     : GridDomain(frame.box, finest_axes(frame.box),
-                 metric == Metric::approximate ? 6 : 3, // Normals as well.
+                 metric == Metric::approximate ? 6 : 3, // With normals.
                  kCrowd, frame.guard()),
       view_(view), mesh_(mesh), params_(params), frame_(std::move(frame)) {
     kernels.domain = DomainKind::space;

@@ -1,4 +1,4 @@
-// A surface in space, with straight-line distances.
+// A surface with distances through space.
 #pragma once
 
 #include <array>
@@ -11,21 +11,23 @@
 
 namespace geodisk {
 
-/// The bounding box of a mesh as a box to sample in, and the vertices in multiples of 2^-32 of its
+/// Bounding box of a mesh as a box to sample in, and the vertices in multiples of 2^-32 of its
 /// sides.
 struct SpaceFrame {
     BoxParams box;
     std::vector<std::array<std::uint32_t, 3>> vertices;
-    std::vector<std::array<float, 3>> normals; ///< Of the vertices.
+    std::vector<std::array<float, 3>> normals; ///< Normals of the vertices.
 
     SpaceFrame(const MeshView& view, const SampleParams& params);
-    /// Of conflicts, in minimum distances; covers that candidates are rounded to the frame.
+    /// Returns the guard of conflicts, in minimum distances. It covers the rounding of candidates
+    /// to the frame.
     double guard() const;
 };
 
 class SpaceDomain : public GridDomain {
   public:
-    /// `view` is of the mesh that pool_size() finds no fault with; both must outlive the domain.
+    /// Makes the domain of a mesh that pool_size() accepts, prepared from `view`. Both must outlive
+    /// the domain.
     SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
                 Metric metric, SpaceFrame frame);
 

@@ -46,7 +46,7 @@ Result<Done> check_range(const BufferRange& range, const std::string& name, VkDe
                            "starts at " + std::to_string(range.offset) +
                                ", off the device's alignment of " + std::to_string(alignment));
     }
-    // At least the bytes that the buffer was created with, and hardly more.
+    // The size is at least that of the buffer, and hardly more.
     VkMemoryRequirements requirements{};
     sampler.vk.vkGetBufferMemoryRequirements(sampler.device.device, range.buffer, &requirements);
     if (range.offset > requirements.size || range.size > requirements.size - range.offset) {

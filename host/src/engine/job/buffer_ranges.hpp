@@ -1,4 +1,4 @@
-// Checks of the buffers that callers lend.
+// Checks of buffers that callers provide.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace geodisk {
 
-/// What offsets of ranges must be a multiple of, to be bound as storage and texel buffers.
+/// Returns the alignment of offsets of ranges that are bound as storage and texel buffers.
 VkDeviceSize range_alignment(const DeviceLimits& limits);
 
-/// Cuts one buffer into ranges, from its start on.
+/// Cuts one buffer into ranges, from its start.
 class RangeCutter {
   public:
     explicit RangeCutter(VkDeviceSize alignment) : alignment_(alignment) {}
 
-    /// Returns the offset of the next range, of so many bytes.
+    /// Returns the offset of the next range of this size.
     VkDeviceSize cut(VkDeviceSize bytes);
-    /// Size of the buffer so far.
+    /// Returns the size of the buffer so far.
     VkDeviceSize end() const { return end_; }
 
   private:
@@ -29,15 +29,15 @@ class RangeCutter {
     VkDeviceSize end_ = 0;
 };
 
-/// Whether the device can bind a range of at least so many bytes, which its buffer has. Errors name
-/// the range: `invalid_argument`, or `workspace_too_small`.
+/// Checks that the device can bind a range of at least this many bytes, and that the buffer has
+/// them. Errors name the range: `invalid_argument` or `workspace_too_small`.
 Result<Done> check_range(const BufferRange& range, const std::string& name, VkDeviceSize needed,
                          const Sampler::Impl& sampler);
 
-/// Ranges of no bytes overlap nothing.
+/// Returns true if two ranges overlap. Empty ranges overlap nothing.
 bool overlap(const BufferRange& a, const BufferRange& b);
 
-/// What is wrong with a range that overlaps another.
+/// Makes the error for a range that overlaps another.
 Error overlap_error(const std::string& name, const std::string& other);
 
 } // namespace geodisk

@@ -1,4 +1,4 @@
-// Sampler::report_kernels: VK_KHR_pipeline_executable_properties, asked of every pipeline.
+// Sampler::report_kernels: queries VK_KHR_pipeline_executable_properties for every pipeline.
 #include <geodisk/kernel_report.hpp>
 
 #include <utility>
@@ -11,7 +11,7 @@
 namespace geodisk {
 namespace {
 
-/// Functions of the extension, which the table of all devices does not have.
+/// Functions of the extension, loaded separately.
 struct ReportTable {
     PFN_vkGetPipelineExecutablePropertiesKHR properties = nullptr;
     PFN_vkGetPipelineExecutableStatisticsKHR statistics = nullptr;
@@ -33,7 +33,7 @@ Result<ReportTable> load_report_table(const DeviceRefs& refs) {
     return table;
 }
 
-/// What a kernel is specialized for, in words.
+/// Returns the specialization of a kernel as text.
 std::string text_of(const KernelVariant& variant) {
     std::string surfaces = std::string(variant.several ? "surfaces, " : "surface, ") +
                            (variant.adaptive ? "varying radii" : "one radius");

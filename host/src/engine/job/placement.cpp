@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kPlace = static_cast<std::size_t>(Kernel::place);
 constexpr std::uint32_t kPositionBytes = 3 * sizeof(float);
 constexpr VkDeviceSize kArgumentBytes = sizeof(VkDrawIndirectCommand);
-// Of the job's.
+// Buffers of the job that the kernel reads.
 constexpr std::uint32_t kRead[] = {gpu::kBindFans, gpu::kBindKeys, gpu::kBindControl,
                                    gpu::kBindSamples};
 
@@ -37,7 +37,7 @@ struct NamedRange {
 };
 using CallersRanges = std::array<NamedRange, 4>;
 
-/// Bytes up to the end of the last of so many vertices.
+/// Returns the bytes up to the end of the last of this many vertices.
 VkDeviceSize vertex_bytes(const PlacementSource& source, std::uint64_t vertices) {
     const std::uint32_t normal = source.normal == PlacementSource::kNoNormals ? 0 : source.normal;
     const VkDeviceSize last = std::max(source.position, normal) + kPositionBytes;
@@ -91,8 +91,8 @@ struct Placement::Impl {
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
     gpu::PlacePush push{};
-    Workspace workspace;      ///< As the set has it.
-    std::uint32_t number = 0; ///< Of the job.
+    Workspace workspace;      ///< Workspace that the descriptor set refers to.
+    std::uint32_t number = 0; ///< Number of the job.
 
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -148,7 +148,7 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
         const CallersRanges ranges{
             {{gpu::kBindVertices, "vertices", source.vertices,
               vertex_bytes(source, is_one ? own.push.vertices : 0)},
-             // Whole words.
+             // Rounded up to whole words.
              {gpu::kBindIndices, "indices", source.indices,
               (faces * 3 * source.index_bytes + 3) / 4 * 4},
              {gpu::kBindPlaced, "placed", target.placed,

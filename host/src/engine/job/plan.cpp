@@ -1,4 +1,4 @@
-// How a job is cut into work, and how large its buffers get.
+// Plans: division of a job into work, and sizes of its buffers.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -19,19 +19,19 @@
 namespace geodisk {
 namespace {
 
-// Even one to a work group, they are no more groups than any device takes.
+// Even with one per work group, there are no more groups than any device allows.
 constexpr double kMostSlots = (1u << 16) - 512;
-// Of a CPU, whose caches the lists of more would leave.
+// Maximum on a CPU: more lists would not fit its caches.
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
 constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMostLevels;
-// Some milliseconds for each dispatch.
+// Several milliseconds per dispatch.
 constexpr std::uint32_t kCpuDispatchItems = 1u << 19;
 constexpr std::uint32_t kDispatchItems = 1u << 21;
-// Slots besides those that a batch aims at, in square roots of their number, see lib/schedule.glsl.
+// Additional slots of a batch, in square roots of their number, see lib/schedule.glsl.
 constexpr double kSlotMargin = 1.5;
-// Idle candidates listed at once, for each slot, and candidates for each of them: the more, the
-// fewer times all candidates are gone through.
+// Idle candidates listed at once per slot, and candidates per listed one. More of them mean fewer
+// passes over all candidates.
 constexpr std::uint32_t kIdlePerSlot = 32;
 constexpr std::uint32_t kCandidatesPerIdle = 16;
 constexpr std::uint32_t kLeastIdle = 4096;
@@ -40,15 +40,15 @@ std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
 }
 
-/// Bytes of the least pool that the plan can run with: the fewest lists and a block of lanes.
+/// Returns the bytes of the smallest pool for the plan: the minimum of lists and a block of lanes.
 std::uint64_t least_pool(const RunPlan& plan) {
     return std::uint64_t{plan.pool_block} * plan.lane_rows() * 16 +
            std::uint64_t{kLeastSlots} * plan.list_capacity * 4;
 }
 
-/// Slots and lanes as they fit the pool: the fewest lists and a block of lanes before all, then
-/// lists for the slots in at most half of it. Lanes apart where no block of several fits; no lanes
-/// if not even one does.
+/// Fits slots and lanes to the pool. It first gets the minimum of lists and a block of lanes, then
+/// lists for the slots in at most half of it. Falls back to blocks of one lane if no larger block
+/// fits, and to no lanes if not even one fits.
 void fit(RunPlan& plan, std::uint64_t pool_bytes) {
     if (pool_bytes < least_pool(plan)) {
         plan.pool_block = 1;
@@ -67,9 +67,9 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
-/// As many slots as the tuning's batches ask for with this many disks, and enough to fill the
-/// device.
-// Where both cannot be had, a CPU rather waits than computes disks for losers.
+/// Returns the slots for the number of batches in the tuning and this many disks, but at least as
+/// many as fill the device.
+// If both are impossible, a CPU should wait rather than compute disks in vain.
 std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const double least =
@@ -77,17 +77,17 @@ std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceRepo
             : 64;
     auto aim = static_cast<std::uint32_t>(
         std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
-    // No lane is to wait for the others with its last one.
+    // Lanes should not wait for each other at the end of a batch.
     const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
     aim = aim < lanes ? aim : (aim + lanes - 1) / lanes * lanes;
     return aim <= gpu::kMostRanked ? aim
                                    : aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
 }
 
-/// Room for the samples of a run that expects so many, and may stop at `stop_count` unless that is
-/// 0: half as many again where the device can bind that, and a batch.
-// Borders, creases and thin parts hold more samples than their area tells. Where the device cannot
-// bind that much, as many as it can, but never fewer than are expected. A batch begins only where
+/// Returns the sample capacity for an expected number, and a `stop_count` unless it is 0: half as
+/// many again if the device can bind that, and a batch.
+// Borders, creases and thin parts hold more samples than the area suggests. If the device cannot
+// bind that many, take as many as possible, but never fewer than expected. A batch begins only if
 // there is room for all of it.
 std::uint32_t wanted_sample_capacity(double samples, std::uint32_t stop_count, std::uint32_t slots,
                                      const DeviceReport& report) {
@@ -98,7 +98,7 @@ std::uint32_t wanted_sample_capacity(double samples, std::uint32_t stop_count, s
         capacity + slots, std::max(static_cast<double>(most), std::ceil(samples) + slots)));
 }
 
-/// Idle candidates to list at once.
+/// Returns the number of idle candidates to list at once.
 std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) noexcept {
     const std::uint32_t wanted = std::max(kIdlePerSlot * slots, capacity / kCandidatesPerIdle);
     return std::clamp(wanted, kLeastIdle, gpu::kMostListed);

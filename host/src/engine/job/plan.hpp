@@ -1,4 +1,4 @@
-// Plans that a caller changes in part, and what plans of all domains share.
+// Functions on plans that all domains share.
 #pragma once
 
 #include <geodisk/sampler.hpp>
@@ -7,21 +7,21 @@
 
 namespace geodisk {
 
-/// `plan` with each field of `wanted` that is not zero in place of its own.
+/// Returns `plan` with every field that is not zero in `wanted` replaced.
 GEODISK_API RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept;
 
-/// As Sampler::grow_plan.
+/// Implements Sampler::grow_plan.
 Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
                            const DeviceReport& report);
 
-/// As Sampler::workspace_needs.
+/// Implements Sampler::workspace_needs.
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report);
 
-/// As Sampler::widen_plan.
+/// Implements Sampler::widen_plan.
 RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain);
 
-/// Room that a run needs to go on: for the samples so far and all of a batch.
+/// Returns the sample capacity that a run needs to continue: the samples so far and all of a batch.
 std::uint64_t least_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept;
 
 } // namespace geodisk

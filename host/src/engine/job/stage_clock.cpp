@@ -7,7 +7,7 @@
 namespace geodisk {
 namespace {
 
-// More than the most rounds of a submission write.
+// More than the maximum of rounds of a submission writes.
 constexpr std::uint32_t kQueries = 4096;
 
 } // namespace

@@ -1,4 +1,4 @@
-// Device time per stage of a run, by timestamps around the dispatches.
+// StageClock: device time per stage of a run, from timestamps around the dispatches.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace geodisk {
 
 class StageClock {
   public:
-    /// `refs` must outlive the clock. `period` is in nanoseconds per tick, `valid_bits` of
-    /// the queue family, not 0.
+    /// Creates a clock. `refs` must outlive it. `period` is nanoseconds per tick, `valid_bits` that
+    /// of the queue family, not 0.
     static Result<StageClock> create(const DeviceRefs& refs, float period,
                                      std::uint32_t valid_bits);
     StageClock(StageClock&& other) noexcept;
@@ -23,14 +23,14 @@ class StageClock {
 
     /// Starts the recording of a submission.
     void begin(VkCommandBuffer commands);
-    /// All that was recorded since the last call belongs to `stage`.
+    /// Assigns everything recorded since the last call to `stage`.
     void mark(VkCommandBuffer commands, Stage stage);
-    /// Adds up what the submission took, once it is done.
+    /// Adds up the times of the submission, once it is done.
     Result<Done> collect();
 
     const StageSeconds& seconds() const { return seconds_; }
     void reset() { seconds_ = {}; }
-    /// The device may be using the queries for ever: keep them.
+    /// Gives up the queries without destroying them: the device may still be using them.
     void abandon() noexcept { pool_ = VK_NULL_HANDLE; }
 
   private:
@@ -41,7 +41,7 @@ class StageClock {
     VkQueryPool pool_ = VK_NULL_HANDLE;
     double seconds_per_tick_ = 0;
     std::uint64_t mask_ = 0;
-    std::vector<Stage> stages_; ///< Of the queries written, but the first.
+    std::vector<Stage> stages_; ///< Stage of each query but the first.
     StageSeconds seconds_{};
 };
 

@@ -15,15 +15,15 @@ bool is_cpu(const DeviceReport& report) {
     return report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
 }
 
-/// A texel buffer of words can be as large as a storage buffer.
+/// Returns true if a texel buffer of words can be as large as a storage buffer.
 bool texels_reach(const DeviceLimits& limits) {
     return limits.max_texel_buffer_elements >= limits.max_storage_buffer_range / 4;
 }
 
-/// On a CPU a work group runs on one thread and lanes are to be spread over as many as there are
-/// SIMD groups, each lane with its memory to itself; a GPU wants whole subgroups, a few to a group,
-/// that read side by side. Few batches fill a GPU, and most active candidates are still accepted
-/// (paper Table 1).
+/// Returns the default tuning. On a CPU, a work group runs on one thread, so lanes are spread over
+/// as many groups as there are SIMD groups, each lane with contiguous memory. A GPU needs whole
+/// subgroups, several per group, whose lanes read side by side. A few batches fill a GPU, and most
+/// active candidates are still accepted (paper Table 1).
 Tuning default_tuning(const DeviceReport& report) {
     const std::uint32_t subgroup =
         std::bit_floor(std::clamp(report.limits.subgroup_size, 1u, kMostPoolBlock));

@@ -198,7 +198,7 @@ void FrameMemory::record_upload(const DeviceTable& vk, VkCommandBuffer commands)
         vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer_.handle(), 1, &region);
     }
     uploads_.clear();
-    // There is nothing to draw until samples are placed.
+    // Nothing to draw until samples are placed.
     vk.vkCmdFillBuffer(commands, buffer_.handle(), arguments_, sizeof(VkDrawIndirectCommand), 0);
 }
 

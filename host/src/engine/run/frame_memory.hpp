@@ -1,4 +1,4 @@
-// What one try of a FrameSampler runs in: its buffers, its job, and where the samples go.
+// FrameMemory: buffers, job and samples of one attempt of a FrameSampler.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@
 
 namespace geodisk {
 
-/// Vertices and faces of all surfaces, as Placement reads them.
+/// Vertices and faces of all surfaces, in the form that Placement reads.
 struct FrameMesh {
-    std::vector<float> positions;       ///< Three for each vertex.
-    std::vector<std::uint32_t> indices; ///< Three for each face.
+    std::vector<float> positions;       ///< Three floats per vertex.
+    std::vector<std::uint32_t> indices; ///< Three indices per face.
 
-    /// Errors: `invalid_argument` for a mesh that does not fit the domain.
+    /// Copies the meshes. Errors: `invalid_argument` for a mesh that does not fit the domain.
     static Result<FrameMesh> copy(const Domain& domain, std::span<const MeshView> meshes);
 };
 
-/// Immovable: the job's commands refer to it. Destroy it when none of them is pending.
+/// Not movable, since the job's commands refer to it. Destroy it when none of them is pending.
 class FrameMemory {
   public:
-    /// Allocates what the plan takes and stages all that is to be uploaded. Errors: as
+    /// Allocates the memory of the plan and stages all uploads. Errors: those of
     /// FrameSampler::create().
     static Result<std::unique_ptr<FrameMemory>> create(const Sampler& sampler, const Domain& domain,
                                                        const FrameMesh& mesh, const RunPlan& plan,
@@ -37,22 +37,22 @@ class FrameMemory {
     Job& job() { return *job_; }
     const Placement& placement() const { return *placement_; }
     const RunPlan& plan() const { return plan_; }
-    /// Handles, offsets and capacity; nothing of how far the run is.
+    /// Returns handles, offsets and capacity, without the progress of the run.
     FrameSamples samples() const;
     std::uint64_t device_bytes() const { return buffer_.size(); }
 
     /// Records the uploads, once.
     void record_upload(const DeviceTable& vk, VkCommandBuffer commands);
-    /// Frees what was staged for them; their commands have completed.
+    /// Frees the staging memory, after the uploads have completed.
     void free_staging() { staging_ = DeviceBuffer(); }
 
-    /// Records a copy of the control record to a place of the host's, from 0 to `frames` - 1.
+    /// Records a copy of the control record to the host, to place `turn`, 0 to `frames` - 1.
     void record_control(const DeviceTable& vk, VkCommandBuffer commands, std::uint32_t turn) const;
     gpu::ControlRec control(std::uint32_t turn) const;
 
   private:
     struct Upload {
-        VkDeviceSize from, to, bytes; ///< In the staging, in the buffer.
+        VkDeviceSize from, to, bytes; ///< Offsets in the staging and in the buffer.
     };
 
     Result<Done> allocate(const Sampler& sampler, const Domain& domain, const FrameMesh& mesh,
@@ -67,7 +67,7 @@ class FrameMemory {
     VkDeviceSize vertices_ = 0, indices_ = 0, placed_ = 0, arguments_ = 0; ///< Offsets.
     std::vector<Upload> uploads_;
     RunPlan plan_;
-    // Before the buffers they go.
+    // Declared last: destroyed before the buffers.
     std::optional<Job> job_;
     std::optional<Placement> placement_;
 };

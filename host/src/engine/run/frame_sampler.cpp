@@ -38,21 +38,21 @@ Result<Done> check_options(const FrameSamplerOptions& options) {
 struct FrameSampler::Impl {
     struct Retired {
         std::unique_ptr<FrameMemory> memory;
-        std::uint64_t calls; ///< How many there were when the last frame that uses it was recorded.
+        std::uint64_t calls; ///< Number of calls when the last frame that uses it was recorded.
     };
 
     std::shared_ptr<const Sampler> sampler;
     const Domain& domain;
     FrameSamplerOptions options;
     FrameMesh mesh;
-    std::optional<std::uint64_t> seed; ///< Another than the domain's.
+    std::optional<std::uint64_t> seed; ///< Seed that replaces the domain's.
 
     std::unique_ptr<FrameMemory> now;
     std::vector<Retired> retired;
-    std::uint64_t calls = 0;      ///< Of record_next().
-    std::uint64_t first_call = 0; ///< The one that uploaded `now`.
-    bool is_uploaded = false;     ///< `now` is.
-    bool is_staged = true;        ///< What `now` has staged is still there.
+    std::uint64_t calls = 0;      ///< Number of calls of record_next().
+    std::uint64_t first_call = 0; ///< Call that uploaded `now`.
+    bool is_uploaded = false;     ///< True if `now` is uploaded.
+    bool is_staged = true;        ///< True while the staging of `now` exists.
     std::uint32_t ready = 0;
     bool is_complete = false;
 
@@ -61,14 +61,14 @@ struct FrameSampler::Impl {
 
     const Sampler::Impl& engine() const { return Sampler::Impl::of(*sampler); }
 
-    /// Takes the place of the memory at hand. Sampling begins again.
+    /// Replaces the current memory by that of a new plan. Sampling restarts.
     Result<Done> replace(const RunPlan& plan);
-    /// Records the next part, where the command buffer of `lag` calls ago has completed.
+    /// Records the next part; the command buffer of `lag` calls ago has completed.
     Result<bool> record_next(VkCommandBuffer commands, std::uint32_t lag);
     Result<Done> record_work(VkCommandBuffer commands, const Advice& advice);
-    /// What comes next by what the device last said, in larger memory where it takes that.
+    /// Returns the next step from the latest control record; enlarges memory if needed.
     Result<Advice> look(std::uint32_t lag);
-    /// Frees what no frame uses any more.
+    /// Frees memory that no frame uses any more.
     void free_unused(std::uint32_t lag);
 };
 
@@ -100,7 +100,7 @@ void FrameSampler::Impl::free_unused(std::uint32_t lag) {
 }
 
 Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
-    gpu::ControlRec control{}; // Says nothing.
+    gpu::ControlRec control{}; // Empty.
     if (is_uploaded && calls - first_call >= lag) {
         control = now->control(static_cast<std::uint32_t>((calls - lag) % options.frames));
     }
@@ -116,7 +116,7 @@ Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
         if (!larger) {
             return larger.error();
         }
-        if (larger->pool_bytes() <= before.pool_bytes()) { // The device binds no more.
+        if (larger->pool_bytes() <= before.pool_bytes()) { // The device cannot bind more.
             return advice;
         }
         plan = *larger;
@@ -140,10 +140,10 @@ Result<Done> FrameSampler::Impl::record_work(VkCommandBuffer commands, const Adv
     switch (advice.next) {
     case Next::begin:
         if (!sampler->record_begin(commands, job, options.dispatches)) {
-            return Done{}; // There is nothing to put in order yet.
+            return Done{}; // No samples yet.
         }
         break;
-    case Next::larger_pool: // Within the pool there is: fewer disks at a time, with more each.
+    case Next::larger_pool: // Within the same pool: fewer disks at a time, with more memory each.
         if (auto set = job.set_plan(advice.plan); !set) {
             return set;
         }

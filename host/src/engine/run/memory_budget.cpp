@@ -11,7 +11,7 @@
 namespace geodisk {
 namespace {
 
-/// By what the device's heaps hold, a quarter of which is left for all else.
+/// Returns the candidates that fit the device's heaps; a quarter is left for other uses.
 std::uint64_t candidates_in(const VkPhysicalDeviceMemoryProperties& memory,
                             const Domain::Impl& of) {
     VkDeviceSize largest = 0;
@@ -48,7 +48,7 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
         }
         Fitting fitting{overridden(*planned, runner.options.plan)};
         RunPlan& plan = fitting.plan;
-        // Darts come one stage at a time, whatever the caller wants.
+        // Darts always come one stage at a time.
         const bool is_fixed = runner.options.plan.stages != 0 && of.stages.throws == 0;
         plan.stages = is_fixed ? plan.stages : std::min(plan.stages, stages);
         plan.sample_capacity = std::max(plan.sample_capacity, samples);
@@ -70,7 +70,7 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
         if (!may_halve && !may_shorten) {
             return fitting;
         }
-        // The larger part first.
+        // Reduce the larger part first.
         if (may_halve && (!may_shorten || half >= fitting.bytes / 4)) {
             pool = half;
         } else {

@@ -1,4 +1,4 @@
-// Plans that keep to the memory there is.
+// Plans that fit the available memory.
 #pragma once
 
 #include <cstdint>
@@ -7,26 +7,26 @@
 
 namespace geodisk {
 
-/// A plan, and the bytes on the device that a run takes with it, staging included.
+/// A plan, and the device bytes of a run with it, including staging.
 struct Fitting {
     RunPlan plan;
     std::uint64_t bytes = 0;
-    BufferRole largest = BufferRole::faces; ///< Of its buffers.
+    BufferRole largest = BufferRole::faces; ///< Largest of its buffers.
     std::uint64_t largest_bytes = 0;
     bool fits = false;
 };
 
-/// The largest plan of at most so many bytes, with room for so many samples at least: with fewer
-/// stages at once and a smaller pool where they are too large otherwise, and with what the caller
-/// wants; or the least plan, if that does not fit. Errors: as plan_run and workspace_needs.
+/// Returns the largest plan of at most `bytes`, with room for at least `samples`. It reduces the
+/// stages drawn at once and the pool as needed, and keeps the fields that the caller set. If no
+/// plan fits, it returns the smallest one. Errors: those of plan_run and workspace_needs.
 Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes,
                          std::uint32_t samples = 0);
 
-/// The same, but an error where it does not fit: `out_of_device_memory` naming the least bytes.
+/// Returns fit_plan(), or an error if it does not fit: `out_of_device_memory` naming the minimum.
 Result<Fitting> fit_within(const Runner::Impl& runner, const Domain& domain, std::uint64_t bytes,
                            std::uint32_t samples = 0);
 
-/// Bytes that a domain uploads.
+/// Returns the bytes that a domain uploads.
 std::uint64_t upload_bytes(const Sampler& sampler, const Domain& domain);
 
 } // namespace geodisk

@@ -5,15 +5,16 @@
 namespace geodisk {
 namespace {
 
-// A step of a lane is some windows and candidates; a slot is selected, and its conflicts resolved.
+// Items per step of a lane (several windows and candidates), and per slot (selected and resolved).
 constexpr std::uint64_t kItemsPerStep = 16;
 constexpr std::uint64_t kItemsPerSlot = 16;
-// Of a submission, whatever comes: the shortest watchdogs bite after two.
+// Upper limit of a submission in seconds: the shortest watchdogs allow two.
 constexpr double kMostSeconds = 1;
 constexpr std::uint64_t kMostItems = std::uint64_t{1} << 40;
-// Of one submission to the next, where that is still to take under half of its time; else by two.
+// Maximum growth from one submission to the next, as long as it stays under half of the target;
+// else 2.
 constexpr std::uint64_t kLargestGrowth = 4;
-// Of what one submission may be shorter than that before.
+// Maximum factor by which a submission may be shorter than the one before.
 constexpr double kSteepest = 16;
 
 std::uint64_t items_of_step(const RunPlan& plan) {

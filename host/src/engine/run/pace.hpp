@@ -1,4 +1,4 @@
-// How much work a submission gets, so that it takes about the time it should, on any device.
+// Pace: amount of work per submission, so that it takes the target time on any device.
 #pragma once
 
 #include <algorithm>
@@ -9,35 +9,35 @@
 
 namespace geodisk {
 
-/// Counts work of one kind in items: faces, candidates or samples gone through, or a part of a
-/// disk. Starts tiny; grows and shrinks by what submissions took.
+/// Measures work of one kind in items: faces, candidates or samples visited, or a part of a disk.
+/// Starts tiny, then follows the times of submissions.
 class GEODISK_API Pace {
   public:
-    /// Seconds that a submission is to take.
+    /// `target` is the length of a submission in seconds.
     explicit Pace(double target) : target_(target) {}
 
-    /// That the next submission may go through.
+    /// Returns the maximum of items for the next submission.
     std::uint64_t items() const;
 
-    /// A submission that might have gone through so many items took so long. Rounds mostly do
-    /// little of what they might: where lanes took `steps` in them, no more items come than would
-    /// still be a short time if all lanes were busy in all dispatches.
+    /// Records the time of a submission with at most this many items. Rounds mostly do much less
+    /// than their maximum. If lanes took `steps`, the number of items stays so low that the time is
+    /// short even if all lanes are busy in all dispatches.
     void took(double seconds, std::uint64_t items, std::uint64_t steps = 0);
 
-    /// Bounds the next submission: its work is of another kind than that before.
+    /// Limits the next submission, if its work is of another kind.
     void bound(std::uint64_t items) { items_ = std::min(items_, items); }
 
   private:
     double target_;
     std::uint64_t items_ = 1u << 14;
-    double per_step_ = 0; ///< Seconds, at worst, of late.
+    double per_step_ = 0; ///< Recent maximum of seconds per step.
 };
 
-/// What rounds of a plan may take at worst, in items.
+/// Returns the maximum of items in a round of a plan.
 GEODISK_API std::uint64_t items_of_round(const RunPlan& plan);
 
-/// The plan with dispatches so short that so many items are enough for a round, if any may be.
-/// Fields that are not zero in `fixed` stay.
+/// Returns the plan with shorter dispatches, so that this many items are enough for a round if
+/// possible. Fields that are not zero in `fixed` stay.
 GEODISK_API RunPlan shortened(RunPlan plan, const RunPlan& fixed, std::uint64_t items);
 
 } // namespace geodisk

@@ -13,13 +13,13 @@ namespace {
 
 constexpr VkDeviceSize kLeastStaging = VkDeviceSize{64} << 10;
 constexpr VkDeviceSize kMostStaging = VkDeviceSize{16} << 20;
-// Of the control record.
+// Bytes for the control record.
 constexpr VkDeviceSize kHeadBytes = 512;
 static_assert(sizeof(gpu::ControlRec) <= kHeadBytes);
-// Of samples that are read before it is known how many there are.
+// Maximum bytes of samples that are read before their number is known.
 constexpr VkDeviceSize kMostReadAhead = VkDeviceSize{1} << 20;
 
-/// Buffers that what was submitted may use.
+/// Buffers that pending submissions may use.
 struct InUse {
     const Submitter& submitter;
     std::array<DeviceBuffer, 3> buffers;
@@ -249,7 +249,7 @@ gpu::ControlRec RunMemory::control() const {
 
 Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
     if (bytes > buffer(BufferRole::pool).size()) {
-        buffer(BufferRole::pool) = {}; // Before there is another: never both.
+        buffer(BufferRole::pool) = {}; // Free the old pool first, so that there are never two.
         auto larger = create(to_string(BufferRole::pool), bytes);
         if (!larger) {
             return larger.error();
@@ -262,7 +262,7 @@ Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
 Task<Result<Done>> RunMemory::enlarge_samples(std::array<VkDeviceSize, 3> bytes, std::uint32_t kept,
                                               std::uint64_t most) {
     constexpr std::array kRoles{BufferRole::samples, BufferRole::accepted, BufferRole::buckets};
-    constexpr std::size_t kHeld = 2; // What the buckets held is of no use any more.
+    constexpr std::size_t kHeld = 2; // The contents of the buckets are not needed any more.
     const std::size_t kept_bytes = std::size_t{kept} * sizeof(gpu::SampleRec);
     const bool by_host = kept > 0 && this->bytes() + bytes[0] + bytes[1] + bytes[2] > most;
     std::array<std::vector<std::byte>, kHeld> copies;

@@ -1,5 +1,4 @@
-// The memory of runs: their buffers, and the staging buffer through which the host reaches them. It
-// is kept from run to run.
+// RunMemory: buffers of runs, and the staging buffer for the host. Kept from run to run.
 #pragma once
 
 #include <array>
@@ -16,8 +15,8 @@
 
 namespace geodisk {
 
-/// Once a submission was given up, what it may still use is never freed. All that it is made of
-/// must outlive it.
+/// After a submission is given up, memory that it may still use is never freed. Everything that
+/// RunMemory is made of must outlive it.
 class RunMemory {
   public:
     RunMemory(const Sampler::Impl& sampler, Submitter& submitter,
@@ -27,47 +26,48 @@ class RunMemory {
     RunMemory& operator=(const RunMemory&) = delete;
     ~RunMemory();
 
-    /// Of the staging, for uploads of so many bytes.
+    /// Returns the bytes of the staging, for uploads of this size.
     static std::uint64_t staging_bytes(std::uint64_t upload_bytes);
 
-    /// Buffers for the needs, those there are where they are large enough, and for uploads of so
-    /// many bytes at once, if that is not too much. Where memory is short, or larger ones of before
-    /// would make it more than `most` bytes, all others are freed before.
+    /// Allocates buffers for the needs, reusing those that are large enough, and staging for
+    /// uploads of this many bytes, if that is not too much. Frees all other buffers first if memory
+    /// is short, or if larger old ones would exceed `most` bytes.
     Result<Done> allocate(const WorkspaceNeeds& needs, std::uint64_t upload_bytes,
                           std::uint64_t most);
     Workspace workspace() const;
     BufferRange range(BufferRole role) const;
-    /// Of all buffers and the staging.
+    /// Returns the bytes of all buffers and the staging.
     std::uint64_t bytes() const;
-    /// Counts the buffers made so far: descriptors of before are stale where it has changed.
+    /// Returns the number of buffers made so far. If it has changed, old descriptors are stale.
     std::uint32_t made() const { return made_; }
-    /// Whether memory was short for one.
+    /// Returns true if memory was short for a buffer.
     bool was_short() const { return was_short_; }
 
-    /// Whether a buffer holds what follows from these meshes, by PreparedMesh::identity(); and says
-    /// that it does, now or with the next record_uploads.
+    /// Returns true if a buffer holds the data of these meshes, by PreparedMesh::identity().
     bool holds(BufferRole role, const std::vector<std::uint64_t>& meshes) const;
+    /// Notes that a buffer holds the data of these meshes, now or after the next record_uploads.
     void set_held(BufferRole role, const std::vector<std::uint64_t>& meshes);
-    /// Where to write what is to be uploaded from a byte of the buffer on; empty where there is no
-    /// room. It is up to the next record_uploads to do so.
+    /// Returns where to write the data to upload from a byte of the buffer on; empty if there is no
+    /// room. The next record_uploads uploads it.
     std::span<std::byte> stage(BufferRole role, VkDeviceSize to, std::size_t size);
     void record_uploads(VkCommandBuffer commands);
-    /// In as many parts as it takes, at once.
+    /// Uploads data at once, in as many parts as necessary.
     Task<Result<Done>> upload(BufferRole role, VkDeviceSize to, std::span<const std::byte> bytes);
 
-    /// Records that the host gets the control record.
+    /// Records a copy of the control record to the host.
     void record_control(VkCommandBuffer commands) const;
     gpu::ControlRec control() const;
-    /// Records that it gets so many bytes of the samples, unless they are too many.
+    /// Records a copy of this many bytes of the samples to the host, unless they are too many.
     void record_samples(VkCommandBuffer commands, VkDeviceSize bytes);
-    /// What it got since the last record_uploads.
+    /// Returns the samples read since the last record_uploads.
     std::span<const std::byte> samples() const;
     Task<Result<Done>> read(BufferRole role, std::span<std::byte> bytes);
 
-    /// A pool of at least so many bytes; it loses what it held.
+    /// Replaces the pool by one of at least this many bytes; its contents are lost.
     Result<Done> enlarge_pool(VkDeviceSize bytes);
-    /// The buffers of samples, as Job::sample_bytes has them; the first `kept` samples stay. They
-    /// go by way of the host where old and new ones together would make it more than `most` bytes.
+    /// Replaces the buffers of samples by ones with these sizes, see Job::sample_bytes; the first
+    /// `kept` samples stay. They are copied through the host if old and new buffers together would
+    /// exceed `most` bytes.
     Task<Result<Done>> enlarge_samples(std::array<VkDeviceSize, 3> bytes, std::uint32_t kept,
                                        std::uint64_t most);
 
@@ -82,7 +82,7 @@ class RunMemory {
                                 MemoryKind kind = MemoryKind::device);
     Result<Done> reserve(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes);
     void free_all();
-    /// That it would be once there is so much.
+    /// Returns the total bytes with these needs and staging.
     std::uint64_t bytes_with(const WorkspaceNeeds& needs, VkDeviceSize staging_bytes) const;
     Result<Done> reserve_staging(VkDeviceSize bytes);
     DeviceBuffer& buffer(BufferRole role) { return buffers_[static_cast<std::size_t>(role)]; }
@@ -94,11 +94,12 @@ class RunMemory {
     Submitter& submitter_;
     const VkPhysicalDeviceMemoryProperties& memory_;
     std::array<DeviceBuffer, kBufferRoles> buffers_;
-    std::array<std::vector<std::uint64_t>, kBufferRoles> held_; ///< Meshes.
-    DeviceBuffer staging_; ///< The control record, then whatever comes or goes.
+    std::array<std::vector<std::uint64_t>, kBufferRoles> held_; ///< Meshes whose data each buffer
+                                                                ///< holds.
+    DeviceBuffer staging_; ///< The control record, then uploads or samples.
     std::vector<Upload> uploads_;
     VkDeviceSize staged_ = 0;
-    VkDeviceSize samples_ = 0; ///< Bytes of them that were read.
+    VkDeviceSize samples_ = 0; ///< Bytes of samples that were read.
     std::uint32_t made_ = 0;
     bool was_short_ = false;
 };

@@ -1,4 +1,4 @@
-// What a run hands over, from what the device wrote.
+// Converts results of the device to those of a run.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@
 
 namespace geodisk {
 
-/// Two words of a record that are one count.
+/// Returns the 64-bit count of two words.
 constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) {
     return std::uint64_t{high} << 32 | low;
 }
 
-/// Fills in what the control record counts.
+/// Copies the counts of the control record.
 void take_counts(const gpu::ControlRec& control, RunReport& report);
 
-/// The samples of a domain, or its points.
+/// Returns the samples of a surface or the points of a box.
 SampleSet to_set(const Domain::Impl& domain, std::span<const gpu::SampleRec> records,
                  const RunReport& report);
 

@@ -16,12 +16,12 @@
 namespace geodisk {
 namespace {
 
-// That a submission is to take, and that it may.
+// Default target length and stall limit of a submission, in seconds.
 constexpr double kSubmissionSeconds = 0.02;
 constexpr double kCpuSubmissionSeconds = 0.1;
 constexpr double kStallSeconds = 120;
 constexpr double kCpuStallSeconds = 600;
-// Of a look for the end of a submission.
+// Length of one wait for the end of a submission.
 constexpr std::chrono::milliseconds kPatience(50);
 
 Result<VkQueueFamilyProperties>
@@ -45,7 +45,7 @@ check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const Que
     return families[queue.family];
 }
 
-/// 0 leaves them to be chosen.
+/// Checks the times of the options; 0 means the default.
 Result<Done> check_seconds(const RunnerOptions& options) {
     const auto check = [](const char* name, double seconds) -> Result<Done> {
         if (seconds >= 0 && std::isfinite(seconds)) {
@@ -118,7 +118,7 @@ std::uint64_t Runner::Impl::bytes_allowed() const {
         is_told = is_told || (is_local && budget.heapBudget[i] > 0);
         most_free = is_local ? std::max(most_free, budget.heapBudget[i] - used) : most_free;
     }
-    // What is kept serves as well.
+    // Memory that is kept can be used too.
     const std::uint64_t kept = workspace ? workspace->bytes() : 0;
     return is_told ? std::min(bytes, most_free + kept) : bytes;
 }
@@ -271,7 +271,7 @@ Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience
         }
         if (goes_on && impl_->on_progress && !impl_->on_progress(impl_->progress)) {
             impl_->cancel();
-            impl_->release(); // Also where the run was over.
+            impl_->release(); // Also if the run had ended.
             return Error{Status::cancelled, "cancelled"};
         }
         return set;

@@ -1,4 +1,4 @@
-// What Runner holds; shared by the files that implement it.
+// Runner::Impl, shared by the files that implement it.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Runner::Impl {
     std::shared_ptr<const Sampler> shared_sampler;
     const Sampler& sampler = *shared_sampler;
     RunnerOptions options;
-    /// Where what is free is to be asked for.
+    /// Set if the free memory can be queried.
     PFN_vkGetPhysicalDeviceMemoryProperties2 memory_properties2 = nullptr;
     VkPhysicalDeviceMemoryProperties memory{};
     std::optional<Submitter> submitter;
@@ -35,15 +35,15 @@ struct Runner::Impl {
     std::optional<RunMemory> workspace;
     struct KeptJob {
         std::optional<Job> job;
-        std::uint32_t made = 0; ///< RunMemory::made() of the buffers that it is bound to.
+        std::uint32_t made = 0; ///< RunMemory::made() when it was bound.
     };
-    std::array<KeptJob, kDomainKinds> jobs; ///< By index_of(DomainKind).
-    // Of the run that was started.
+    std::array<KeptJob, kDomainKinds> jobs; ///< Indexed by index_of(DomainKind).
+    // The run in progress.
     std::optional<Task<Result<SampleSet>>> run;
     Progress progress{};
     ProgressCallback on_progress;
 
-    /// Seconds since some moment; of a test where it says so.
+    /// Clock in seconds; tests may replace it.
     std::function<double()> now;
 
     explicit Impl(std::shared_ptr<const Sampler> s);
@@ -52,8 +52,8 @@ struct Runner::Impl {
         settle();
     }
 
-    /// Once a submission was given up, keeps all that it may still use from being destroyed. The
-    /// buffers are left to whoever owns them.
+    /// After a submission is given up, keeps everything that it may still use from being destroyed.
+    /// The owner of the buffers keeps those.
     void settle() noexcept {
         if (submitter && submitter->abandoned()) {
             sampler.impl_->abandon();
@@ -64,7 +64,7 @@ struct Runner::Impl {
     }
 
     static Impl& of(Runner& runner) { return *runner.impl_; }
-    /// Makes room for what is kept.
+    /// Allocates what is kept.
     void keep() {
         if (!workspace) {
             workspace.emplace(engine(), *submitter, memory);
@@ -77,20 +77,20 @@ struct Runner::Impl {
         workspace.reset();
     }
     const Sampler::Impl& engine() const { return *sampler.impl_; }
-    /// As Submitter::submit, for what a job records; StageClock::collect tells its times.
+    /// Submits recordings of a job, as Submitter::submit; StageClock::collect returns their times.
     Result<Done> submit_timed(const std::function<void(VkCommandBuffer)>& record);
-    /// Ends a run that was started, whatever it has come to.
+    /// Ends the run in progress.
     void cancel() noexcept;
     bool is_cpu() const { return engine().report.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     std::chrono::duration<double> stall_limit() const;
-    /// That a submission is to take.
+    /// Returns the target length of a submission.
     double submission_seconds() const;
-    /// Bytes of device memory that a run may take: as the caller says, and as there are free.
+    /// Returns the device bytes that a run may use: limited by the caller and by the free memory.
     std::uint64_t bytes_allowed() const;
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind) const;
 
-    /// Compares what the self_test kernel computes with the host's arithmetic, bit by bit.
+    /// Compares the self_test kernel with the host's arithmetic, bit by bit.
     Result<Done> check_rounding();
 };
 

@@ -1,4 +1,4 @@
-// The start-up check that the device keeps the arithmetic promises decisions rest on.
+// Check at creation that the device's arithmetic is exact where decisions depend on it.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -17,8 +17,8 @@ namespace {
 constexpr std::uint32_t kVectors = 8192;
 using Vector = std::array<float, 4>;
 
-/// Operands a, b, c, d with mantissas at random and exponents in the range decisions use; every
-/// fourth d is next to the square of a float, where roots are hardest to round.
+/// Returns operands a, b, c, d with random mantissas, and exponents in the range of decisions.
+/// Every fourth d is next to the square of a float, where roots are hardest to round.
 std::vector<Vector> operands() {
     std::mt19937 random(20130901);
     const auto pick = [&random](std::uint32_t low, std::uint32_t count) {
@@ -35,7 +35,7 @@ std::vector<Vector> operands() {
     return vectors;
 }
 
-/// What shaders/kernels/self_test.comp must make of them.
+/// Returns the expected results of shaders/kernels/self_test.comp.
 Vector expected(const Vector& operands) {
     const auto [a, b, c, d] = operands;
     const float product = a * b;
@@ -109,7 +109,7 @@ Result<Done> Runner::Impl::check_rounding() {
                        VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                        VK_ACCESS_HOST_READ_BIT);
     };
-    auto done = submitter->run(std::cref(record)); // Does not allocate, so that nothing leaks.
+    auto done = submitter->run(std::cref(record)); // std::cref does not allocate, so nothing leaks.
     if (submitter->abandoned()) {
         results->abandon();
     } else {

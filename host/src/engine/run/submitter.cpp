@@ -96,8 +96,8 @@ Result<Done> Submitter::submit(const std::function<void(VkCommandBuffer)>& recor
     if (status != VK_SUCCESS) {
         return failed("vkResetCommandPool", status);
     }
-    // Before and not after each submission: a fence left signalled by a failed call would pretend
-    // that the next submission had ended.
+    // Reset before each submission, not after: a fence left signalled by a failed call would look
+    // like the end of the next submission.
     status = vk_->vkResetFences(device_->device, 1, &fence_);
     if (status != VK_SUCCESS) {
         return failed("vkResetFences", status);
@@ -146,11 +146,11 @@ bool Submitter::is_over(std::chrono::milliseconds patience) {
         end_ = failed("vkWaitForFences", status);
         return true;
     }
-    // A lack of memory ends the waiting but not the work, whose memory must not be freed yet.
+    // Exhausted memory ends the waiting but not the work, whose memory must not be freed yet.
     if (status != VK_TIMEOUT) {
         std::this_thread::sleep_for(patience);
     }
-    // Counted in slices: the clock goes on while the process is stopped.
+    // Counted in slices, because the clock continues while the process is stopped.
     const auto now = std::chrono::steady_clock::now();
     using Seconds = std::chrono::duration<double>;
     waited_ +=

@@ -1,4 +1,5 @@
-// Records one command buffer at a time, submits it on the lent queue and waits for it.
+// Submitter: records one command buffer at a time, submits it on the caller's queue and waits for
+// it.
 #pragma once
 
 #include <chrono>
@@ -14,7 +15,7 @@ namespace geodisk {
 
 class Submitter {
   public:
-    /// `device` and `vk` must outlive the submitter.
+    /// Creates a submitter. `device` and `vk` must outlive it.
     static Result<Submitter> create(const DeviceRefs& device, const DeviceTable& vk,
                                     const QueueRef& queue,
                                     std::chrono::duration<double> stall_limit);
@@ -22,12 +23,12 @@ class Submitter {
     Submitter& operator=(Submitter&&) = delete;
     ~Submitter();
 
-    /// Records with `record`, submits and waits until the device is done, as the two below.
+    /// Records with `record`, submits, and waits until the device is done.
     Result<Done> run(const std::function<void(VkCommandBuffer)>& record);
 
     /// Records with `record` and submits. After an error nothing is running.
     Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
-    /// Awaits the end of what was submitted, as is_over() finds it.
+    /// Awaits the end of the submission.
     auto ended() {
         struct Awaiter {
             Submitter& own;
@@ -37,28 +38,28 @@ class Submitter {
         };
         return Awaiter{*this};
     }
-    /// Waits so long for the end of what was submitted. Over it is as well where the device was
-    /// lost, and where that took longer than the stall limit: an error (`device_lost`) to whoever
-    /// awaits it, after which nothing may be freed that it uses.
+    /// Waits at most this long for the end of the submission, and returns true once it has ended.
+    /// It also ends if the device is lost or the stall limit exceeded: whoever awaits it then gets
+    /// `device_lost`, and nothing that it uses may be freed.
     bool is_over(std::chrono::milliseconds patience);
-    /// Goes on with whoever awaits that, if somebody does.
+    /// Resumes the coroutine that awaits the submission, if there is one.
     void resume() {
         if (const auto waiting = std::exchange(waiting_, nullptr)) {
             waiting.resume();
         }
     }
     bool is_awaited() const noexcept { return waiting_ != nullptr; }
-    /// Nobody awaits it any more: waits for the end of what is in flight, so that all that it uses
-    /// may be freed.
+    /// Waits for the end of the submission in flight, which nobody awaits any more. Afterwards
+    /// everything that it used may be freed.
     void give_up();
-    /// Signalled at the end of what was submitted.
+    /// Returns the fence that is signalled at the end of the submission.
     VkFence fence() const noexcept { return fence_; }
 
-    /// An error (`device_lost`) once the device was lost or a submission given up. Nothing is
+    /// Returns `device_lost` after the device was lost or a submission given up. Nothing is
     /// submitted any more then.
     Result<Done> ready() const;
 
-    /// Whether a submission was given up and may still be running.
+    /// Returns true if a submission was given up and may still be running.
     bool abandoned() const noexcept { return abandoned_; }
 
   private:
@@ -74,8 +75,8 @@ class Submitter {
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
     std::coroutine_handle<> waiting_;
-    Result<Done> end_ = Done{};              ///< Of what was submitted last.
-    std::chrono::duration<double> waited_{}; ///< For that.
+    Result<Done> end_ = Done{};              ///< Outcome of the latest submission.
+    std::chrono::duration<double> waited_{}; ///< Time waited for it.
     std::chrono::steady_clock::time_point last_look_;
     bool in_flight_ = false;
     bool abandoned_ = false;

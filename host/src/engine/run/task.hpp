@@ -1,4 +1,4 @@
-// Coroutines that stop where they wait for the device.
+// Task: a coroutine that suspends while it waits for the device.
 #pragma once
 
 #include <coroutine>
@@ -8,9 +8,9 @@
 
 namespace geodisk {
 
-/// Owns a coroutine that returns a T. It runs when it is first resumed or awaited; whoever awaits
-/// it goes on when it has returned, or with its exception. Destroying it destroys all that its
-/// frame holds, wherever it stands.
+/// Owns a coroutine that returns a T. It starts when it is first resumed or awaited. Whoever awaits
+/// it continues with its result or exception. Destroying the task destroys everything in the
+/// coroutine's frame.
 template <class T>
 class [[nodiscard]] Task {
   public:
@@ -49,10 +49,10 @@ class [[nodiscard]] Task {
         }
     }
 
-    /// Begins it.
+    /// Starts the coroutine.
     void resume() const { handle_.resume(); }
     bool is_done() const { return handle_.done(); }
-    /// What it returned, once it is done; throws what it threw.
+    /// Returns the result of the completed coroutine, or rethrows its exception.
     T take() const {
         promise_type& promise = handle_.promise();
         if (promise.exception) {
