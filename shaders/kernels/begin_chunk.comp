@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Sets out the first batch of a chunk, once its candidates are drawn. One invocation.
+// Prepares the first batch of a chunk, once its candidates are drawn. One invocation.
 // reads: starts   writes: control   spec: slot local size
 
 #include "../lib/prelude.glsl"

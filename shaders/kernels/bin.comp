@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Counts the candidates in each cell of the faces that have more than one. An entry of the table is
-// behind that of its cell, so that after the scan and after `draw` has moved each on, a cell's
-// candidates start at its own entry.
+// Counts the candidates in each cell, for faces with several cells. The count of a cell goes to the
+// entry after its own. After the scan, and after `draw` has advanced each entry, the candidates of a
+// cell start at its own entry.
 // reads: faces, keys, radii, starts   writes: cells   spec: rounding, adaptive
 
 #include "../lib/prelude.glsl"

@@ -1,10 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Counts how often the paper's CheckStatus would call itself for each candidate of a batch that is
-// decided (paper section 5.4): once for the candidate, and as often as for itself for every active
-// conflict before it that it comes to, in dart order until one is accepted. One invocation per slot,
-// which goes once through its list for each of those; resumable, since lists may be long and what the
-// others count not be known yet.
+// Counts calls of the paper's CheckStatus for each candidate of a decided batch (section 5.4): one for
+// the candidate, plus the calls of every active conflict before it, in dart order until one is accepted.
+// One invocation per slot, which visits its list once for each of those conflicts. Resumable, since
+// lists may be long and counts of others not yet known.
 // reads: pool lists   writes: orders, slots, control   spec: slot local size, pool block
 
 #include "../lib/prelude.glsl"
@@ -25,7 +24,7 @@ void add_to_histogram(uint calls) {
     GEODISK_ADD_WIDE(control.calls_low, control.calls_high, calls)
 }
 
-// While calls are counted, active candidates keep their slots in place of their orders.
+// While calls are counted, active candidates keep their slots instead of their orders.
 void restore_orders() {
     for (uint slot = 0u; slot < control.slots_used; ++slot) {
         uint place = slots[slot].place;
@@ -35,15 +34,15 @@ void restore_orders() {
     }
 }
 
-// Whether the slot's calls are known in the end.
+// Returns true once the slot's calls are known.
 bool count(uint slot) {
     if (is_void(slot)) {
         return true;
     }
     uint listed = slots[slot].active_conflicts;
     uint cursor = 0u;
-    uint last = slot;    // counted last; the slot itself stands for none
-    uint nearest = slot; // the first behind that, of those the list shows up to the cursor
+    uint last = slot;    // counted last; the slot itself means none
+    uint nearest = slot; // the first after it, of those that the list shows up to the cursor
     uint calls = 1u;
     if (slots[slot].phase == kSlotCounting) {
         cursor = slots[slot].cursor;

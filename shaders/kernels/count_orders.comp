@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// How many candidates come before push.end_order, where darts are counted. To be run while none is
-// active. kSelectBlock candidates to a work group.
+// Counts the candidates before push.end_order, for a number of darts. Runs while none is active.
+// kSelectBlock candidates per work group.
 // reads: orders   writes: control
 
 #include "../lib/prelude.glsl"

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Draws the candidates, those of larger faces sorted by cell, and begins the chunk.
+// Draws the candidates, sorted by cell in larger faces, and begins the chunk.
 // reads: faces, keys, radii, starts   writes: states, weights, orders, cells, control
 // spec: rounding, adaptive
 

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The disk of every active candidate, by a distance through space, and the idle and active
-// candidates in it (paper DetectCollision, section 5.9). One invocation per slot; resumable. It
-// visits the cells of the grid that the disk reaches, a row along the first axis at a time, in
-// trips of a bounded number of iterations, push.step_budget of them to a dispatch.
+// Computes the disk of every active candidate by a distance through space, and lists the idle and active
+// candidates in it (paper DetectCollision, section 5.9). One invocation per slot; resumable. It visits
+// the cells of the grid within reach of the disk, one row along the first axis at a time, in trips of
+// bounded length, push.step_budget of them per dispatch.
 // reads: axes, cells, states, points, orders   writes: pool, slots, control
 // spec: local size, rounding, pool block, dimension, curved
 
@@ -24,7 +24,7 @@ GEODISK_WORDS(kBindOrders, orders);
 GEODISK_BUFFER(kBindPool, , uvec4, pool);
 GEODISK_CONTROL;
 
-// A copy that stays in registers; reading push constants in a branch is a gather on lavapipe.
+// Copy in registers: reading push constants in a branch is a gather on lavapipe.
 Push P;
 
 uint overflow; // kOverflow* bits
@@ -69,10 +69,11 @@ void load_own(uint slot) {
     own_normal = kCurved ? normal_at(words) : vec3(0.0);
 }
 
-// So few cells around the axis that all of them are visited, each once, from the first on.
+// Returns true if the axis has so few cells that all are visited, each once, from the first on.
 bool takes_all(Axis axis) { return axis.is_periodic && axis.cells < kGridDigits; }
 
-// How far cells are along an axis, a little less for the sake of rounding; kFar if there are none.
+// Returns the distance to cells along an axis, slightly less because of rounding; kFar if there are
+// none.
 float gap_to(uint i, uint digit) {
     int offset = int(digit) - int(kGridReach);
     int cell = int(own_cell[i]) + offset;
@@ -98,7 +99,7 @@ float plus_square(float sum, float x) {
     return more;
 }
 
-// The turn after all that share its digits from `level` on.
+// Returns the turn after all that share its digits from `level` on.
 uint turn_after(uint at, uint level) {
     uint next = ((at >> (kDigitBits * level)) + 1u) << (kDigitBits * level);
     for (uint i = level; i < kDimension; ++i) {
@@ -111,7 +112,7 @@ uint turn_after(uint at, uint level) {
 
 bool turns_left() { return turn >> (kDigitBits * kDimension) == 0u; }
 
-// Sets out the next cells of a row within reach, or passes over cells that are not.
+// Finds the next cells of a row within reach, or skips cells that are not.
 void next_cells() {
     float sum = 0.0;
     uint head = 0u;
@@ -135,7 +136,7 @@ void next_cells() {
     }
     uint cell = cell_at(0u, first);
     head = head_in_table(head + cell);
-    // Neither around the box nor around the table in one go.
+    // Neither wraps around the box nor around the table.
     uint count = min(last - first + 1u, min(grid[0].cells - cell, P.cells - head));
     scan_place = word_at(cells, head);
     scan_end = word_at(cells, head + count);
@@ -144,14 +145,14 @@ void next_cells() {
     ++rows_visited;
 }
 
-// So many steps of a coordinate, in minimum distances. Halves convert exactly.
+// Converts steps of a coordinate to minimum distances. Halves convert exactly.
 float along_axis(uint i, uint steps) {
     precise float whole = float(steps >> 16) * 65536.0 + float(steps & 0xffffu);
     precise float along = whole * grid[i].unit;
     return along;
 }
 
-// Square of the distance to the candidate at this place.
+// Returns the squared distance to the candidate at this place.
 float square_to(uint place) {
     float sum = 0.0;
     for (uint i = 0u; i < kDimension; ++i) {
@@ -164,7 +165,7 @@ float square_to(uint place) {
     return sum;
 }
 
-// The straight way to the candidate at this place.
+// Returns the vector to the candidate at this place.
 vec3 way_to(uint place) {
     vec3 way = vec3(0.0);
     for (uint i = 0u; i < 3u; ++i) {
@@ -180,7 +181,7 @@ bool conflicts_with(uint place) {
     if (!kCurved) {
         return square < P.limit;
     }
-    // No curve is shorter than the straight way.
+    // No curve is shorter than the straight line.
     return square < P.limit &&
            is_short_curve(way_to(place), square, own_normal,
                           normal_at(PointWords(place, P.capacity)), P.limit);
@@ -208,7 +209,7 @@ void trip() {
 
 bool running() { return (turns_left() || scan_place < scan_end) && overflow == 0u; }
 
-// Counts the candidate among the blocks of the active ones behind it in its disk. Resumable.
+// Adds a block of the candidate to the active ones after it in its disk. Resumable.
 bool block_conflicts(uint slot) {
     uvec4 own = sample_of(slot);
     uint cursor = slots[slot].cursor;

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Counts the samples in each range of orders, and finds the first candidate not decided. One invocation
-// per sample, or slot.
+// Counts the samples in each range of orders, and finds the first undecided candidate. One invocation
+// per sample or slot.
 // reads: accepted   writes: buckets, control   spec: local size
 
 #include "../lib/prelude.glsl"

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Writes the samples in dart order, and how many of them are final. One invocation per sample.
+// Writes the samples in dart order, and the number of final ones. One invocation per sample.
 // reads: accepted, buckets   writes: samples, control   spec: local size
 
 #include "../lib/prelude.glsl"
@@ -12,7 +12,7 @@ GEODISK_BUFFER(kBindSamples, writeonly, uvec4, samples);
 
 shared uint group_ready;
 
-// Where among all samples this one belongs.
+// Returns the position of a sample among all samples.
 uint rank_of(uint index, uvec4 own) {
     uint bucket = bucket_of(own.x);
     uint rank = word_at(buckets, bucket);
@@ -30,7 +30,7 @@ void main() {
     barrier();
     uint index = own_index();
     if (index < unordered_count()) {
-        // By range, so that neighbours compare with the same others.
+        // Read by range, so that neighbours compare with the same others.
         uvec4 own = unordered(word_at(buckets, bucket_entries() + index));
         uint rank = rank_of(index, own);
         samples[rank] = own;

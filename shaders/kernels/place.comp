@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Writes the samples that are in order where a caller draws them: in space, with normal and radius, and
-// how many there are as the argument of an indirect draw. One invocation per sample.
+// Writes the samples that are in order to the caller's buffer, with position, normal and radius, and
+// their number to the arguments of an indirect draw. One invocation per sample.
 // reads: samples, control, fans (radii), keys (parts), vertices, indices   writes: placed, arguments
 // spec: local size, rounding, adaptive, several
 
@@ -20,7 +20,8 @@ GEODISK_BUFFER(kBindPlaced, writeonly, uvec4, placed);
 GEODISK_BUFFER(kBindArguments, writeonly, uint, arguments);
 GEODISK_CONTROL;
 
-// Of the vertex that a corner of a face names. The caller's indices are no reason to read elsewhere.
+// Returns the vertex of a corner of a face, clamped: wrong indices of the caller must not read
+// elsewhere.
 uint vertex_of(uint corner) {
     uint vertex = indices[push.short_indices != 0u ? corner >> 1 : corner];
     if (push.short_indices != 0u) {
@@ -39,7 +40,7 @@ vec3 weighed(vec3 a, vec3 b, vec3 c, vec3 weights) {
     return sum;
 }
 
-// A multiple by a power of two whose largest coordinate is about 1.
+// Returns v times a power of two, so that the largest coordinate is about 1.
 vec3 about_unit(vec3 v) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(largest) & 0x7f800000u));
@@ -49,7 +50,7 @@ vec3 about_unit(vec3 v) {
 
 float signed_ratio(float a, float b) { return a < 0.0 ? -ratio(-a, b) : ratio(a, b); }
 
-// The zero vector is none.
+// Returns the unit vector, or zero for the zero vector.
 vec3 direction_of(vec3 v) {
     vec3 w = about_unit(v);
     precise float square = (w.x * w.x + w.y * w.y) + w.z * w.z;

@@ -1,11 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Decides the active batch (paper CheckStatus, without recursion): a candidate that no undecided one
-// before it blocks is accepted and rejects what its disk holds; a rejected one lifts its blocks. Who
-// lifts the last block of another, or is the first to be accepted of those that block it, goes on
-// with that one. Blocks only fall and rejections only come, so every order of events ends the same. A
-// sample of an earlier chunk has been accepted; nothing blocks it, and it only rejects.
-// One invocation per slot; resumable, since lists may be long.
+// Decides the active batch (paper CheckStatus, without recursion). A candidate without an undecided one
+// before it that blocks it is accepted, and rejects the candidates in its disk. A rejected one removes
+// its blocks. The invocation that removes the last block of another candidate, or is the first accepted
+// one that blocks it, continues with that one. Blocks only decrease and rejections only increase, so
+// every order of events gives the same result. A sample of an earlier chunk is already accepted: nothing
+// blocks it, and it only rejects. One invocation per slot; resumable, since lists may be long.
 // reads: pool lists   writes: states, orders, accepted, control, slots   spec: local size, pool block
 
 #include "../lib/prelude.glsl"
@@ -25,13 +25,14 @@ GEODISK_CONTROL;
 #include "../lib/slots.glsl"
 #include "../lib/states.glsl"
 
-// Candidates that this invocation is to decide.
+// Candidates that this invocation will decide.
 uint at_hand[kMostAtHand];
 uint hands;
 uint decided; // by this invocation
 uint fewer;   // idle or active candidates
 
-// One that nothing blocks any more, or for good. Without room it waits for its own invocation.
+// Takes a candidate that is not blocked any more, or blocked for good. Without room, it waits for its
+// own invocation.
 void take_up(uint slot) {
     if (hands < kMostAtHand) {
         at_hand[hands] = slot;
@@ -39,8 +40,8 @@ void take_up(uint slot) {
     }
 }
 
-// True for one invocation alone: the first that finds it ready, or finds what another left of it. All
-// that passes between them is in the word that is claimed.
+// Returns true for one invocation only: the first that finds the slot ready or suspended. All
+// communication between them is in the word that is claimed.
 bool claim(uint slot, out uint cursor) {
     cursor = 0u;
     uint blocks = atomic_load(slots[slot].blocks);
@@ -55,7 +56,7 @@ bool claim(uint slot, out uint cursor) {
     return (left & kSuspended) != 0u;
 }
 
-// What a decision does to an active conflict behind it in dart order.
+// Applies a decision to an active conflict after it in dart order.
 void tell(uint other, bool is_rejected) {
     if (is_rejected) {
         uint before = atomicAdd(slots[other].blocks, 0xffffffffu);
@@ -67,15 +68,15 @@ void tell(uint other, bool is_rejected) {
     }
 }
 
-// Accepts or rejects a candidate: rejected it may be more than once.
+// Accepts or rejects a candidate. It may be rejected several times.
 void end_undecided(uint place) {
     uint bit = state_bit(place);
     bool is_first = (atomicAnd(states[undecided_word(place)], ~bit) & bit) != 0u;
     fewer += is_first ? 1u : 0u;
 }
 
-// One that was active when it was listed. Its order word is its slot; or its order again, once it is
-// decided, or was found to be void, which is idle.
+// Handles a conflict that was active when it was listed. Its order word is its slot, or again its order
+// once it is decided or was found void, which means idle.
 void meet(uvec4 own, uint place, bool is_rejected) {
     uint word = orders[place];
     bool is_slot = word < control.slots_used && slots[word].place == place;
@@ -104,18 +105,18 @@ void finish(uint slot, bool is_rejected) {
         orders[place] = slots[slot].order;
     }
     if (!is_rejected) {
-        // Room is made before a batch begins.
+        // A batch begins only if there is room.
         accepted[atomicAdd(control.accepted, 1u)] = sample_of(slot);
-        // Of accepted candidates alone: which others get a disk depends on the slots, and the guard
-        // must not.
+        // Only for accepted candidates: which others get a disk depends on the slots, and the guard must
+        // not.
         if (slots[slot].longest_chain > control.longest_chain) {
             atomicMax(control.longest_chain, slots[slot].longest_chain);
         }
     }
 }
 
-// Goes on with a slot for at most `budget` list entries; returns what is left of it. To decide one
-// takes at least one entry.
+// Continues with a slot for at most `budget` list entries; returns the unused budget. Deciding one takes
+// at least one entry.
 uint decide(uint slot, uint cursor, uint budget) {
     bool is_rejected = (atomic_load(slots[slot].blocks) & kBlockedForGood) != 0u;
     uint active_count = slots[slot].active_conflicts;
@@ -126,7 +127,7 @@ uint decide(uint slot, uint cursor, uint budget) {
     for (; cursor < min(end, active_count); ++cursor) {
         meet(own, active_conflict(slot, cursor), is_rejected);
     }
-    // A row of the list at a time.
+    // One row of the list at a time.
     while (cursor < end) {
         uint at = cursor - active_count;
         uvec4 row = list_row_at(slot, at);
@@ -144,7 +145,7 @@ uint decide(uint slot, uint cursor, uint budget) {
     return left;
 }
 
-// Not active after all: idle again, unless an accepted one has rejected it meanwhile.
+// Makes a void candidate idle again, unless an accepted one has rejected it meanwhile.
 void release(uint slot) {
     uint place = slots[slot].place;
     end_active(place);
@@ -171,7 +172,7 @@ void decide_from(uint slot) {
     }
 }
 
-// Memory barriers stand where all invocations come: lavapipe loses atomics around others.
+// Memory barriers are where all invocations pass: lavapipe loses atomics around others.
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     hands = 0u;
@@ -184,7 +185,7 @@ void main() {
         atomicAdd(control.idle, 0u - fewer);
     }
     memoryBarrierBuffer();
-    // Whoever decides the last one sets out the next batch.
+    // The invocation that decides the last candidate prepares the next batch.
     bool is_last = decided > 0u && atomicAdd(control.undecided, 0u - decided) == decided;
     memoryBarrierBuffer();
     if (is_last) {

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Sets select out again after rewind. One invocation.
+// Prepares select again after rewind. One invocation.
 // writes: control   spec: slot local size
 
 #include "../lib/prelude.glsl"
@@ -15,7 +15,7 @@ void main() {
     control.undecided = 0u;
     control.overflow = 0u;
     if (control.mode == kSelectPool) {
-        control.list_end = 0u; // It may hold but a part.
+        control.list_end = 0u; // The list may be incomplete.
     }
     if (control.done == 0u) {
         prepare_select();

@@ -1,8 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Goes on after the host has acted on an overflow. Of an active batch, whose slices overflowed,
-// nothing was decided: its candidates are idle again and will be selected anew. One invocation per
-// slot.
+// Undoes a batch after the host has handled an overflow. Nothing of it was decided: its candidates
+// become idle again and will be selected again. One invocation per slot.
 // writes: states, orders, slots, control   spec: local size
 
 #include "../lib/prelude.glsl"

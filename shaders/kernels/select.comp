@@ -10,7 +10,7 @@
 
 GEODISK_WORDS(kBindWeights, weights);
 
-// Forward, of select_idle.glsl.
+// Declared for select_idle.glsl.
 uvec4 sample_at(uint place, uint order);
 void settle_point(uint slot, uvec4 record) {}
 

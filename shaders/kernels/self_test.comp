@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Checks that the device keeps the promises decisions rest on: + - * round to nearest and stay
-// separate under `precise`, and division and root come out correctly rounded. Each invocation
-// replaces four operands by four results; the host compares bits.
+// Checks the arithmetic that decisions depend on: + - * round to nearest and stay separate under
+// `precise`, and division and root are correctly rounded. Each invocation replaces four operands by four
+// results; the host compares bits.
 // reads, writes: sums (four words per invocation)   spec: local size, rounding
 
 #include "../lib/prelude.glsl"

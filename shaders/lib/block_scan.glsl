@@ -1,6 +1,6 @@
-// Exclusive scan of a block of kScanBlock words by a work group. A lane reads and writes rows of four
-// words, those of neighbours side by side. Only the sums of rows go through shared memory, which gives
-// each lane some that follow each other. Needs read_word(i), a word of the block, and write_word(i, word).
+// Exclusive scan of a block of kScanBlock words by a work group. Lanes read and write rows of four
+// words, neighbours side by side. Only the sums of rows go through shared memory, which gives each lane
+// consecutive ones. Needs read_word(i), which returns a word of the block, and write_word(i, word).
 #ifndef GEODISK_BLOCK_SCAN_GLSL
 #define GEODISK_BLOCK_SCAN_GLSL
 
@@ -8,7 +8,7 @@
 
 const uint kRowWords = 4u;
 const uint kRowsPerLane = kScanPerLane / kRowWords;
-// A word is skipped behind so many: lanes would read from few banks.
+// A word is skipped after this many, so that lanes do not read from the same banks.
 const uint kBanks = 32u;
 
 shared uint row_sums[kScanLanes * kRowsPerLane + kScanLanes * kRowsPerLane / kBanks];
@@ -18,7 +18,7 @@ uint bank_index(uint row) { return row + row / kBanks; }
 uint read_word(uint i);
 void write_word(uint i, uint word);
 
-// Every lane must call it. Returns the sum of all words; `before` is added to each.
+// Scans the block. Every lane must call it. Returns the sum of all words; `before` is added to each.
 uint block_exclusive_scan(uint lane, uint before) {
     uint own_words[kScanPerLane];
     for (uint k = 0u; k < kRowsPerLane; ++k) {

@@ -1,6 +1,6 @@
-// Candidates in a box (paper section 5.9), drawn by cells about as wide as the minimum distance: each a
-// pure function of the seed, its cell, its stage and its number there. A larger box keeps those of the
-// cells that a smaller one has. A word for each coordinate, in steps of its axis.
+// Candidates in a box (paper section 5.9), drawn by cells about as wide as the minimum distance. Each is
+// a pure function of the seed, its cell, its stage and its number there. A larger box keeps those of the
+// cells that a smaller one has. One word per coordinate, in steps of its axis.
 #ifndef GEODISK_BOX_CANDIDATE_GLSL
 #define GEODISK_BOX_CANDIDATE_GLSL
 
@@ -11,7 +11,7 @@
 
 uint words_per_point() { return kDimension; }
 
-// A cell, along each axis, and how many steps wide it is there; 0 for 2^32.
+// A cell for drawing: its index along each axis, and its width in steps; 0 for 2^32.
 struct DrawCell {
     uint first[kMostAxes];
     uint width[kMostAxes];
@@ -35,7 +35,7 @@ DrawCell load_draw_cell(uint cell) {
     return c;
 }
 
-// How many a cell expects in each stage.
+// Returns the expected number of candidates of a cell per stage.
 float mean_count(uint cell) {
     DrawCell c = load_draw_cell(cell);
     float mean = push.intensity;
@@ -52,10 +52,10 @@ float mean_count(uint cell) {
 uint stages_of(uint cell) { return kAllStages; }
 uvec3 count_key(uint cell) { return uvec3(load_draw_cell(cell).seed, kCountNumber); }
 
-// Of its count in a stage of the job.
+// Returns the random words for its count in a stage of the job.
 uvec4 count_words(uvec3 key, uint stage) { return philox(key.xy, uvec4(key.z, stage, 0u, 0u)); }
 
-// `stage` is that of the job.
+// Draws a candidate in a cell; `stage` is that of the job.
 uint[kMostAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priority) {
     DrawCell c = load_draw_cell(cell);
     uvec4 a = philox(c.seed, uvec4(number, stage, 0u, 0u));
@@ -70,8 +70,8 @@ uint[kMostAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priori
     return words;
 }
 
-// The candidate with this number in its unit, and the words of its sample: its order, its cell, its
-// number there, its stage.
+// Draws the candidate with this number in its unit. The words of its sample are its order, its cell, its
+// number there, and its stage.
 uint[kMostAxes] draw_point(Unit unit, uint number, out uvec4 record) {
     uint stage = push.first_stage + unit.stage;
     uint priority;

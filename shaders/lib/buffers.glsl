@@ -1,14 +1,14 @@
-// How kernels declare the buffers they touch. Many are compiled twice: with GEODISK_TEXELS a kernel
-// reads through texel buffers what no invocation of the dispatch writes, or only itself. On lavapipe
-// a load from a storage buffer is a loop over lanes and words, and a texel fetch a few gathers at
-// less than half the price.
+// Declarations of buffers. Many kernels are compiled twice. With GEODISK_TEXELS, a kernel reads through
+// texel buffers what no invocation of the dispatch writes, or only the invocation itself. On lavapipe a
+// load from a storage buffer is a loop over lanes and words; a texel fetch is a few gathers at less than
+// half the cost.
 #ifndef GEODISK_BUFFERS_GLSL
 #define GEODISK_BUFFERS_GLSL
 
 #define GEODISK_BUFFER(number, access, type, name)                                                 \
     layout(set = 0, binding = number, std430) restrict access buffer name##_buffer { type name[]; }
 
-// What is only read: words and rows of four words, by word_at and row_at.
+// Read-only buffers: words and rows of four words, with word_at and row_at.
 #ifdef GEODISK_TEXELS
 #define GEODISK_WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name
 #define GEODISK_ROWS(number, name) GEODISK_WORDS(number, name)
@@ -21,8 +21,8 @@
 #define row_at(name, i) name[i]
 #endif
 
-// Rows that an invocation writes and reads back itself: written as name[i], read by own_row_at. Two
-// names of one memory, neither `restrict` and both `coherent`, so that reads see the writes before.
+// Rows that an invocation writes and reads back itself: written as name[i], read with own_row_at. Two
+// names of one memory, neither `restrict` and both `coherent`, so that reads see earlier writes.
 #ifdef GEODISK_TEXELS
 #define GEODISK_OWN_ROWS(number, texels_number, name)                                              \
     layout(set = 0, binding = number, std430) coherent buffer name##_buffer { uvec4 name[]; };     \
@@ -34,7 +34,7 @@
 #define own_row_at(name, i) name[i]
 #endif
 
-// Words that are read, by word_before, before any invocation of the dispatch writes them.
+// Words that are read with word_before, before any invocation of the dispatch writes them.
 #ifdef GEODISK_TEXELS
 #define GEODISK_WORDS_BEFORE(number, texels_number, name)                                          \
     layout(set = 0, binding = number, std430) buffer name##_buffer { uint name[]; };               \
@@ -45,18 +45,18 @@
 #define word_before(name, i) name[i]
 #endif
 
-// The run's record with the slots behind it; shared by all work groups of a dispatch, so only atomics
-// touch what another invocation may write.
+// The control record and the slots after it, shared by all work groups of a dispatch. Only atomics touch
+// what another invocation may write.
 #define GEODISK_CONTROL                                                                            \
     layout(set = 0, binding = kBindControl, std430) coherent buffer control_buffer {               \
         ControlRec control;                                                                        \
         SlotRec slots[];                                                                           \
     }
 
-// A word that other invocations of the dispatch may be changing.
+// Reads a word that other invocations of the dispatch may be changing.
 #define atomic_load(word) atomicOr(word, 0u)
 
-// Adds to a sum of 64 bits in two words.
+// Adds to a 64-bit sum in two words.
 #define GEODISK_ADD_WIDE(low, high, summand)                                                       \
     {                                                                                              \
         uint before = atomicAdd(low, summand);                                                     \

@@ -1,5 +1,5 @@
-// Candidates on a surface as its disks are large: as face_candidate.glsl has them, and where radii vary
-// with correctly rounded quotients and roots.
+// Candidates on a surface: those of face_candidate.glsl, and if radii vary, denser where disks are
+// smaller, with correctly rounded quotients and roots.
 #ifndef GEODISK_CANDIDATE_GLSL
 #define GEODISK_CANDIDATE_GLSL
 
@@ -11,7 +11,7 @@ uint key_of(uint face) {
     return kSeveral || push.has_keys != 0u ? word_at(keys, face) : face;
 }
 
-// That of the job changes those of several surfaces alike.
+// Returns the seed of a face. The seed of the job changes those of all surfaces.
 uvec2 seed_of(uint face) {
     uvec2 seed = uvec2(push.seed_low, push.seed_high);
     if (kSeveral) {
@@ -25,17 +25,17 @@ float intensity_of(uint face) {
     return kSeveral ? uintBitsToFloat(part_word(part_of(face), 2u)) : push.intensity;
 }
 
-// Those of the job that the face has candidates in.
+// Returns the number of stages in which the face has candidates.
 uint stages_of(uint face) { return kSeveral ? part_word(part_of(face), 3u) : kAllStages; }
 
-// Where radii vary, candidates are as dense as 1 / r^2, so that every disk holds as many. Uniform
-// weights u of the corners are turned into u_k / s_k over their sum, which makes points as dense as
-// 1 / s^3 in a face; each is kept with probability s^3 / g^2, where g = 2 r. Between corners with s_k =
-// g_k^(2/3) s is nowhere more than g^(2/3), so that is no more than 1, and at least 0.059 however much
-// g varies. Returns whether this one is kept.
+// If radii vary, candidates are as dense as 1 / r^2, so that every disk holds about the same number.
+// Uniform weights u of the corners become u_k / s_k over their sum, which makes points as dense as 1 /
+// s^3 in a face. Each is kept with probability s^3 / g^2, where g = 2 r. With s_k = g_k^(2/3) at the
+// corners, s is nowhere more than g^(2/3), so the probability is at most 1, and at least 0.059 however
+// much g varies. Returns true if the candidate is kept.
 bool propose_by_factors(inout Candidate c, float fraction) {
     vec3 spreads = face_spreads(c.face).xyz;
-    // 1 / s_k but for a factor.
+    // 1 / s_k up to a common factor.
     precise float inverse0 = spreads.y * spreads.z;
     precise float inverse1 = spreads.x * spreads.z;
     precise float inverse2 = spreads.x * spreads.y;
@@ -54,7 +54,8 @@ bool propose_by_factors(inout Candidate c, float fraction) {
     return threshold < cube;
 }
 
-// The share of candidates that gives the share x of the samples that fit: src/mesh/candidate_share.hpp.
+// Returns the share of candidates that gives the share x of the samples that fit:
+// src/mesh/candidate_share.hpp.
 float candidates_for_share(float x) {
     precise float rest = 1.14 - x;
     precise float slope = 0.06517 + x * (-0.0582 + x * 0.01263);
@@ -63,15 +64,15 @@ float candidates_for_share(float x) {
     return ratio(above, below);
 }
 
-// How dense candidates are at a point of this density and packing.
+// Returns the density of candidates at a point with this density and packing.
 float thinned(float density, float packing) {
     float share = ratio(density, packing);
     precise float result = packing * (share < 1.0 ? candidates_for_share(share) : 1.0);
     return result;
 }
 
-// Where radii come from a density, uniform points are kept with a probability in proportion to how dense
-// candidates are, a convex function that is largest at a corner.
+// If radii come from a density, uniform points are kept with a probability proportional to the density
+// of candidates, a convex function that is largest at a corner.
 bool propose_by_density(Candidate c, vec4 radii, float fraction) {
     vec3 densities = face_spreads(c.face).xyz;
     float most = max(thinned(densities.x, -radii.x),
@@ -83,9 +84,9 @@ bool propose_by_density(Candidate c, vec4 radii, float fraction) {
     return threshold < thinned(interpolated(densities, weight1, weight2), packing);
 }
 
-// Returns whether to keep the candidate, which has uniform weights and is moved in its face.
+// Returns true if the candidate is kept. It has uniform weights, and is moved in its face.
 bool propose(inout Candidate c, uvec4 random) {
-    // The bits that the weights left over.
+    // Bits that the weights do not use.
     uint bits = (random.z & 511u) << 9 | (random.w & 511u);
     precise float fraction = (float(bits) + 0.5) * 3.814697265625e-6;
     vec4 radii = face_radii(c.face);
@@ -106,7 +107,7 @@ Candidate draw_candidate(uint face, uint stage, uint number) {
     return c;
 }
 
-// How many candidates a face of this area expects in each stage.
+// Returns the expected number of candidates per stage of a face of this area.
 float mean_in(uint face, float area) {
     precise float mean = intensity_of(face) * area;
     if (kAdaptive) {

@@ -1,4 +1,4 @@
-// The grid of cells over a face, in the frame of its longest edge.
+// Grid of cells over a face, in the frame of its longest edge.
 #ifndef GEODISK_CELLS_GLSL
 #define GEODISK_CELLS_GLSL
 
@@ -10,7 +10,7 @@ struct Grid {
 };
 
 bool single_cell(uint word) { return (word >> kFaceCornerShift) == kSingleCell; }
-// Of a face with more than one cell: the corner its longest edge starts from.
+// Returns the corner where the longest edge starts, for a face with several cells.
 uint grid_corner(uint word) { return word >> kFaceCornerShift; }
 
 uint cell_count(float extent, float per_unit) {
@@ -26,7 +26,7 @@ uint cell_at(float x, uint count, float per_unit) {
     return scaled >= float(count - 1u) ? count - 1u : uint(scaled);
 }
 
-// `len` and `height` are those of the face over its longest edge.
+// Returns the grid; `len` and `height` are those of the face over its longest edge.
 Grid face_grid(uint word, float len, float height, float per_unit) {
     bool single = single_cell(word);
     return Grid(word & kFirstCellMask, single ? 1u : cell_count(len, per_unit),

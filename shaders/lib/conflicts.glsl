@@ -2,7 +2,7 @@
 #ifndef GEODISK_CONFLICTS_GLSL
 #define GEODISK_CONFLICTS_GLSL
 
-// The row of a slot's list that holds this entry.
+// Returns the row of a slot's list that holds this entry.
 uvec4 list_row_at(uint slot, uint at) { return row_at(pool, list_row(slot) + (at >> 2)); }
 
 uint active_conflict(uint slot, uint number) {

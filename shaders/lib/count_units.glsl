@@ -1,7 +1,7 @@
-// How many candidates each face or box cell has in each stage, by the Poisson law (paper
+// Counts the candidates of each face or box cell in each stage, by the Poisson law (paper
 // GenerateDensePoints, sections 3.3 and 4.2). One invocation per face or cell. Needs mean_count(cell),
-// what one stage expects, stages_of(cell), how many stages of the job it has, count_key(cell) and with that count_words(key, stage), random ones; tells
-// counted(cell, number in all).
+// the expected number per stage; stages_of(cell), its number of stages; count_key(cell) and
+// count_words(key, stage), random words; and counted(cell, total), which receives the result.
 #ifndef GEODISK_COUNT_UNITS_GLSL
 #define GEODISK_COUNT_UNITS_GLSL
 
@@ -16,7 +16,7 @@ void main() {
     }
     float mean = mean_count(cell);
     bool has_any = mean >= kSmallestMean;
-    // What the stages share is not left to the compiler: lavapipe's would do it for each.
+    // Shared by all stages explicitly: lavapipe's compiler would compute it for each.
     PoissonLaw law = poisson_law(mean);
     uvec3 key = count_key(cell);
     uint stages = stages_of(cell);

@@ -1,12 +1,12 @@
-// Length of a curve between two points whose normals turn evenly on the way (Bowers, Wang, Wei and
-// Maletz 2010): d * (asin(from) - asin(to)) / (from - to), where d is the straight distance, and from and
-// to the cosines of the angles of the way with both normals.
+// Length of a curve between two points whose normals turn evenly along it (Bowers, Wang, Wei and Maletz
+// 2010): d * (asin(from) - asin(to)) / (from - to), where d is the straight distance, and from and to
+// are the cosines of its angles with both normals.
 #ifndef GEODISK_CURVE_GLSL
 #define GEODISK_CURVE_GLSL
 
 #include "rounding.glsl"
 
-// a / b for |a| <= b, correctly rounded.
+// Returns a / b for |a| <= b, correctly rounded.
 float signed_ratio(float a, float b) {
     float magnitude = ratio(abs(a), b);
     return a < 0.0 ? -magnitude : magnitude;
@@ -17,7 +17,7 @@ float product3(vec3 a, vec3 b) {
     return sum;
 }
 
-// To 2^-23, by a polynomial (Cephes) up to a half, and from there by that of the half angle.
+// Returns the arc sine to 2^-23, by a polynomial (Cephes) up to a half, beyond that by the half angle.
 float arcsine(float x) {
     float magnitude = abs(x);
     bool is_wide = magnitude > 0.5;
@@ -34,14 +34,15 @@ float arcsine(float x) {
     return x < 0.0 ? -result : result;
 }
 
-// Whether the curve is shorter than a limit, given as square; `square` is that of the straight way.
+// Returns true if the curve is shorter than a limit, given as a square; `square` is that of the straight
+// line.
 bool is_short_curve(vec3 way, float square, vec3 normal, vec3 other_normal, float limit2) {
     float straight = root(square);
     float from = signed_ratio(product3(normal, way), straight);
     float to = signed_ratio(product3(other_normal, way), straight);
     precise float apart = from - to;
     precise float middle = 0.5 * (from + to);
-    // The limit of the quotient for equal angles, where it would lose its digits.
+    // Limit of the quotient for equal angles, where it would lose digits.
     precise float flat_limit2 = limit2 * (1.0 - middle * middle);
     precise float angle = arcsine(from) - arcsine(to);
     precise float curve = straight * abs(angle);

@@ -1,4 +1,4 @@
-// How many coordinates points have.
+// Number of coordinates of points.
 #ifndef GEODISK_DIMENSION_GLSL
 #define GEODISK_DIMENSION_GLSL
 

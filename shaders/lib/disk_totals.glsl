@@ -1,5 +1,4 @@
-// What disks took in a dispatch, summed over each work group before it goes to the
-// control record.
+// Totals of the disks of a dispatch, summed per work group before they go to the control record.
 #ifndef GEODISK_DISK_TOTALS_GLSL
 #define GEODISK_DISK_TOTALS_GLSL
 
@@ -18,7 +17,7 @@ const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u, 0u);
 DiskTotals own_disks; // of this invocation
 shared DiskTotals group_disks;
 
-// Every invocation of the group must call it.
+// Adds up the totals. Every invocation of the group must call it.
 void sum_disks() {
     bool is_first = gl_LocalInvocationID.x == 0u;
     if (is_first) {

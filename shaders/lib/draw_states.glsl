@@ -1,10 +1,11 @@
-// Sets the states of candidates that are drawn. Needs `states` and each_drawn.glsl.
+// Sets the states of drawn candidates. Needs `states` and each_drawn.glsl.
 #ifndef GEODISK_DRAW_STATES_GLSL
 #define GEODISK_DRAW_STATES_GLSL
 
 #include "states.glsl"
 
-// Those of the numbers of the work group: all places together are all numbers, in another order.
+// Sets the states at the numbers of the work group. All places together are all numbers in another
+// order.
 void draw_states() {
     uvec2 numbers = own_numbers();
     for (uint first = numbers.x + 32u * gl_LocalInvocationID.x; first < numbers.y;

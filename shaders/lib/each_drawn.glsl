@@ -1,5 +1,5 @@
-// Goes through all candidates by their numbers, kDrawBlock of them to a work group, and calls
-// visit(unit, number) for each. An invocation has numbers that follow each other, mostly of one unit.
+// Visits all candidates by number, kDrawBlock per work group, and calls visit(unit, number) for each. An
+// invocation has consecutive numbers, mostly of one unit.
 #ifndef GEODISK_EACH_DRAWN_GLSL
 #define GEODISK_EACH_DRAWN_GLSL
 
@@ -9,7 +9,7 @@ layout(local_size_x = kWideLanes) in;
 
 void visit(Unit unit, uint number);
 
-// Those of the work group, from the first on and before the second: none where the buffers do not hold all.
+// Returns the numbers of the work group, as first and end: none if the buffers do not hold all.
 uvec2 own_numbers() {
     uint count = drawn_count();
     uint begin = own_group() * kDrawBlock;

@@ -1,6 +1,6 @@
-// Candidates on a surface (paper section 3.3), uniform in each face, each a pure function of the seed, the
-// key of its face, its stage and its number there; in integers but for one correctly rounded root.
-// Stages count from the first of the chunk. Needs key_of(face) and seed_of(face).
+// Candidates on a surface (paper section 3.3), uniform in each face. Each is a pure function of the
+// seed, the key of its face, its stage and its number there, in integers except for one correctly
+// rounded root. Stages count from the first of the chunk. Needs key_of(face) and seed_of(face).
 #ifndef GEODISK_FACE_CANDIDATE_GLSL
 #define GEODISK_FACE_CANDIDATE_GLSL
 
@@ -23,7 +23,7 @@ uvec4 random_of(uint face, uint number, uint stage, uint proposal) {
 }
 
 void weigh_evenly(inout Candidate c, uvec4 random) {
-    // Odd multiples of 2^-24 keep clear of 0 and 1.
+    // Odd multiples of 2^-24 are never 0 or 1.
     uint alpha = (random.z >> 9) << 1 | 1u;
     uint beta = (random.w >> 9) << 1 | 1u;
     precise float square = float(alpha) * 5.9604645e-8;
@@ -45,7 +45,7 @@ Candidate draw_evenly(uint face, uint stage, uint number) {
 
 uvec3 count_key(uint face) { return uvec3(seed_of(face), key_of(face)); }
 
-// Of its count in a stage of the job.
+// Returns the random words for its count in a stage of the job.
 uvec4 count_words(uvec3 key, uint stage) {
     return philox(key.xy, uvec4(key.z, 0u, stage, kCountProposal));
 }

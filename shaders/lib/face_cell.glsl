@@ -1,4 +1,4 @@
-// The cell that a candidate lies in.
+// Cell of a candidate on a face.
 #ifndef GEODISK_FACE_CELL_GLSL
 #define GEODISK_FACE_CELL_GLSL
 
@@ -6,7 +6,7 @@
 #include "half_edge.glsl"
 #include "cells.glsl"
 
-// `word` is the face's word of cells, of a face with more than one.
+// Returns the cell of a candidate; `word` is the cell word of a face with several cells.
 uint cell_of(Candidate c, uint word) {
     uint corner = grid_corner(word);
     uvec4 lengths = load_lengths(c.face);

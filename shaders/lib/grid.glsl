@@ -1,6 +1,6 @@
-// A grid of cells over a box of R^n. A cell's head in the table is a linear form of its place modulo
-// the table's size: one to one where the table holds the whole grid, else a hash. Cells next to each
-// other along the first axis have heads next to each other.
+// A grid of cells over a box of R^n. The head of a cell in the table is a linear form of its position
+// modulo the size of the table: one to one if the table holds the whole grid, else a hash. Cells
+// adjacent along the first axis have adjacent heads.
 #ifndef GEODISK_GRID_GLSL
 #define GEODISK_GRID_GLSL
 
@@ -24,7 +24,7 @@ Axis load_axis(uint axis) {
                 row_at(axes, kAxisRows * axis + 1u).w);
 }
 
-// The cell that holds a coordinate, and where in it, in units of 2^-32 of its width.
+// Returns the cell that holds a coordinate, and the position in it in units of 2^-32 of its width.
 uint cell_on(Axis axis, uint coordinate, out uint inside) {
     uint cell;
     umulExtended(coordinate, axis.per_step, cell, inside);

@@ -1,4 +1,4 @@
-// Counts the candidates of every head of a grid's table of cells, one entry behind that of the head, see
+// Counts the candidates of every head of a grid's cell table, one entry after that of the head, see
 // bin.comp. Needs draw_point(unit, number, record).
 #ifndef GEODISK_GRID_BIN_GLSL
 #define GEODISK_GRID_BIN_GLSL

@@ -1,4 +1,4 @@
-// The head in a grid's table of cells of the cell that holds a point.
+// Head in a grid's cell table of the cell that holds a point.
 #ifndef GEODISK_GRID_HEAD_GLSL
 #define GEODISK_GRID_HEAD_GLSL
 

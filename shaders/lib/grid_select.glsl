@@ -1,6 +1,6 @@
-// Selects the next batch where disks are found by a grid in space. The points of samples of earlier
-// chunks, which have no place, go behind those of the candidates. Needs draw_point(unit, number,
-// record), point_of(record) and words_per_point().
+// Selects the next batch for disks found by a grid in space. The points of samples of earlier chunks,
+// which have no place, go after those of the candidates. Needs draw_point(unit, number, record),
+// point_of(record) and words_per_point().
 #ifndef GEODISK_GRID_SELECT_GLSL
 #define GEODISK_GRID_SELECT_GLSL
 

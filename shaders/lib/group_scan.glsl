@@ -1,11 +1,11 @@
-// Sum of a value over the lanes before this one, in a work group of kScanLanes.
+// Exclusive sum of a value over the lanes of a work group of kScanLanes.
 #ifndef GEODISK_GROUP_SCAN_GLSL
 #define GEODISK_GROUP_SCAN_GLSL
 
 shared uint group_sums[kScanLanes];
 
-// Every lane must call it. `total` is the sum over all lanes. Few steps with more terms each: a barrier
-// costs more than a term.
+// Returns the sum over the lanes before this one. Every lane must call it. `total` is the sum over all
+// lanes. Few steps with several terms each: a barrier costs more than a term.
 uint group_exclusive_scan(uint lane, uint value, out uint total) {
     uint sum = value;
     for (uint offset = 1u; offset < kScanLanes; offset *= kScanTerms) {

@@ -1,5 +1,5 @@
-// Read-only access to the mesh. All lengths are in units of the minimum distance, all coordinates
-// in the frame of a half-edge: origin at its start, x along it, its face in y >= 0.
+// Read-only access to the mesh. Lengths are in units of the minimum distance, coordinates in the frame
+// of a half-edge: origin at its start, x along it, its face in y >= 0.
 #ifndef GEODISK_HALF_EDGE_GLSL
 #define GEODISK_HALF_EDGE_GLSL
 
@@ -10,10 +10,10 @@ struct Edge {
     float cosine; // of the face's angle at the origin
     float sine;
     uint origin;  // vertex and flags
-    uint around;  // the next half-edge of the edge, and whether it runs the same way
+    uint around;  // next half-edge of the edge, and 1 if it has the same direction
 };
 
-// The lengths of a face's edges, and its word of cells.
+// Returns the lengths of a face's edges, and its cell word.
 uvec4 load_lengths(uint face) { return row_at(faces, kFaceRows * push.faces + face); }
 uint load_cells(uint face) { return load_lengths(face).w; }
 
@@ -27,15 +27,16 @@ uint next_corner(uint corner) { return corner == 2u ? 0u : corner + 1u; }
 uint previous_corner(uint corner) { return corner == 0u ? 2u : corner - 1u; }
 uint next_in_face(uint h) { return h % 3u == 2u ? h - 2u : h + 1u; }
 
-// Apex of the face in the frame of an edge; `previous` is the edge that ends where it starts.
+// Returns the apex of the face in the frame of an edge; `previous` is the edge that ends where it
+// starts.
 vec2 apex_of(Edge edge, Edge previous) {
     precise float x = previous.len * edge.cosine;
     precise float y = previous.len * edge.sine;
     return vec2(x, y);
 }
 
-// Position, in the frame of the half-edge at this corner, of the point with these weights of the
-// second and third corner of the face.
+// Returns the position, in the frame of the half-edge at this corner, of the point with these weights of
+// the second and third corner of the face.
 vec2 position_in(uint corner, float len, vec2 apex, float weight1, float weight2) {
     precise float weight0 = 1.0 - weight1 - weight2;
     float to_end = corner == 0u ? weight1 : (corner == 1u ? weight2 : weight0);

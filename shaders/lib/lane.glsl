@@ -1,11 +1,11 @@
-// The lane at work on one disk: all that it keeps in its slice between dispatches, and where that lies.
+// State of a lane that computes a disk: everything it keeps in its slice between dispatches, and where.
 #ifndef GEODISK_LANE_GLSL
 #define GEODISK_LANE_GLSL
 
 layout(constant_id = kSpecTrims) const bool kTrims = false;
 
-// The nearer child of a window is the next to be taken and need not go through the pool: stores cost most of
-// a trip on lavapipe. Not in kernels that are short of registers.
+// The nearer child of a window is taken next and need not go through the pool: stores cost most of a
+// trip on lavapipe. Not in kernels that are short of registers.
 const bool kHolds = !kTrims && !kAdaptive;
 
 LaneRec lane;
@@ -16,10 +16,11 @@ uint first_vertex;
 uint first_kept;
 uint first_remembered;
 
-// A row of this lane in the pool.
+// Returns the index in the pool of a row of this lane.
 uint own_row(uint at) { return slice + at * kPoolBlock; }
 
-// Member by member: of a struct that is assigned whole, glslang 12 does not end to ask what is precise.
+// Member by member: for a struct that is assigned as a whole, glslang 12 loops forever when it looks for
+// `precise`.
 void load_lane(uint index) {
     slice = first_row(index);
     first_event = kLaneRows + kWindowRows * P.window_capacity;
@@ -78,7 +79,7 @@ void save_lane() {
                                floatBitsToUint(lane.held_y), floatBitsToUint(lane.held_b0));
 }
 
-// What the lane knows of vertices and windows is empty, as of its table's next disk.
+// Empties the vertices and windows of the lane, for the next disk of its table.
 void begin_windows() {
     bool wrapped = lane.generation == kMostGenerations;
     lane.generation = wrapped ? 1u : lane.generation + 1u;
@@ -97,7 +98,7 @@ void begin_windows() {
     lane.vertices = 0u;
 }
 
-// The lane takes a slot.
+// Begins the disk of a slot.
 void begin_disk(uint slot) {
     lane.slot = slot;
     lane.idle_conflicts = 0u;

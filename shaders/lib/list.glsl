@@ -1,12 +1,13 @@
-// The list of conflicts of the slot at work, idle ones from the front, active ones from the back. Needs
-// `overflow`, to report that the list is full.
+// Conflict list of the slot in work, idle ones from the front, active ones from the back. Sets
+// `overflow` if the list is full.
 #ifndef GEODISK_LIST_GLSL
 #define GEODISK_LIST_GLSL
 
-uint list_first; // row of this slot's list
+uint list_first; // first row of this slot's list
 
-// The counts are how many are listed so far. The place of one that is not to be listed is written, too, where
-// the next goes: on lavapipe a store is a branch for every lane, which should not hang on chance.
+// Lists a conflict; the counts are those so far. The place of a candidate that is not listed is written
+// too, where the next one goes: on lavapipe a store is a branch per lane, which should not depend on
+// chance.
 void list_conflict(inout uint idle_count, inout uint active_count, uint place, bool is_active,
                    bool is_listed) {
     if (idle_count + active_count >= P.list_capacity) {

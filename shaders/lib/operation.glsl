@@ -1,4 +1,5 @@
-// The operation in flight: what spreads, which the lane's record holds, and over which face.
+// The operation in flight: a window or source, which the lane's record holds, and the face that it
+// spreads over.
 #ifndef GEODISK_OPERATION_GLSL
 #define GEODISK_OPERATION_GLSL
 
@@ -9,24 +10,24 @@ Edge left;          // ends where edge starts
 vec2 apex;          // in the frame of edge
 uint cell_word;
 
-// Where radii vary.
+// Used if radii vary.
 float own_radius;   // of the candidate whose disk this is
 vec4 radii;         // of the face
 
-// The distance below which a candidate with this radius conflicts.
+// Returns the distance below which a candidate with this radius conflicts.
 float limit_with(float radius) {
     precise float limit = (own_radius + radius) + (P.limit - 1.0);
     return limit;
 }
 
-// Beyond this distance no path through the face leads on to a candidate that conflicts.
+// Returns the distance beyond which no path through the face leads to a conflict.
 float reach() { return kAdaptive ? limit_with(radii.w) : P.limit; }
 
-// Nor, beyond this one, to a candidate in the face.
+// Returns the distance beyond which no candidate in the face conflicts.
 float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : P.limit; }
 
-// Of a struct that is assigned whole, by an index that comes from its own members, glslang 12 asks
-// without end what is precise. It does not look into functions.
+// Loads member by member: for a struct that is assigned as a whole, by an index from its own members,
+// glslang 12 looks for `precise` without end. It does not look into functions.
 void load_into(out Edge side, uint face, uint corner, uvec4 lengths) {
     side = load_edge(face, corner, lengths);
 }

@@ -1,4 +1,4 @@
-// Which of several surfaces a face is of, and what each has of its own.
+// Several surfaces: the surface of a face, and the data of each surface.
 #ifndef GEODISK_PARTS_GLSL
 #define GEODISK_PARTS_GLSL
 
@@ -8,7 +8,7 @@ GEODISK_WORDS(kBindKeys, keys);
 
 uint part_of(uint face) { return word_at(keys, push.faces + face); }
 
-// A word of PartRec.
+// Returns a word of PartRec.
 uint part_word(uint part, uint word) {
     return word_at(keys, 2u * push.faces + kPartWords * part + word);
 }

@@ -1,4 +1,4 @@
-// Poisson numbers from random words, in operations that round the same everywhere.
+// Poisson numbers from random words, with operations that round the same everywhere.
 #ifndef GEODISK_POISSON_GLSL
 #define GEODISK_POISSON_GLSL
 
@@ -8,11 +8,11 @@
 const float kSmallestProbability = 2.3283064e-10; // 2^-32
 // Means below it give none.
 const float kSmallestMean = 9.094947e-13; // 2^-40
-// The part of a mean that goes by the tail, and most steps of that.
+// Maximum part of a mean that uses the tail, and maximum of its steps.
 const float kLargestTailMean = 8.0;
 const uint kMostTailSteps = 64u;
 
-// In (0, 1).
+// Returns a number in (0, 1).
 float unit_fraction(uint word) {
     precise float low = float(word & 255u) + 0.5;
     precise float whole = float(word >> 8) * 256.0;
@@ -20,7 +20,7 @@ float unit_fraction(uint word) {
     return fraction;
 }
 
-// The law of a mean, in what all its numbers share.
+// The Poisson law of a mean: values that all its numbers share.
 struct PoissonLaw {
     uint whole;        // part of the mean, which goes from the mode outwards
     float rest;        // below 8
@@ -33,7 +33,7 @@ PoissonLaw poisson_law(float mean) {
     precise float rest = mean - float(law.whole);
     law.rest = rest;
     precise float r = rest * 0.0625;
-    // 1 - exp(-r), in powers of r.
+    // 1 - exp(-r) as a power series.
     precise float t8 = 1.0 - r * 0.125;
     precise float t7 = 1.0 - r * 0.14285715 * t8;
     precise float t6 = 1.0 - r * 0.16666667 * t7;
@@ -54,7 +54,7 @@ PoissonLaw poisson_law(float mean) {
     return law;
 }
 
-// How many n have P(N >= n) above the fraction, for the rest of the mean.
+// Returns, for the rest of the mean, how many n have P(N >= n) above the fraction.
 uint poisson_tail(PoissonLaw law, uint word) {
     float fraction = unit_fraction(word);
     // P(N = n) and P(N >= n + 1).
@@ -71,8 +71,8 @@ uint poisson_tail(PoissonLaw law, uint word) {
     return n;
 }
 
-// For a whole mean of at least 8: from the mode outwards, until the fraction is used up. Some 1.6 times
-// the square root of the mean in steps, 13 times at most.
+// Returns a number for an integer mean of at least 8: from the mode outwards, until the fraction is used
+// up. Takes about 1.6 times the square root of the mean in steps, at most 13 times.
 uint poisson_walk(uint mean, uint word) {
     float rest = unit_fraction(word);
     float c = float(mean);
@@ -113,7 +113,7 @@ uint poisson_walk(uint mean, uint word) {
     return mean;
 }
 
-// Of a mean that is not below kSmallestMean.
+// Returns a Poisson number for a mean of at least kSmallestMean.
 uint poisson(PoissonLaw law, uint first, uint second) {
     uint count = poisson_tail(law, second);
     return law.whole > 0u ? count + poisson_walk(law.whole, first) : count;

@@ -1,4 +1,4 @@
-// What every kernel starts with.
+// Included first by every kernel.
 #ifndef GEODISK_PRELUDE_GLSL
 #define GEODISK_PRELUDE_GLSL
 
@@ -13,7 +13,7 @@
 #endif
 GEODISK_PUSH(GEODISK_OWN_PUSH);
 
-// Passes over faces, candidates or samples are cut into several dispatches.
+// Returns the work group within a pass, which may be cut into several dispatches.
 uint own_group() { return push.first_group + gl_WorkGroupID.x; }
 
 #endif

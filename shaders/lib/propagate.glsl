@@ -1,25 +1,25 @@
-// Windows (improved Chen-Han: Xin and Wang 2009; one angle one split: Chen and Han 1990) cut at the
-// limit. kernels_ref/kernels/detect.hpp is the same in plain C++ and easier to read first.
+// Windows (improved Chen-Han: Xin and Wang 2009; one angle, one split: Chen and Han 1990), cut at the
+// limit. kernels_ref/kernels/detect.hpp is the same in plain C++; read that first.
 //
-// A window is kept in the frame of the half-edge it leaves its face through: source at (x, y), y >=
-// 0, lit interval [b0, b1]. Rows: (next half-edge around the edge and whether it runs the same way,
-// x, y, b0), (b1, sigma, chain, known). The event of a vertex is one row: (vertex, sigma, chain, corner
-// its path came in through).
+// A window is stored in the frame of the half-edge through which it leaves its face: source at (x, y), y
+// >= 0, lit interval [b0, b1]. Rows: (next half-edge around the edge, with its direction bit, x, y, b0),
+// (b1, sigma, chain, known). The event of a vertex is one row: (vertex, sigma, chain, corner its path
+// came in through).
 #ifndef GEODISK_PROPAGATE_GLSL
 #define GEODISK_PROPAGATE_GLSL
 
 #include "operation.glsl"
 
-// Whether `distance` plus a straight way beats the window's own distance to a point at this squared
-// distance from its source, by more than the margin.
+// Returns true if `distance` plus a straight path beats the window's own distance to a point, at this
+// squared distance from its source, by more than the margin.
 bool beats(float distance, float way, float own_square) {
     precise float rest = ((distance + way) - lane.sigma) + P.margin;
     precise float square = rest * rest;
     return rest < 0.0 || square < own_square;
 }
 
-// A known distance as a window carries it: in steps of 2^-15, never less. A bound too large only
-// lets a window live that could be dropped.
+// A window carries known distances rounded up to multiples of 2^-15. A bound that is too large only
+// keeps a window that could be dropped.
 const uint kUnknownSteps = 0xffffu;
 
 uint steps_up(float distance) {
@@ -32,8 +32,8 @@ float from_steps(uint steps) {
     return steps == kUnknownSteps ? kFar : distance;
 }
 
-// What was known of the start and the end of half_edge when the window in flight set out. Where many
-// faces share the edge the window carries its own half-edge instead.
+// Returns the known distances of start and end of half_edge when the window in flight was made. If many
+// faces share the edge, the window carries its own half-edge instead.
 vec2 known_ends() {
     bool turned = lane.mode == kModeOpposite;
     uint low = lane.known & 0xffffu;
@@ -43,7 +43,7 @@ vec2 known_ends() {
                 unknown ? kFar : from_steps(turned ? low : high));
 }
 
-// How far along a child edge the ray through b falls, for a source at (sx, -sy), all measured from
+// Returns the position on a child edge of the ray through b, for a source at (sx, -sy), measured from
 // the corner that parent and child share.
 float along(float b, float sx, float sy, vec2 top, float child_length) {
     precise float over = sy * b;
@@ -52,14 +52,15 @@ float along(float b, float sx, float sy, vec2 top, float child_length) {
     return result;
 }
 
-// How the window in flight meets the apex of the face it enters.
+// Relation of the window in flight to the apex of the face it enters.
 struct Meeting {
     float crossing;       // where the ray to the apex crosses half_edge
     float distance;       // of the apex
     bool sees_apex;
-    bool to_left;         // a child goes over the left edge, from the apex on if the other does too
+    bool to_left;         // a child crosses the left edge, from the apex on if another crosses the right
+                          // edge
     bool to_right;
-    bool reaches_left;    // the interval lies to the left of the apex, at least in part
+    bool reaches_left;    // the interval is at least partly left of the apex
     bool reaches_right;
 };
 
@@ -81,9 +82,8 @@ Meeting meet_apex(float sx, vec2 lit) {
     return m;
 }
 
-// One angle, one split: behind a shorter window through the same angle only the child on this
-// window's own side can matter. Rays that cross at one place within rounding do not tell which side
-// is whose.
+// One angle, one split: after a shorter window through the same angle, only the child on this window's
+// own side matters. If both rays cross at the same position within rounding, the sides are ambiguous.
 void split_once(inout Meeting m, VertexRow row) {
     if ((P.path_rules & kRuleSplitsOnce) != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
         row.through == lane.half_edge) {
@@ -97,8 +97,8 @@ void split_once(inout Meeting m, VertexRow row) {
     }
 }
 
-// The paths in flight end at vertices: those of a window at the apex, others at the ends of the
-// edge. Vertices that may bend shortest paths become events. Returns what is known of start, end and
+// Ends the paths in flight at vertices: those of a window at the apex, others at the ends of the edge.
+// Vertices where shortest paths may bend become events. Returns the known distances of start, end and
 // apex; `source_square` is the squared distance of the candidate from the start.
 vec3 reach_vertices(inout Meeting m, float source_square) {
     bool inside = lane.mode == kModeInside;
@@ -138,7 +138,7 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
     return distances;
 }
 
-// A window to be pushed; none if its distance is negative.
+// A window to push; none if its distance is negative.
 struct Window {
     float distance;
     uvec4 row0;
@@ -147,8 +147,8 @@ struct Window {
 
 const Window kNoChild = Window(-1.0, uvec4(0u), uvec4(0u));
 
-// The operation in flight leaves the face: from inside it through half_edge itself, as a window
-// through the left edge or the right one.
+// Returns the window with which the operation in flight leaves the face: from inside through half_edge
+// itself, as a window through the left or right edge.
 Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     bool inside = lane.mode == kModeInside;
     Edge child = left;
@@ -158,7 +158,7 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
         before = edge;
     }
     vec2 child_apex = apex_of(child, before);
-    // All measured from the corner that half_edge and child share.
+    // Measured from the corner that half_edge and child share.
     precise float from_end = edge.len - sx;
     precise float apex_from_end = edge.len - apex.x;
     precise float low_from_end = edge.len - lit.y;
@@ -199,8 +199,8 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
         py = child_y;
         i0 = is_left ? turned_low : low;
         i1 = is_left ? turned_high : high;
-        // Xin and Wang's filter by the third corner of the face, which lies at the child's apex:
-        // against the end of the lit interval next to half_edge.
+        // Xin and Wang's filter with the third corner of the face, at the apex of the child, against the
+        // end of the lit interval next to half_edge.
         float b = is_left ? i1 : i0;
         precise float apex_dx = child_apex.x - b;
         precise float own_dx = px - b;
@@ -208,12 +208,12 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
                         root(squared(apex_dx, child_apex.y)), squared(own_dx, py));
     }
     py = py < kSmallestOffset ? 0.0 : py;
-    // From the edge's own end nothing but the edge is lit: that vertex lights its fan itself, and
-    // rounding could carry the window around it for ever.
+    // A source at an end of the edge lights only the edge: that vertex lights its fan itself, and
+    // rounding could carry the window around it forever.
     precise float grain = len * kEdgeGrain;
     precise float beyond = len - px;
     bool on_end = py == 0.0 && (px <= grain || beyond <= grain);
-    // Xin and Wang's filter by the two ends of the edge.
+    // Xin and Wang's filter with the two ends of the edge.
     precise float left_of = i0 - px;
     precise float right_of = px - i1;
     float aside = px < i0 ? left_of : (px > i1 ? right_of : 0.0);
@@ -235,15 +235,15 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
                                                     : steps_up(ends.x) | steps_up(ends.y) << 16));
 }
 
-// Whether the window in flight comes back to a face that it has been in: a shortest path does not,
-// where faces are straight. One of a long chain remembers one face, that in which its chain was last a
-// power of two, and so finds every cycle (Brent 1980).
+// Returns true if the window in flight returns to a face where it has been; shortest paths do not, if
+// faces are straight. A window with a long chain remembers one face, where its chain was last a power of
+// two, and so finds every cycle (Brent 1980).
 bool turns_back() {
     return kTrims && (P.path_rules & kRuleStraightFaces) != 0u && lane.phase == kPhaseCross &&
            lane.half_edge / 3u == lane.remembered / 3u;
 }
 
-// What the windows remember that the operation in flight leaves behind.
+// Returns what the windows remember that the operation in flight makes.
 uint remember() {
     uint chain = lane.chain + 1u;
     if (chain < kFirstRemembered) {
@@ -253,11 +253,12 @@ uint remember() {
     return renews ? lane.half_edge : lane.remembered;
 }
 
-// Whether the window in flight goes on into another face of its edge, that is not the one it came from.
+// Returns true if the window in flight also enters another face of its edge, which is not the one it
+// came from.
 bool enters_more() { return (edge.origin & kManyFaces) != 0u && edge.around >> 1 != lane.known; }
 
-// What the operation in flight does to vertices and edges. The nearer child of a window comes last, or is
-// held, so that it is the next.
+// Applies the operation in flight to vertices and edges. The nearer child of a window is pushed last, or
+// held, so that it is next.
 void spread(float source_square) {
     bool inside = lane.mode == kModeInside;
     float sx = entry_x();

@@ -1,4 +1,4 @@
-// Division of many numbers by one, by a product, of which at most 1 is missing: lavapipe divides lane by lane.
+// Division of many numbers by one, as a product whose error is at most 1: lavapipe divides lane by lane.
 #ifndef GEODISK_QUOTIENT_GLSL
 #define GEODISK_QUOTIENT_GLSL
 

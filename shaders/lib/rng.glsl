@@ -1,4 +1,5 @@
-// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011): four words, a pure function of seed and counter.
+// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011): four random words, a pure function of seed and
+// counter.
 #ifndef GEODISK_RNG_GLSL
 #define GEODISK_RNG_GLSL
 

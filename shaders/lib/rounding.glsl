@@ -1,6 +1,6 @@
-// Division and square root, correctly rounded on every device. Vulkan leaves both open (2.5 ULP);
-// only + - * under `precise` are fixed. Where the device is known to round, kNativeRounding takes
-// its own; elsewhere an approximation is corrected by its exact residual (Dekker 1971).
+// Division and square root, correctly rounded on every device. Vulkan does not require this (2.5 ULP);
+// only + - * under `precise` are exact. kNativeRounding uses the device's own if it is known to round
+// correctly. Otherwise an approximation is corrected by its exact residual (Dekker 1971).
 #ifndef GEODISK_ROUNDING_GLSL
 #define GEODISK_ROUNDING_GLSL
 
@@ -8,7 +8,7 @@
 
 layout(constant_id = kSpecNativeRounding) const bool kNativeRounding = false;
 
-// What a * b lost to rounding when it became `product`; exact, by Veltkamp's splitting.
+// Returns the rounding error of a * b, which became `product`; exact, by Veltkamp's splitting.
 float product_error(float a, float b, float product) {
     precise float a_big = 4097.0 * a;
     precise float a_high = a_big - (a_big - a);
@@ -21,7 +21,7 @@ float product_error(float a, float b, float product) {
     return error;
 }
 
-// x - a * b, exact when a * b is within a few units of the last place of x.
+// Returns x - a * b; exact if a * b is within a few units of the last place of x.
 float residual(float x, float a, float b) {
     precise float product = a * b;
     precise float rest = (x - product) - product_error(a, b, product);
@@ -31,7 +31,7 @@ float residual(float x, float a, float b) {
 float next_up(float x) { return uintBitsToFloat(floatBitsToUint(x) + 1u); }
 float next_down(float x) { return uintBitsToFloat(floatBitsToUint(x) - 1u); }
 
-// a / b for 2^-40 b <= a < b, b normal.
+// Returns a / b for 2^-40 b <= a < b, b normal.
 float rounded_quotient(float a, float b) {
     // Scale by the power of two that brings b into [1, 2): exact.
     float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(b) & 0x7f800000u));
@@ -48,7 +48,7 @@ float rounded_quotient(float a, float b) {
     return rest > above ? up : (-rest > below ? down : q);
 }
 
-// sqrt(x) for x > 2^-100, x normal.
+// Returns sqrt(x) for x > 2^-100, x normal.
 float rounded_root(float x) {
     // Scale by an even power of two into [1, 4): exact.
     int exponent = (int(floatBitsToUint(x) >> 23) - 127) & ~1;
@@ -66,8 +66,7 @@ float rounded_root(float x) {
     return result;
 }
 
-// a / b clamped to [0, 1], for a >= 0; 1 where b is too small or negative, 0 where a vanishes
-// beside b.
+// Returns a / b clamped to [0, 1], for a >= 0; 1 if b is too small or negative, 0 if a is negligible.
 float ratio(float a, float b) {
     precise float least = b * kSmallestRatio;
     if (a <= least || a == 0.0) {

@@ -1,5 +1,5 @@
-// The candidates of a face that the operation in flight can reach: cells are visited row by row, some
-// candidates per trip of the main loop, so that a long list never outgrows the bound on iterations.
+// Tests the candidates of a face that the operation in flight can reach. Cells are visited row by row,
+// some candidates per trip of the main loop, so that a long list never exceeds the bound on iterations.
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 
@@ -10,7 +10,7 @@ uint first_weight1; // of all candidates, among `states`
 
 bool scanning() { return lane.scan_place < lane.scan_end || lane.scan_row != lane.scan_row_end; }
 
-// A point given in the frame of half_edge, in the frame of another half-edge of the face.
+// Converts a point from the frame of half_edge to that of another half-edge of the face.
 vec2 in_grid_frame(bool to_left, bool to_right, float px, float py) {
     precise float left_x = left.len - px * edge.cosine - py * edge.sine;
     precise float left_y = px * edge.sine - py * edge.cosine;
@@ -20,7 +20,7 @@ vec2 in_grid_frame(bool to_left, bool to_right, float px, float py) {
     return to_left ? vec2(left_x, left_y) : (to_right ? vec2(right_x, right_y) : vec2(px, py));
 }
 
-// Sets out the cells of the face within reach of the source at (sx, sy).
+// Finds the cells of the face within reach of the source at (sx, sy).
 void begin_scan(float sx, float sy) {
     uint corner = lane.half_edge % 3u;
     uint base = grid_corner(cell_word);
@@ -39,7 +39,7 @@ void begin_scan(float sx, float sy) {
     uint column = cell_at(low_x, grid.columns, grid.per_unit);
     uint row0 = cell_at(low_y, grid.rows, grid.per_unit);
     uint row1 = cell_at(high_y, grid.rows, grid.per_unit);
-    // Where all faces are of one cell, each has an entry for every stage.
+    // If all faces have one cell, each has an entry per stage.
     uint entries = P.all_single != 0u ? P.stages : 1u;
     lane.scan_columns = (cell_at(high_x, grid.columns, grid.per_unit) - column + 1u) * entries;
     lane.scan_stride = grid.columns * entries;
@@ -48,19 +48,19 @@ void begin_scan(float sx, float sy) {
     lane.scan_place = 0u;
     lane.scan_end = 0u;
     if (kAdaptive && rest <= 0.0) {
-        lane.scan_row = lane.scan_row_end; // The disk ends before the face.
+        lane.scan_row = lane.scan_row_end; // The disk does not reach the face.
     }
 }
 
-// Where radii vary: the squared distance from the source below which a candidate with these weights
-// conflicts.
+// Returns, if radii vary, the squared distance from the source below which a candidate with these
+// weights conflicts.
 float conflict_square(float weight1, float weight2) {
     precise float rest = limit_with(radius_at(radii, weight1, weight2)) - lane.sigma;
     precise float square = rest * rest;
     return rest > 0.0 ? square : 0.0;
 }
 
-// Candidates of a row of cells, from `first` on and before `end`.
+// Candidates of a row of cells: `first` up to, not including, `end`.
 struct Row {
     uint first;
     uint end;
@@ -70,7 +70,7 @@ layout(constant_id = kSpecManyRows) const bool kManyRows = false;
 
 const Strip kNoStrip = Strip(0u, 0u, 0u);
 
-// The row that is next but for so many, or what is left of one that was too long, alone.
+// Returns the row this many after the next, or only the rest of a row that was too long.
 Row load_row(uint number) {
     if (!kManyRows && number > 0u) {
         return Row(0u, 0u);
@@ -89,7 +89,7 @@ Strip strip_of(uint number, Row row) {
     return !kManyRows && number > 0u ? kNoStrip : load_strip(row.first, row.end);
 }
 
-// Leaves in the strip what is tested in this trip: all of it, or nothing from one on that is too much.
+// Reduces the strip to what is tested in this trip: all of it, or nothing once a strip is too much.
 void take_strip(Row row, inout Strip strip, inout uint room, inout bool is_full) {
     uint count = uint(bitCount(strip.undecided));
     is_full = is_full || count > room || !scanning();
@@ -105,7 +105,7 @@ void take_strip(Row row, inout Strip strip, inout uint room, inout bool is_full)
     room -= count;
 }
 
-// The first of two that has any left.
+// Returns the first of two strips that is not empty.
 Strip first_of(Strip a, Strip b) {
     if (a.undecided != 0u) {
         return a;
@@ -113,8 +113,8 @@ Strip first_of(Strip a, Strip b) {
     return b;
 }
 
-// Tests candidates against the operation in flight, no more than a trip may. Where they are is likely to be
-// far from the caches, so all rows of a trip are fetched before anything hangs on them.
+// Tests candidates against the operation in flight, at most as many as a trip allows. They are probably
+// not in the caches, so all rows of a trip are fetched before anything depends on them.
 void scan_some() {
     bool inside = lane.mode == kModeInside;
     uint corner = lane.half_edge % 3u;
@@ -139,7 +139,7 @@ void scan_some() {
     take_strip(row1, strip1, room, is_full);
     take_strip(row2, strip2, room, is_full);
     take_strip(row3, strip3, room, is_full);
-    // One loop for all, in which lanes wait for each other once.
+    // A single loop, so that lanes wait for each other only once.
     for (uint k = room; k < kScanPerTrip; ++k) {
         Strip strip = first_of(strip0, first_of(strip1, first_of(strip2, strip3)));
         uint rest = strip.undecided & (strip.undecided - 1u);

@@ -1,5 +1,5 @@
-// Which candidates are looked at next, and when a run is done. Nothing of it bears on the samples: the
-// candidates of a batch are always all idle ones up to some order.
+// Schedule: which candidates come next, and when a run is done. It does not affect the samples: a batch
+// always contains all idle candidates up to some order.
 #ifndef GEODISK_SCHEDULE_GLSL
 #define GEODISK_SCHEDULE_GLSL
 
@@ -7,22 +7,22 @@ layout(constant_id = kSpecLocalSize) const uint kSlotLocalSize = 64u;
 
 GEODISK_BUFFER(kBindList, , uint, list);
 
-// Of the places of the list of idle candidates, filled on average.
+// Average share of the places in the list of idle candidates that is filled.
 const float kListFill = 0.75;
 
 uint groups_of_slots(uint count) { return (count + kSlotLocalSize - 1u) / kSlotLocalSize; }
 
-// Ranges of orders that the list is kept by.
+// Returns the number of ranges of orders in the list.
 uint list_ranges() { return (push.idle_capacity + kListRange - 1u) / kListRange; }
-// Where the places of a range lie in the list: behind the number of them.
+// Returns where a range begins in the list: its count, then its places.
 uint list_head(uint range) { return range * (kListRange + 1u); }
 
 uint range_of(uint order) { return (order - control.list_first) / control.list_width; }
-// Those of the batch, from the first on.
+// Returns the number of ranges of the batch.
 uint due_ranges() { return range_of(control.batch_end - 1u) - control.first_range + 1u; }
 
-// The order up to which so many idle candidates are expected, from `first` on: disks reject them
-// whatever their order.
+// Returns the order up to which this many idle candidates are expected, from `first` on. Disks reject
+// candidates whatever their order.
 uint order_after(uint first, float idle) {
     precise float spacing = float((push.stages << kPriorityBits) - first) /
                             max(float(control.idle), 1.0);
@@ -31,23 +31,23 @@ uint order_after(uint first, float idle) {
     return ahead >= left ? push.end_order : first + max(uint(ahead), 1u);
 }
 
-// Whether the first of those that are due get the slots, as many as there are.
+// Returns true if exactly the first candidates that are due get the slots.
 bool is_ranked() { return push.slots <= kMostRanked; }
 
-// So many that mostly all slots are filled where they are ranked, else so few that mostly all of them
-// find a slot: one that finds none cuts the batch short.
+// Returns the number of idle candidates to aim at: if ranked, so many that mostly all slots are filled;
+// else so few that mostly all find a slot, since one without a slot cuts the batch short.
 float wanted_idle() {
     precise float deviation = sqrt(float(push.slots));
     precise float wanted = float(push.slots) + (is_ranked() ? 3.0 : -1.5) * deviation;
     return wanted;
 }
 
-// An end for orders from `first` on, which so many idle candidates are expected to be below.
+// Returns an order below which this many idle candidates are expected, from `first` on.
 uint end_after(uint first, float idle) {
     return first + min(order_after(first, idle) - first, control.longest_span);
 }
 
-// Sets select out on all candidates, to list the idle ones from `first` on anew.
+// Prepares select for all candidates, to list the idle ones from `first` on again.
 void prepare_list(uint first) {
     uint ranges = list_ranges();
     precise float filled = kListFill * float(ranges * kListRange);
@@ -61,13 +61,13 @@ void prepare_list(uint first) {
     }
 }
 
-// Blocks of candidates that a select for the list goes through next.
+// Returns the blocks of candidates for the next select that fills the list.
 uint next_blocks() {
     uint blocks = (control.drawn + kSelectBlock - 1u) / kSelectBlock;
     return min(blocks - control.listed_blocks, push.list_groups);
 }
 
-// Sets out select alone, with so many work groups.
+// Prepares only select, with this many work groups.
 void set_out_select(uint groups) {
     control.selected_groups = 0u;
     control.select_x = groups;
@@ -78,7 +78,7 @@ void set_out_select(uint groups) {
     control.count_x = 0u;
 }
 
-// Sets the next select out on the batch after first_order.
+// Prepares select for the batch after first_order.
 void prepare_select() {
     uint first = control.first_order;
     uint groups;
@@ -111,7 +111,7 @@ void prepare_select() {
     set_out_select(groups);
 }
 
-// Sets out what comes next, if anything does and there is room for its samples.
+// Prepares the next step, if there is one and there is room for its samples.
 void go_on() {
     bool is_enough = control.accepted >= push.stop_count || control.drawn == 0u;
     bool settled = control.next_sample < control.settled;
@@ -124,7 +124,7 @@ void go_on() {
     }
 }
 
-// Goes on behind a batch that is decided, or was empty.
+// Continues after a batch that is decided or was empty.
 void end_batch() {
     if (control.mode == kSelectSettled) {
         control.next_sample += control.slots_used;
@@ -136,7 +136,7 @@ void end_batch() {
     go_on();
 }
 
-// Where not even the first candidate found room, the next batch or list spans less.
+// Shortens the next batch or list if not even the first candidate found room.
 void limit_span(bool is_stuck, uint end) {
     uint span = end - control.first_order;
     control.longest_span = is_stuck ? max(span / 2u, 1u) : kNoOrder;
@@ -168,8 +168,8 @@ void begin_batch() {
     control.count_z = 1u;
 }
 
-// What comes after select: a batch from the list that it has filled, or the batch that it has put into
-// the slots.
+// Continues after select: with a batch from the list that it has filled, or the batch that it has put
+// into the slots.
 void go_on_selected() {
     if (control.mode == kSelectPool) {
         control.listed_blocks += control.select_x;
@@ -185,7 +185,7 @@ void go_on_selected() {
     }
 }
 
-// Begins a chunk with so many candidates.
+// Begins a chunk with this many candidates.
 void begin_chunk(uint drawn) {
     control.abi = kAbi;
     control.drawn = drawn;

@@ -1,9 +1,9 @@
-// Readies the slots for the next batch (paper section 4.2): all idle candidates below some order, or
-// samples of earlier chunks, whose disks are to reject candidates of this one. Idle candidates are
-// found in a list by ranges of their orders, which a dispatch of its own fills now and then. To a work
-// group goes a range, or all of them where few slots are to be filled exactly, or kSelectBlock
-// candidates or samples; the last one to be done sets out what comes next.
-// Needs sample_at(place, order), the four words of a sample, and settle_point(slot, record).
+// Fills the slots for the next batch (paper section 4.2): all idle candidates below some order, or
+// samples of earlier chunks, whose disks reject candidates of this one. Idle candidates are in a list by
+// ranges of their orders, which a separate dispatch fills from time to time. A work group gets a range
+// (or all of them, if few slots must be filled exactly), or kSelectBlock candidates or samples. The last
+// group to finish prepares the next step. Needs sample_at(place, order), the four words of a sample, and
+// settle_point(slot, record).
 #ifndef GEODISK_SELECT_IDLE_GLSL
 #define GEODISK_SELECT_IDLE_GLSL
 
@@ -41,7 +41,8 @@ void select_settled(uint begin) {
     }
 }
 
-// None is active while a batch is selected, but for those of the batch.
+// Returns true if the candidate is idle. While a batch is selected, only candidates of that batch are
+// active.
 bool is_idle(uint place) {
     return (word_before(states, undecided_word(place)) & state_bit(place)) != 0u;
 }
@@ -56,7 +57,7 @@ void list_one(uint place, uint order, uint range) {
     }
 }
 
-// Lists the idle ones of a block of all candidates, 32 of them to an invocation at a time.
+// Lists the idle candidates of a block of all candidates, 32 per invocation at a time.
 void list_idle(uint begin) {
     uint end = min(begin + kSelectBlock, control.drawn);
     uint first_order = control.list_first;
@@ -81,7 +82,7 @@ void list_idle(uint begin) {
     }
 }
 
-// Finds those of a range of the list that are due.
+// Finds the candidates of a range of the list that are due.
 void find_due(uint head) {
     uint first_order = control.first_order;
     uint batch_end = control.batch_end;
@@ -109,7 +110,7 @@ void find_due(uint head) {
     }
 }
 
-// How many of those that are due come before one of them.
+// Returns how many of the candidates that are due come before one of them.
 uint rank_among(uint due, uint own) {
     uint rank = 0u;
     for (uint i = 0u; i < due; ++i) {

@@ -18,7 +18,7 @@ uint first_row(uint lane) {
 
 uint list_row(uint slot) { return push.first_list_row + slot * (push.list_capacity >> 2); }
 
-// Where in a list of this capacity the active conflict of this number is.
+// Returns where this active conflict is in a list of this capacity.
 uint active_entry(uint capacity, uint number) { return capacity - 1u - number; }
 
 #endif

@@ -1,4 +1,4 @@
-// Where a candidate on a surface lies in the bounding box, in multiples of 2^-32 of its sides: the
+// Position of a candidate on a surface in the bounding box, in multiples of 2^-32 of its sides: the
 // corners of its face in these units, weighted in integers and rounded down.
 #ifndef GEODISK_SPACE_CANDIDATE_GLSL
 #define GEODISK_SPACE_CANDIDATE_GLSL
@@ -8,8 +8,8 @@
 #include "dimension.glsl"
 #include "unit.glsl"
 
-// kSpaceRows to a face: a row per corner, then their normals; behind the first corner the area, behind
-// the second the key.
+// kSpaceRows per face: a row per corner, then their normals; after the first corner the area, after the
+// second the key.
 GEODISK_ROWS(kBindFaces, corners);
 
 uint key_of(uint face) { return row_at(corners, kSpaceRows * face + 1u).w; }
@@ -18,7 +18,7 @@ uint stages_of(uint face) { return kAllStages; }
 
 layout(constant_id = kSpecCurved) const bool kCurved = false;
 
-// A 64-bit sum of products of a weight and a coordinate.
+// Adds the product of a weight and a coordinate to a 64-bit sum.
 uvec2 plus_product(uvec2 sum, uint weight, uint coordinate) {
     uint high, low, carry;
     umulExtended(weight, coordinate, high, low);
@@ -26,7 +26,7 @@ uvec2 plus_product(uvec2 sum, uint weight, uint coordinate) {
     return uvec2(next, sum.y + high + carry);
 }
 
-// Of unit length, or zero.
+// Returns the unit normal, or zero.
 vec3 normal_of(Candidate c) {
     uint row = kSpaceRows * c.face + 3u;
     float weight0 = weight_of(kOneWeight - c.weight1 - c.weight2);
@@ -64,7 +64,7 @@ uint[kMostAxes] point_at(Candidate c) {
     return point;
 }
 
-// The candidate with this number in its unit, and the words of its sample.
+// Draws the candidate with this number in its unit, and the words of its sample.
 uint[kMostAxes] draw_point(Unit unit, uint number, out uvec4 record) {
     Candidate c = draw_evenly(unit.owner, unit.stage, number);
     record = uvec4(c.order, unit.owner, floatBitsToUint(weight_of(c.weight1)),

@@ -1,4 +1,4 @@
-// Up to 32 candidates that follow each other in memory, as bits from the first on. Needs `states`.
+// A strip: up to 32 candidates adjacent in memory, as bits. Needs `states`.
 #ifndef GEODISK_STRIP_GLSL
 #define GEODISK_STRIP_GLSL
 
@@ -10,15 +10,16 @@ struct Strip {
     uint actives;
 };
 
-// Those from `first` on and before `end`, as many as there is room for. It may lie across two words.
+// Loads candidates from `first` up to, not including, `end`, as many as fit. They may lie across two
+// words.
 Strip load_strip(uint first, uint end) {
-    // The first of an empty row may lie behind the last candidate of all.
+    // The first of an empty row may be after the last candidate of all.
     uint from = first < end ? first : 0u;
     uint word = undecided_word(from);
     uint skipped = from & 31u;
     uint undecided = word_at(states, word) >> skipped;
     uint actives = word_at(states, word + 1u) >> skipped;
-    // In two steps, since none may be of 32 bits.
+    // In two steps, since shifts by 32 are undefined.
     uint rest = word_at(states, word + 2u) << (31u - skipped);
     uint actives_rest = word_at(states, word + 3u) << (31u - skipped);
     uint within = lowest_bits(first < end ? end - first : 0u);

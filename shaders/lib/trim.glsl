@@ -1,25 +1,25 @@
-// Windows trimmed against each other (Mitchell, Mount and Papadimitriou 1987), in disks that make very
+// Trimming of windows against each other (Mitchell, Mount and Papadimitriou 1987), in disks with very
 // many: around needles and thin tubes, and at edges of many faces. Of the windows that came to an edge,
-// from whichever face, the widest are kept and the last that was narrower, in a table of constant size
-// where other edges may take their place, which only lets windows live. kernels_ref/kernels/trim.hpp is
-// the same.
+// from any face, the widest and the last narrower one are kept in a table of constant size. Other edges
+// may overwrite them, which only keeps windows alive. kernels_ref/kernels/trim.hpp is the same.
 //
-// Whether a disk trims hangs on nothing but the disk, and never on the plan of the run, so that what it
-// computes does not either. Rows of a window, in the frame of the edge from its lower vertex on: (lower
-// vertex, higher vertex, x, |y|), (b0, b1, sigma, generation of the disk).
+// Whether a disk trims depends only on the disk, never on the plan of the run; so do its results. Rows
+// of a window, in the frame of the edge from its lower vertex: (lower vertex, higher vertex, x, |y|),
+// (b0, b1, sigma, generation of the disk).
 #ifndef GEODISK_TRIM_GLSL
 #define GEODISK_TRIM_GLSL
 
 bool window_taken; // in this trip
 
-// Edges that share rows do so in whatever place of a job their mesh has its vertices: the sum is linear.
+// Returns the row of an edge. The sum is linear, so edges share rows independently of the numbering of a
+// mesh within a job.
 uint kept_row(uvec2 ends) {
     uint mixed = ends.x * 2654435769u + (ends.y - ends.x) * 625341585u;
     return first_kept + kKeptRows * kKeptPerEdge * (mixed & (kKeptEdges - 1u));
 }
 
-// Whether the kept window is at most kTrimError farther from here, on the edge, than the one in flight,
-// whose source is at sx and lane.y off the edge.
+// Returns true if the kept window is at most kTrimError farther, at this position of the edge, than the
+// one in flight, whose source is at sx along and lane.y off the edge.
 bool is_as_near(vec2 kept_source, float kept_sigma, float sx, float at) {
     precise float dx = at - sx;
     precise float distance = lane.sigma + root(squared(dx, lane.y));
@@ -29,8 +29,8 @@ bool is_as_near(vec2 kept_source, float kept_sigma, float sx, float at) {
     return rest >= 0.0 && squared(kept_dx, kept_source.y) <= rest_square;
 }
 
-// Whether it is so all along what the window in flight lights within reach. The difference of the two is
-// largest at an end, or where both sources lie on one line with the point.
+// Returns true if this holds everywhere that the window in flight lights within reach. The difference of
+// the two is largest at an end, or where both sources are collinear with the point.
 bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2 lit) {
     precise float way = P.limit - lane.sigma;
     precise float first = sx - way;
@@ -52,14 +52,14 @@ bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2
            is_as_near(kept_source, kept_sigma, sx, on_line);
 }
 
-// Whether the disk is to begin again, trimming.
+// Returns true if the disk must restart to trim.
 bool makes_many() {
     uint vertices = min(lane.vertices, kUntrimmedVertices);
     uint each = kUntrimmedEach + (vertices >> kUntrimmedShift);
     return !trims() && lane.pushed > kUntrimmedWindows + vertices * each;
 }
 
-// A position on the edge, from its lower vertex on, if that is its end.
+// Converts a position on the edge to one from its lower vertex, if that is its end.
 float from_lower(bool turned, float at) {
     precise float from_end = edge.len - at;
     return turned ? from_end : at;
@@ -70,14 +70,14 @@ vec2 lit_from_lower(bool turned, vec2 lit) {
     return vec2(from_lower(turned, ends.x), from_lower(turned, ends.y));
 }
 
-// Whether the disk goes on without end though it trims: at edges of many faces windows branch, and those
-// kept hardly cover what comes.
+// Returns true if the disk does not end although it trims: at edges of many faces windows branch, and
+// the kept ones hardly cover new ones.
 bool is_endless() {
     uint vertices = min(lane.vertices, kUntrimmedVertices);
     return trims() && lane.pushed - lane.trims > kMostWindows + vertices * kMostPerVertex;
 }
 
-// Whether the window just taken is to go, where the disk trims; else it may be kept from now on.
+// Returns true if the window just taken is dropped by trimming; otherwise it may be kept from now on.
 bool trimmed() {
     if (!trims() || !window_taken) {
         return false;
@@ -91,7 +91,7 @@ bool trimmed() {
     precise float width = lit.y - lit.x;
     uint first = kept_row(ends);
     float least = kFar;
-    uint gives_way = 0u; // the narrowest, or one of another edge
+    uint gives_way = 0u; // row to replace: the narrowest, or one of another edge
     for (uint i = 0u; i < kKeptPerEdge; ++i) {
         uint at = first + kKeptRows * i;
         uvec4 row0 = own_row_at(pool, own_row(at));

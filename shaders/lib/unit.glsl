@@ -1,4 +1,4 @@
-// What candidates are drawn by: a face or a cell of a box, in one stage.
+// Unit: a face or a cell of a box, in one stage. Candidates are drawn by units.
 #ifndef GEODISK_UNIT_GLSL
 #define GEODISK_UNIT_GLSL
 

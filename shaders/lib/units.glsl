@@ -1,5 +1,5 @@
-// The units of a face or cell follow each other, stage by stage. Candidates are numbered unit by unit, and
-// without larger faces to sort they lie in memory that way.
+// The units of a face or cell are consecutive, one per stage. Candidates are numbered unit by unit;
+// without larger faces to sort, they are in memory in this order.
 #ifndef GEODISK_UNITS_GLSL
 #define GEODISK_UNITS_GLSL
 
@@ -11,7 +11,7 @@ GEODISK_WORDS(kBindStarts, starts);
 uint unit_count() { return push.faces * push.stages; }
 uint drawn_count() { return word_at(starts, unit_count()); }
 
-// The number of the unit of the candidate with this number, from `low` on and before `high`.
+// Returns the unit of the candidate with this number, from `low` up to, not including, `high`.
 uint unit_of(uint number, uint low, uint high) {
     while (low + 1u < high) {
         uint middle = (low + high) >> 1;
@@ -22,7 +22,8 @@ uint unit_of(uint number, uint low, uint high) {
     return low;
 }
 
-// That of one in a unit after `before`, which is mostly near: looked for in steps that double.
+// Returns the unit of a candidate in a unit after `before`, which is mostly near: searched in doubling
+// steps.
 uint unit_after(uint number, uint before) {
     uint low = before + 1u;
     uint step = 1u;
@@ -38,7 +39,7 @@ Unit load_unit(uint unit) {
     return Unit(owner, unit - owner * push.stages, word_at(starts, unit));
 }
 
-// The unit of the candidate with this number.
+// Returns the unit of the candidate with this number.
 Unit find_unit(uint number) { return load_unit(unit_of(number, 0u, unit_count())); }
 
 #endif

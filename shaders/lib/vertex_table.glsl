@@ -1,6 +1,6 @@
-// The vertices a disk has reached: an open-addressed table of rows (vertex, distance, half-edge the
-// best ray came through, where it crossed it). The two top bits of the first two words tell the disk;
-// rows of another one count as empty.
+// Vertices that a disk has reached: an open-addressed table of rows (vertex, distance, half-edge of the
+// best ray, where it crossed it). The two top bits of the first two words identify the disk; rows of
+// another disk count as empty.
 #ifndef GEODISK_VERTEX_TABLE_GLSL
 #define GEODISK_VERTEX_TABLE_GLSL
 
@@ -10,21 +10,21 @@ uint vertex_tag() { return lane.generation << kTagShift; }
 uint distance_tag() { return (lane.generation << (kTagShift - 2u)) & kTagMask; }
 
 struct VertexRow {
-    uint at;        // row, or where it belongs; the table's size if neither was found
+    uint at;        // row, or where it belongs; size of the table if neither was found
     bool found;
     float distance; // kFar if not found
     uint through;
     float crossing;
 };
 
-// With the table at most half full not to find a place is bad luck, which a larger table mends.
+// The table is at most half full, so not finding a place is rare; a larger table then helps.
 VertexRow find_vertex(uint vertex) {
     uint mask = P.table_capacity - 1u;
     uint at = (vertex * 2654435769u) >> 7 & mask;
     uint place = P.table_capacity;
     uvec4 row = uvec4(0u);
     bool found = false;
-    // A bound that is not constant keeps compilers from unrolling what mostly ends at once.
+    // A bound that is not constant prevents unrolling a loop that mostly ends at once.
     uint most = min(kMostProbes, P.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
         row = own_row_at(pool, vertex_row(at));
@@ -40,7 +40,7 @@ VertexRow find_vertex(uint vertex) {
                      uintBitsToFloat(row.w));
 }
 
-// `row` is what find_vertex gave.
+// Stores a vertex; `row` is from find_vertex.
 void note_vertex(VertexRow row, uint vertex, float distance, uint through, float crossing) {
     if (row.at == P.table_capacity || (!row.found && 2u * lane.vertices >= P.table_capacity)) {
         overflow |= kOverflowVertices;

@@ -1,10 +1,12 @@
-// What waits in one invocation to be spread, bounded: windows on a stack, and the events of vertices.
-// Windows go first, the nearer child of two before the other; events follow when no window is left. A
-// vertex then mostly has its final distance before its fan is lit. Events wait in a heap, the nearest
-// first and of two as near that of the lower vertex, or in a ring, in the order they came: more
-// windows on large disks, but no loops, which lavapipe goes through in every trip. Where the disk trims
-// its windows they wait in the heap too, so that they meet those that trim them: as rows
-// (kWindowWaits, distance, place, number), since two as near go in the order they came.
+// Work that waits in a lane, with fixed capacity: windows on a stack, and vertex events. Windows go
+// first, the nearer child of two before the other; events follow when no window is left. Most vertices
+// then have their final distance before their fan is lit.
+//
+// Events wait in a heap, nearest first, and of equally near ones the lower vertex. Or they wait in a
+// ring, oldest first: this makes more windows on large disks, but has no loops, which lavapipe runs in
+// every trip. If the disk trims its windows, they wait in the heap too, so that they meet those that
+// trim them: as rows (kWindowWaits, distance, place, number), since equally near ones go in the order
+// they came.
 #ifndef GEODISK_WAITING_GLSL
 #define GEODISK_WAITING_GLSL
 
@@ -14,7 +16,7 @@ bool trims() { return kTrims && lane.trims != 0u; }
 
 bool holds_window() { return kHolds && lane.held_around != kNoWindow; }
 
-// On the stack, and the one held.
+// Returns the windows on the stack and the one held.
 uint windows_waiting() { return lane.windows + (holds_window() ? 1u : 0u); }
 
 uint window_at(uint window) { return kLaneRows + kWindowRows * window; }
@@ -22,10 +24,10 @@ uint event_row(uint event) {
     return own_row(first_event + (event & (P.window_capacity - 1u)));
 }
 
-// What a window remembers is in this row, as the component of its number modulo 4, where there is one.
+// Returns the row of what a window remembers, in the component of its number modulo 4, if there is one.
 uint remembered_row(uint window) { return own_row(first_remembered + (window >> 2)); }
 
-// A free place for a window; the capacity if there is none. Places that are free again are linked.
+// Returns a free place for a window; the capacity if there is none. Free places are linked.
 uint free_window() {
     bool again = trims() && lane.free_place != kNoWindow;
     uint place = again ? lane.free_place : lane.windows;
@@ -42,13 +44,13 @@ void give_back_window(uint place) {
     lane.free_place = place;
 }
 
-// Distances are positive, so their words compare as they do.
+// Distances are positive, so their words compare like them.
 bool is_nearer(uvec4 a, uvec4 b) {
     bool comes_first = a.x < b.x || (a.x == b.x && a.w < b.w);
     return a.y < b.y || (a.y == b.y && comes_first);
 }
 
-// In the heap what waits below i is 2 i + 1 and 2 i + 2.
+// Pushes an event. In the heap, the children of i are 2 i + 1 and 2 i + 2.
 void put_event(uvec4 row) {
     if (lane.event_tail - lane.event_head >= P.window_capacity) {
         overflow |= kOverflowWindows;
@@ -96,7 +98,7 @@ void push_window(float distance, uvec4 row0, uvec4 row1, uint remembered) {
     ++lane.pushed;
 }
 
-// Instead of a push, of what is taken next.
+// Holds the window that is taken next instead of pushing it.
 void hold_window(uvec4 row0, uvec4 row1) {
     lane.held_around = row0.x;
     lane.held_x = uintBitsToFloat(row0.y);
@@ -108,7 +110,7 @@ void hold_window(uvec4 row0, uvec4 row1) {
     ++lane.pushed;
 }
 
-// The last event takes the place of the first, and gives way to nearer ones.
+// Moves the last event to the front of the heap and sinks it below nearer ones.
 void sink_last() {
     --lane.event_tail;
     uvec4 last = own_row_at(pool, event_row(lane.event_tail));
