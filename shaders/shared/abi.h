@@ -1,4 +1,4 @@
-// The language switch: these headers are read by GLSL and by C++.
+// Switch between languages: these headers are read by GLSL and by C++.
 #ifndef GEODISK_SHARED_ABI_H
 #define GEODISK_SHARED_ABI_H
 

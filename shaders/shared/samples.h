@@ -1,5 +1,5 @@
-// What a run gives: the one header for shaders of the library's users. In GLSL all its names begin with
-// Geodisk or GEODISK; those of the other headers are the kernels' own.
+// Results of a run: the only header for users' shaders. In GLSL all its names begin with Geodisk or
+// GEODISK; names of the other headers belong to the kernels.
 #ifndef GEODISK_SHARED_SAMPLES_H
 #define GEODISK_SHARED_SAMPLES_H
 
@@ -12,16 +12,16 @@
 
 GEODISK_BEGIN_SHARED
 
-// An accepted candidate. The weights are multiples of 2^-24 and that of the first corner is exactly
-// one minus both. In boxes the words behind the order are the cell it was drawn in, its number there
+// An accepted candidate. The weights are multiples of 2^-24, and the weight of the first corner is exactly
+// 1 - weight1 - weight2. In boxes the words after the order are the cell it was drawn in, its number there,
 // and its stage.
 struct SampleRec {
     uint order; uint face; float weight1; float weight2;
 };
 
-// A sample where the caller draws it: its position, and its radius in the same units; the normal, of
-// length 1, or 0 of a face without one; its face, of its own surface; the weights of its second and
-// third corner; which of several surfaces it is on; its order in the job.
+// A sample for drawing: its position, and its radius in the same units; its normal, of length 1, or 0 on a
+// face without one; its face, in its own surface; the weights of its second and third corner; its surface,
+// of several; its order in the job.
 struct PlacedRec {
     float x; float y; float z; float radius;
     float normal_x; float normal_y; float normal_z; uint face;
