@@ -8,7 +8,7 @@ RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
                      const Tolerances& tolerances, std::uint32_t most) {
     RunResult result;
     const std::uint32_t count = pool.size();
-    // By its address: the callbacks would load a vector's own after every store.
+    // Use a pointer: the callbacks would reload the vector's address after every store.
     std::vector<std::uint8_t> flags(count, 0);
     std::uint8_t* const decided = flags.data();
     Detector<Real, kMayVary> detector(surface, pool.bins, tolerances, tolerances.limit);

@@ -1,5 +1,5 @@
-// Sequential dart throwing (paper section 4): what every parallel run must return, and the
-// yardstick for speed.
+// Sequential dart throwing (paper section 4): the set that every parallel run must return, and the
+// reference for speed.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct RunResult {
     std::uint32_t longest_chain = 0;
 };
 
-/// Walks the ranks upwards and accepts each candidate that no accepted one rejected, until the pool
-/// is used up or `most` are accepted.
+/// Visits the ranks upwards and accepts each candidate that no accepted one rejected, until the
+/// pool is used up or `most` are accepted.
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
                       const Tolerances& tolerances, std::uint32_t most = kMostCandidates);

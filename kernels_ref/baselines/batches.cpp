@@ -8,7 +8,7 @@
 namespace geodisk::ref {
 namespace {
 
-/// Up to `slots` idle ranks from `first` on, ascending.
+/// Returns up to `slots` idle ranks from `first` on, ascending.
 std::vector<std::uint32_t> select_idle(const std::vector<std::uint8_t>& states, std::uint32_t first,
                                        std::uint32_t slots) {
     std::vector<std::uint32_t> ranks;

@@ -1,5 +1,5 @@
-// The paper's schedule (PSDP, section 4.2) over any metric: batches of active candidates, their
-// disks, the decisions. What the shaders do, done sequentially, and what it costs.
+// The paper's schedule (PSDP, section 4.2) for any metric: batches of active candidates, their
+// disks, the decisions. It does sequentially what the shaders do, and counts the cost.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace geodisk::ref {
 
 struct BatchRun {
     std::vector<std::uint32_t> ranks; ///< Accepted candidates, ascending.
-    std::uint64_t disks = 0;          ///< Computed, one per active candidate.
+    std::uint64_t disks = 0;          ///< Disks computed, one per active candidate.
     std::uint32_t batches = 0;
 };
 
-/// Activates up to `slots` (the paper's T) idle candidates at a time, in rank order: the lower rank
-/// has the higher priority. The set does not depend on `slots`. Adds the calls of CheckStatus of
-/// all batches to `calls`, unless that is null.
+/// Runs batches. Activates up to `slots` (the paper's T) idle candidates at a time, in rank order:
+/// the lower rank has the higher priority. The set does not depend on `slots`. Adds the calls of
+/// CheckStatus of all batches to `calls`, unless it is null.
 BatchRun run_batches(DiskQuery& disks, std::uint32_t slots, CallHistogram* calls = nullptr);
 
 } // namespace geodisk::ref

@@ -11,7 +11,7 @@ namespace geodisk::ref {
 
 inline constexpr std::uint32_t kMostDimensions = 6;
 
-/// [0, sides[0]) x [0, sides[1]) x ..., of 1 to kMostDimensions sides, each positive.
+/// The box [0, sides[0]) x [0, sides[1]) x ..., with 1 to kMostDimensions sides, each positive.
 struct Box {
     std::vector<double> sides;
     bool is_periodic = false; ///< Opposite sides are glued together.
@@ -19,11 +19,11 @@ struct Box {
     std::uint32_t dimension() const { return static_cast<std::uint32_t>(sides.size()); }
     double volume() const;
 
-    /// Square of the shortest distance of two points, around the box where that is periodic.
+    /// Returns the squared distance of two points, around the box if it is periodic.
     double distance2(std::span<const double> a, std::span<const double> b) const;
 };
 
-/// Cells of a box, each at least `reach` wide, so that everything within `reach` of a point lies in
+/// Cells of a box, each at least `reach` wide, so that everything within `reach` of a point is in
 /// the 3^n cells around it. There are at most 2^24 of them, so they may be wider.
 class BoxCells {
   public:
@@ -32,14 +32,14 @@ class BoxCells {
     std::uint32_t count() const { return count_; }
     std::uint32_t cell_of(std::span<const double> point) const;
 
-    /// Calls `visit(cell)` for each cell around the point's once, until it returns false.
+    /// Calls `visit(cell)` once for each cell around the point, until it returns false.
     template <class Visit>
     void for_around(std::span<const double> point, Visit&& visit) const;
 
   private:
     std::uint32_t place_on(std::size_t axis, double x) const;
 
-    /// The places of one axis that are to be visited.
+    /// Cells along one axis to visit.
     struct Places {
         std::array<std::uint32_t, 3> at{};
         std::size_t count = 0;
@@ -53,12 +53,12 @@ class BoxCells {
     std::uint32_t count_ = 1;
 };
 
-/// A growing set of points, asked for those closer than `distance` to another point.
+/// A growing set of points, with queries for those closer than `distance` to another point.
 class BoxGrid {
   public:
     BoxGrid(const Box& box, double distance);
 
-    /// As many coordinates as the box has sides, all within it.
+    /// Adds a point in the box, with one coordinate per side.
     void add(std::span<const double> point);
 
     const Box& box() const { return box_; }
@@ -73,7 +73,7 @@ class BoxGrid {
     template <class Visit>
     void for_near(std::span<const double> at, Visit&& visit) const;
 
-    /// Whether no point is closer than the distance.
+    /// Returns true if no point is closer than the distance.
     bool is_free(std::span<const double> at) const;
 
   private:
@@ -82,8 +82,8 @@ class BoxGrid {
     Box box_;
     double distance2_;
     BoxCells cells_;
-    std::vector<std::uint32_t> first_; ///< Per cell, the last point added.
-    std::vector<std::uint32_t> next_;  ///< Per point, the one added to its cell before.
+    std::vector<std::uint32_t> first_; ///< Last point added to each cell.
+    std::vector<std::uint32_t> next_;  ///< For each point, the one added to its cell before it.
     std::vector<double> coordinates_;
 };
 

@@ -16,14 +16,14 @@ void draw_in(std::span<const double> corner, std::span<const double> sides, Rand
     }
 }
 
-/// Moves a coordinate outside of a periodic box by its side. Whether the point is inside then.
+/// Moves coordinates outside a periodic box by its side. Returns true if the point is then inside.
 bool bring_inside(const Box& box, std::span<double> point) {
     for (std::size_t axis = 0; axis < point.size(); ++axis) {
         const double side = box.sides[axis];
         if (box.is_periodic) {
             point[axis] -= side * std::floor(point[axis] / side);
         }
-        // Rounding may end on the side itself.
+        // Rounding may give the side itself.
         if (!(point[axis] >= 0 && point[axis] < side)) {
             return false;
         }
@@ -31,7 +31,7 @@ bool bring_inside(const Box& box, std::span<double> point) {
     return true;
 }
 
-/// A point at distance 1 to 2 from the origin, uniform by volume.
+/// Draws a point at distance 1 to 2 from the origin, uniform by volume.
 void draw_in_shell(RandomStream& random, std::vector<double>& point) {
     double sum = 0;
     do {
@@ -43,7 +43,7 @@ void draw_in_shell(RandomStream& random, std::vector<double>& point) {
     } while (sum < 1 || sum >= 4);
 }
 
-/// Cells of one width that may still take a dart, by the corners next to the origin.
+/// Cells of one width that may still take a dart, given by the corner next to the origin.
 struct OpenCells {
     std::vector<double> sides;
     std::vector<double> corners;
@@ -59,7 +59,7 @@ struct OpenCells {
     }
 };
 
-/// Whether the cell lies in the disk of one sample.
+/// Returns true if the cell lies in the disk of one sample.
 bool is_covered(const BoxGrid& samples, double min_distance, std::span<const double> corner,
                 std::span<const double> sides) {
     std::vector<double> center(corner.begin(), corner.end());
@@ -80,7 +80,7 @@ bool is_covered(const BoxGrid& samples, double min_distance, std::span<const dou
     return covered;
 }
 
-/// The 2^n parts of each cell that no sample covers.
+/// Returns those of the 2^n parts of each cell that no sample covers.
 OpenCells cut(const OpenCells& cells, const BoxGrid& samples, double min_distance) {
     OpenCells parts;
     for (const double side : cells.sides) {
@@ -101,7 +101,7 @@ OpenCells cut(const OpenCells& cells, const BoxGrid& samples, double min_distanc
     return parts;
 }
 
-/// All cells of the box, no longer than `side`.
+/// Returns all cells of the box, with sides of at most `side`.
 OpenCells all_cells(const Box& box, double side) {
     OpenCells cells;
     std::vector<std::size_t> counts;
@@ -176,7 +176,7 @@ std::vector<double> throw_around_samples(const Box& box, double min_distance, st
 }
 
 std::vector<double> throw_until_maximal(const Box& box, double min_distance, std::uint64_t seed) {
-    // Cells of 2^-40 of the first ones' width are beyond what coordinates resolve.
+    // Cells of 2^-40 of the first width are below the resolution of coordinates.
     constexpr int kMostCuts = 40;
     RandomStream random(seed);
     BoxGrid samples(box, min_distance);

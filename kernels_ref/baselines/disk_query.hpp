@@ -1,4 +1,4 @@
-// What a metric is to methods that choose samples from a pool.
+// Interface of a metric for methods that choose samples from a pool.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace geodisk::ref {
 
-/// Finds the candidates of a pool in the disk of one of them. The disk's radius is the minimum
+/// Finds the candidates of a pool in the disk of one of them. The radius of the disk is the minimum
 /// distance of the samples.
 class DiskQuery {
   public:
     virtual ~DiskQuery() = default;
 
-    /// Candidates in the pool.
+    /// Returns the number of candidates in the pool.
     virtual std::uint32_t size() const = 0;
 
     /// Replaces `found` by the ranks in the disk around `center` whose `wanted` is not 0, each

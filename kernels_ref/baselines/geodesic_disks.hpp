@@ -15,8 +15,8 @@ namespace geodisk::ref {
 
 class GeodesicDisks : public DiskQuery {
   public:
-    /// `mesh` must outlive the object. Distances are compared with `tolerances.limit` times
-    /// `min_distance`, which is in mesh units.
+    /// Makes a pool on a mesh, which must outlive the object. Distances are compared with
+    /// `tolerances.limit` times `min_distance`, which is in mesh units.
     GeodesicDisks(const PreparedMesh& mesh, double min_distance,
                   std::span<const FacePoint<double>> by_rank, const Tolerances& tolerances);
     GeodesicDisks(const GeodesicDisks&) = delete;
@@ -30,8 +30,8 @@ class GeodesicDisks : public DiskQuery {
     Surface<double> surface_;
     Bins<double> bins_;
     Detector<double> detector_;
-    std::vector<std::uint32_t> places_;   ///< In the bins, by rank.
-    std::vector<std::uint32_t> found_in_; ///< By rank, the last disk that found it.
+    std::vector<std::uint32_t> places_;   ///< Places in the bins, by rank.
+    std::vector<std::uint32_t> found_in_; ///< Last disk that found a candidate, by rank.
     std::uint32_t disk_ = 0;
 };
 

@@ -11,7 +11,7 @@
 namespace geodisk::ref {
 namespace {
 
-/// A candidate under the cell of space it lies in, sorted by group, then cell, then rank.
+/// A candidate with its cell in space, sorted by group, then cell, then rank.
 struct GroupedCandidate {
     std::int64_t group;
     std::array<std::int64_t, 3> cell;
@@ -21,7 +21,7 @@ struct GroupedCandidate {
 };
 
 std::vector<GroupedCandidate> grouped(std::span<const glm::dvec3> positions, double side) {
-    // With side * sqrt(3) as the minimum distance, two cells between those of a group are enough.
+    // The minimum distance is side * sqrt(3), so two cells between those of a group are enough.
     constexpr std::int64_t kPerAxis = 3;
     std::vector<GroupedCandidate> candidates;
     for (std::uint32_t rank = 0; rank < positions.size(); ++rank) {
@@ -37,10 +37,10 @@ std::vector<GroupedCandidate> grouped(std::span<const glm::dvec3> positions, dou
     return candidates;
 }
 
-/// The cells of one level in a box, all of one width, by group.
+/// Cells of one level in a box, all of one width, by group.
 struct Level {
     double side;
-    std::vector<std::size_t> counts; ///< Per axis.
+    std::vector<std::size_t> counts; ///< Number of cells per axis.
     std::vector<std::vector<std::size_t>> groups;
 
     Level(const Box& box, double cell_side, double min_distance);
@@ -63,7 +63,7 @@ struct Level {
 };
 
 Level::Level(const Box& box, double cell_side, double min_distance) : side(cell_side) {
-    // The cells between two of a group are at least as wide as the minimum distance.
+    // The cells between two cells of a group are together at least as wide as the minimum distance.
     const std::size_t per_axis = 1 + static_cast<std::size_t>(std::ceil(min_distance / side));
     std::size_t cells = 1;
     std::size_t group_count = 1;

@@ -1,5 +1,5 @@
 // Phase groups: cells so far apart that their darts cannot conflict are processed at the same time,
-// group after group in a fixed order. Here one after the other, with the same result.
+// group after group in a fixed order. Here they are processed sequentially, with the same result.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ class PhaseGroups {
     /// Sorts a pool, given by its positions in space, into cells.
     PhaseGroups(std::span<const glm::dvec3> positions, double min_distance);
 
-    /// Group by group each cell throws one dart per trial, its next candidate in rank order, until
-    /// it has none left. A dart that an accepted one has removed costs its trial. `disks` has the
-    /// same pool and minimum distance, and no distance shorter than in space. Returns the ranks in
-    /// the order accepted.
+    /// Throws darts group by group. Each cell throws one dart per trial, its next candidate in rank
+    /// order, until it has none left. A dart removed by an accepted one costs its trial. `disks`
+    /// has the same pool and minimum distance, and no distance shorter than in space. Returns the
+    /// ranks in the order of acceptance.
     std::vector<std::uint32_t> throw_darts(DiskQuery& disks, std::uint32_t trials) const;
 
   private:
-    std::vector<std::uint32_t> ranks_;  ///< By group, then cell, ascending in each.
+    std::vector<std::uint32_t> ranks_;  ///< Ranks by group, then cell, ascending in each.
     std::vector<std::uint32_t> cells_;  ///< Where each cell starts in `ranks_`, and their end.
     std::vector<std::uint32_t> groups_; ///< Where each group starts in `cells_`, and their end.
 };

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> eliminate_pool(DiskQuery& disks, std::uint64_t seed) 
     std::vector<std::uint32_t> accepted;
     std::vector<std::uint32_t> disk;
     std::vector<std::uint8_t> remains(disks.size(), 1);
-    // What remains, and where each is in there.
+    // Remaining candidates, and the position of each in this list.
     std::vector<std::uint32_t> pool(disks.size());
     std::iota(pool.begin(), pool.end(), 0u);
     std::vector<std::uint32_t> places = pool;

@@ -9,8 +9,9 @@
 
 namespace geodisk::ref {
 
-/// Dart throwing as it is defined, over all pairs: walks the ranks 0 to count - 1 upwards and
-/// accepts each that `is_close(accepted, rank)` holds for no accepted one. Ascending.
+/// Throws darts by definition, over all pairs: visits the ranks 0 to count - 1 upwards and accepts
+/// each for which `is_close(accepted, rank)` is false for all accepted ones. Returns them
+/// ascending.
 template <class IsClose>
 std::vector<std::uint32_t> throw_brute_force(std::uint32_t count, IsClose&& is_close) {
     std::vector<std::uint32_t> accepted;
@@ -23,13 +24,13 @@ std::vector<std::uint32_t> throw_brute_force(std::uint32_t count, IsClose&& is_c
     return accepted;
 }
 
-/// The same set from disks: each accepted rank removes those in its disk. Ascending.
+/// Returns the same set from disks: each accepted rank removes those in its disk. Ascending.
 std::vector<std::uint32_t> throw_in_order(DiskQuery& disks);
 
-/// Pool elimination without priorities (the pruning of Corsini, Cignoni and Scopigno, "Efficient
+/// Eliminates a pool without priorities (the pruning of Corsini, Cignoni and Scopigno, "Efficient
 /// and flexible sampling with blue noise properties of triangular meshes", 2012, without their
-/// hierarchy of cells): picks a random one of those that remain, removes its disk, until none
-/// remains. In the order picked.
+/// hierarchy of cells): picks a random remaining candidate and removes its disk, until none
+/// remains. Returns ranks in the order picked.
 std::vector<std::uint32_t> eliminate_pool(DiskQuery& disks, std::uint64_t seed);
 
 } // namespace geodisk::ref

@@ -1,4 +1,4 @@
-// Random numbers in sequence, for methods that do not know beforehand how many they will draw.
+// Random numbers in sequence, for methods that do not know in advance how many they draw.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace geodisk::ref {
 
-/// A stream of 2^34 words that the seed alone determines, other words than those of the candidates
-/// of the same seed.
+/// A stream of 2^34 words, determined by the seed, and different from those of the candidates with
+/// the same seed.
 class RandomStream {
   public:
     explicit RandomStream(std::uint64_t seed) : seed_(~seed) {}
@@ -22,13 +22,13 @@ class RandomStream {
         return block_[used_++];
     }
 
-    /// Uniform in [0, 1), a multiple of 2^-53.
+    /// Returns a uniform number in [0, 1), a multiple of 2^-53.
     double uniform() {
         const std::uint64_t high = word();
         return static_cast<double>((high << 32 | word()) >> 11) * 0x1p-53;
     }
 
-    /// Uniform in [0, count), up to a bias of count / 2^32.
+    /// Returns a uniform number in [0, count), up to a bias of count / 2^32.
     std::uint32_t below(std::uint32_t count) {
         return static_cast<std::uint32_t>(std::uint64_t{word()} * count >> 32);
     }

@@ -18,7 +18,7 @@ Vector unit(const Vector& v, const Vector& otherwise) {
     return size > 0 ? v / size : otherwise;
 }
 
-/// The corners of face f.
+/// Returns the corners of face f.
 std::array<Vector, 3> corners_of(const MeshView& mesh, std::uint32_t f) {
     std::array<Vector, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -28,14 +28,14 @@ std::array<Vector, 3> corners_of(const MeshView& mesh, std::uint32_t f) {
     return corners;
 }
 
-/// Normal of a face, of twice its area in length.
+/// Returns the normal of a face; its length is twice the area.
 Vector face_normal(const std::array<Vector, 3>& corners) {
     return cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
-/// The bounding box, moved to the origin. A flat one is given some thickness.
+/// Returns the bounding box, moved to the origin. A flat one gets some thickness.
 Box bounds(std::span<const OrientedPoint> points, double thickness, Vector& corner) {
-    constexpr double kFarther = 1 + 1e-9; // The farthest points lie inside.
+    constexpr double kFarther = 1 + 1e-9; // So that the farthest points lie inside.
     corner = Vector(std::numeric_limits<double>::infinity());
     Vector most = -corner;
     for (const OrientedPoint& point : points) {
@@ -55,7 +55,7 @@ double straight_length(const OrientedPoint& a, const OrientedPoint& b) {
 }
 
 double curve_length(const OrientedPoint& a, const OrientedPoint& b) {
-    // Below it the quotient loses more digits than its limit is off.
+    // Below it the quotient is less accurate than its limit.
     constexpr double kSameAngle = 1e-6;
     const Vector way = b.position - a.position;
     const double straight = straight_length(a, b);

@@ -1,6 +1,6 @@
-// Disks by metrics that know of a surface no more than points and normals, on cells in space: the
-// straight line, and the closed form that approximates geodesic distance (Bowers, Wang, Wei and
-// Maletz 2010). The paper compares with these in sections 5.2, 5.6 and 6.1.
+// Disks for metrics of points and normals in space, with cells: the straight line, and the closed
+// form that approximates geodesic distance (Bowers, Wang, Wei and Maletz 2010). The paper compares
+// with these in sections 5.2, 5.6 and 6.1.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ struct OrientedPoint {
     glm::dvec3 position, normal;
 };
 
-/// Length of the straight line, normals aside.
+/// Returns the length of the straight line, without normals.
 double straight_length(const OrientedPoint& a, const OrientedPoint& b);
 
-/// Length of a curve between both points whose normals turn evenly: exact on planes and spheres,
-/// never shorter than the straight line.
+/// Returns the length of a curve between two points whose normals turn evenly: exact on planes and
+/// spheres, never shorter than the straight line.
 double curve_length(const OrientedPoint& a, const OrientedPoint& b);
 
-/// Positions and smoothly interpolated normals of points of a mesh in space.
+/// Returns positions and smoothly interpolated normals of points on a mesh in space.
 std::vector<OrientedPoint> oriented_points(const MeshView& mesh,
                                            std::span<const FacePoint<double>> points);
 
@@ -49,12 +49,12 @@ class SpaceDisks : public DiskQuery {
 
     double min_distance_;
     Length length_;
-    glm::dvec3 corner_; ///< Of the bounding box.
+    glm::dvec3 corner_; ///< Corner of the bounding box.
     BoxCells cells_;
-    std::vector<std::uint32_t> starts_; ///< One more than cells.
-    std::vector<std::uint32_t> ranks_;  ///< By cell.
-    std::vector<OrientedPoint> points_; ///< In the order of `ranks_`.
-    std::vector<std::uint32_t> places_; ///< By rank.
+    std::vector<std::uint32_t> starts_; ///< First index of each cell, and the end.
+    std::vector<std::uint32_t> ranks_;  ///< Ranks by cell.
+    std::vector<OrientedPoint> points_; ///< Points in the order of `ranks_`.
+    std::vector<std::uint32_t> places_; ///< Places by rank.
 };
 
 } // namespace geodisk::ref

@@ -1,4 +1,4 @@
-// Points sorted by face and cell, as detect finds them.
+// Points sorted by face and cell, for detect.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 
 namespace geodisk::ref {
 
-/// Square cells over a face, Surface::cells_per_unit() to the unit (two to the minimum distance
-/// where radii do not vary), in the frame of its longest edge. A face whose longest edge is shorter
-/// than a cell has just one.
+/// Square cells over a face, in the frame of its longest edge, Surface::cells_per_unit() per unit
+/// (two per minimum distance if radii do not vary). A face whose longest edge is shorter than a
+/// cell has one cell.
 struct Grid {
     std::uint32_t columns, rows;
-    std::uint32_t base;           ///< Half-edge whose frame the grid lies in.
-    std::uint32_t first_cell = 0; ///< Of all cells, in Bins.
+    std::uint32_t base;           ///< Half-edge whose frame the grid uses.
+    std::uint32_t first_cell = 0; ///< Number of the first cell in Bins.
 
     std::uint32_t cells() const { return columns * rows; }
     bool single() const { return columns == 1 && rows == 1; }
 };
 
-/// Position of a point of half-edge h's face in the frame of h.
+/// Returns the position of a point of half-edge h's face in the frame of h.
 template <class Real>
 struct Position {
     Real x, y;
@@ -38,7 +38,7 @@ Position<Real> position_in(const Surface<Real>& surface, std::uint32_t h, FacePo
     return {end * edge.length + apex * edge.apex_x, apex * edge.apex_y};
 }
 
-/// A point given in the frame of h, in the frame of `base`, a half-edge of the same face.
+/// Converts a point from the frame of h to that of `base`, a half-edge of the same face.
 template <class Real>
 Position<Real> in_other_frame(const Surface<Real>& surface, std::uint32_t h, std::uint32_t base,
                               Position<Real> at) {
@@ -53,7 +53,7 @@ Position<Real> in_other_frame(const Surface<Real>& surface, std::uint32_t h, std
     return {b.apex_x - at.x * b.cosine + at.y * b.sine, b.apex_y - at.x * b.sine - at.y * b.cosine};
 }
 
-/// Which cell of its face's grid a point lies in.
+/// Returns the cell of a point in the grid of its face.
 template <class Real>
 std::uint32_t cell_of(const Surface<Real>& surface, const Grid& grid, FacePoint<Real> point) {
     if (grid.single()) {
@@ -72,16 +72,17 @@ std::uint32_t cell_of(const Surface<Real>& surface, const Grid& grid, FacePoint<
 /// of face f begin at `grids[f].first_cell`, row by row.
 template <class Real>
 struct Bins {
-    std::vector<Grid> grids;                     ///< Of each face.
-    std::vector<std::uint32_t> starts;           ///< One more than cells.
-    std::vector<std::uint32_t> order;            ///< Empty in a Pool, which lists its places.
-    UninitializedVector<FacePoint<Real>> points; ///< By place, so in the order of `order`.
+    std::vector<Grid> grids;           ///< Grid of each face.
+    std::vector<std::uint32_t> starts; ///< First index of each cell, and the end.
+    std::vector<std::uint32_t> order;  ///< Index of each point; empty in a Pool, which lists its
+                                       ///< places.
+    UninitializedVector<FacePoint<Real>> points; ///< Points by place, in the order of `order`.
 
     Bins() = default;
-    /// Points in any order, which those of a cell keep.
+    /// Sorts points by cell; points of a cell keep their order.
     Bins(const Surface<Real>& surface, std::span<const FacePoint<Real>> given);
 
-    /// Lays a grid over each face; returns how many cells they have.
+    /// Makes a grid for each face; returns the number of cells.
     std::size_t lay_out(const Surface<Real>& surface);
 };
 

@@ -13,18 +13,18 @@ namespace geodisk::ref {
 namespace {
 
 constexpr std::uint64_t kWholeAxis = std::uint64_t{1} << 32;
-/// In the counters of a cell's own seed.
+/// Counter for the seed of a cell.
 constexpr std::uint32_t kCellCounter = 0xB0C5;
-/// Where a candidate's counter has its index, that of the cell's count has this.
+/// Takes the place of a candidate's index in the counter for the number of candidates of a cell.
 constexpr std::uint32_t kCountCounter = 0xffffffff;
-/// Sides shorter than a step of the unit count as that.
+/// Shorter sides count as one step of the unit.
 constexpr double kShortestSide = 0x1p-31;
-/// Samples to a box of side D far from any border, by dimension (host/docs/boxes.md).
+/// Samples per box of side D far from any border, by dimension (host/docs/boxes.md).
 constexpr double kDensities[gpu::kMostAxes] = {0.726, 0.601, 0.540, 0.523, 0.545, 0.597};
-/// By how many distances an open box seems wider at each end.
+/// Apparent extra width of an open box at each end, in distances.
 constexpr double kOverhangs[gpu::kMostAxes] = {0.281, 0.295, 0.280, 0.262, 0.245, 0.237};
 
-/// A width or length as 32 bits hold it.
+/// Returns a width or length modulo 2^32.
 std::uint32_t wrapped(std::uint64_t steps) {
     return static_cast<std::uint32_t>(steps);
 }
@@ -37,7 +37,7 @@ LatticeAxis periodic_axis(double extent, double width_of_cell) {
             wrapped(kWholeAxis - (count - 1) * width)};
 }
 
-/// How many bits of a coordinate make a unit.
+/// Returns the number of bits of a coordinate within a unit.
 int unit_bits(double side) {
     if (side < 1) {
         return 31;
@@ -55,7 +55,7 @@ LatticeAxis open_axis(double extent, double unit, int doublings) {
             wrapped(steps - (cells - 1) * width)};
 }
 
-/// In units of the lattice, to the power of the dimension.
+/// Returns the volume in units of the lattice.
 double volume_of(const BoxParams& box) {
     const double unit = box_unit(box);
     double volume = 1;
@@ -65,8 +65,8 @@ double volume_of(const BoxParams& box) {
     return volume;
 }
 
-/// Samples expected per unit of volume. More than their density in short boxes, whose borders
-/// hold more; by a power of two, so that boxes of about one size have the same candidates.
+/// Returns the expected samples per unit of volume. In short boxes, whose borders hold more, it is
+/// larger by a power of two, so that boxes of similar size have the same candidates.
 double sample_density(const BoxParams& box, double volume) {
     const std::size_t axis = box.extents.size() - 1;
     const double density = kDensities[axis];
@@ -79,8 +79,8 @@ double sample_density(const BoxParams& box, double volume) {
     return density * std::exp2(std::max(0.0, std::round(more)));
 }
 
-/// How often the cells double their width, so that 2^23 darts, five for each sample of theirs, are
-/// enough for all of them.
+/// Returns how often the cells double their width, so that 2^23 darts are enough for five per
+/// sample in all cells.
 int cell_doublings(const BoxParams& box) {
     const StageRule stages = stages_in(box);
     int halvings = 0;
@@ -113,7 +113,7 @@ float float_of(std::uint32_t width) {
                : static_cast<float>(width >> 16) * 65536.0f + static_cast<float>(width & 65535u);
 }
 
-/// Candidates that a cell expects in a stage.
+/// Returns the expected candidates of a cell per stage.
 float mean_of(const BoxLattice& lattice, std::span<const float> steps, const Cell& cell,
               float intensity) {
     float mean = intensity;
@@ -149,14 +149,14 @@ Draw draw_candidate(const BoxLattice& lattice, const Cell& cell, std::uint64_t s
     return draw;
 }
 
-/// The cell after another one, the first axis running fastest.
+/// Moves to the next cell, with the first axis running fastest.
 void advance(Cell& cell, const BoxLattice& lattice) {
     for (std::size_t i = 0; i < lattice.axes.size() && ++cell[i] == lattice.axes[i].cells; ++i) {
         cell[i] = 0;
     }
 }
 
-/// The candidates of a stage in dart order, behind those of the stages before.
+/// Appends the candidates of a stage in dart order.
 void draw_stage(const BoxParams& box, const BoxLattice& lattice, std::uint32_t stage,
                 BoxCandidates& candidates) {
     const float intensity = stage_intensity(box, stage);
@@ -166,7 +166,7 @@ void draw_stage(const BoxParams& box, const BoxLattice& lattice, std::uint32_t s
     }
     std::vector<BoxPoint> points;
     std::vector<Dart> darts;
-    // A little more than there will be, most often.
+    // Mostly a little more than needed.
     const double expected = 1.01 * static_cast<double>(intensity) * volume_of(box);
     points.reserve(static_cast<std::size_t>(expected));
     darts.reserve(static_cast<std::size_t>(expected));

@@ -14,37 +14,37 @@ namespace geodisk::ref {
 /// Coordinates in steps of a lattice.
 using BoxPoint = std::array<std::uint32_t, gpu::kMostAxes>;
 
-/// The coordinates of an axis, and the cells that candidates are drawn in.
+/// Coordinates of an axis, and its cells for drawing candidates.
 struct LatticeAxis {
-    double step;          ///< In the units of the box.
-    std::uint64_t length; ///< In steps, at most 2^32.
+    double step;          ///< Length of a step, in units of the box.
+    std::uint64_t length; ///< Length of the axis in steps, at most 2^32.
     std::uint32_t cells;
-    /// In steps, 0 for 2^32: of all cells but the last, and of that one.
+    /// Width in steps, 0 for 2^32, of all cells but the last, and of the last.
     std::uint32_t width, last_width;
 };
 
 struct BoxLattice {
-    /// What lengths are measured in: the minimum distance, or where that is beyond all distances in
-    /// the box, a bound of those.
+    /// Unit of lengths: the minimum distance, or an upper bound of all distances in the box if that
+    /// is smaller.
     double unit;
     bool is_periodic;
     std::vector<LatticeAxis> axes;
 
-    /// The lattice that a box's candidates are drawn on.
+    /// Makes the lattice for drawing candidates in a box.
     explicit BoxLattice(const BoxParams& box);
-    /// 2^32 steps along every axis, and one cell.
+    /// Returns a lattice with 2^32 steps along every axis and one cell.
     static BoxLattice finest(const BoxParams& box);
 
     std::uint64_t cell_count() const;
-    /// A step in units of the lattice.
+    /// Returns the length of a step in units of the lattice.
     double relative_step(std::size_t axis) const { return axes[axis].step / unit; }
-    /// A coordinate in the units of the box.
+    /// Returns a coordinate in units of the box.
     double coordinate(std::size_t axis, const BoxPoint& point) const {
         return point[axis] * axes[axis].step;
     }
 };
 
-/// The unit of a box's lattice.
+/// Returns the unit of a box's lattice.
 double box_unit(const BoxParams& box);
 
 /// The stages of a job in a box, and the candidates that each expects per unit of volume.
@@ -57,7 +57,7 @@ struct BoxCandidates {
     std::vector<std::uint32_t> words;
 };
 
-/// All candidates of a job. Of those with one order word the lower cell comes first.
+/// Draws all candidates of a job. For equal order words, the lower cell comes first.
 BoxCandidates draw_in_box(const BoxParams& box);
 
 } // namespace geodisk::ref

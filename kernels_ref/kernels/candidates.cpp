@@ -13,15 +13,16 @@ namespace geodisk::ref {
 namespace {
 
 constexpr std::uint32_t kOneWeight = 1u << 24;
-/// Where a candidate's counter has its attempt, that of a face's count has this.
+/// Takes the place of a candidate's attempt in the counter for the number of candidates of a face.
 constexpr std::uint32_t kCountCounter = 0xffffffff;
 /// Priorities are the high 28 bits of a word.
 constexpr std::uint32_t kPriorityShift = 4;
 
-/// In float and integers whatever Real is: how a candidate is drawn is part of its definition.
+/// A draw, in float and integers whatever Real is: drawing is part of the definition of a
+/// candidate.
 struct Draw {
     std::uint32_t face;
-    std::uint32_t weight1, weight2; ///< In units of 2^-24.
+    std::uint32_t weight1, weight2; ///< Weights in units of 2^-24.
 
     template <class Real>
     FacePoint<Real> point() const {
@@ -31,7 +32,7 @@ struct Draw {
 };
 
 Draw draw_uniform(std::uint32_t face, const std::array<std::uint32_t, 4>& random) {
-    // Odd multiples of 2^-24 keep clear of 0 and 1.
+    // Odd multiples of 2^-24 are never 0 or 1.
     const std::uint32_t alpha = random[2] >> 9 << 1 | 1;
     const std::uint32_t beta = random[3] >> 9 << 1 | 1;
     const float root = std::sqrt(static_cast<float>(alpha) * 0x1p-24f);
@@ -40,7 +41,7 @@ Draw draw_uniform(std::uint32_t face, const std::array<std::uint32_t, 4>& random
     return {face, second, both - second};
 }
 
-/// What is linear in the face, at a point of it.
+/// Interpolates linearly at a point of the face.
 template <class Value>
 float interpolated(const Draw& draw, const Value (&corners)[3]) {
     const auto [face, weight1, weight2] = draw.point<float>();
@@ -48,7 +49,7 @@ float interpolated(const Draw& draw, const Value (&corners)[3]) {
            weight1 * static_cast<float>(corners[1]) + weight2 * static_cast<float>(corners[2]);
 }
 
-/// Makes points as dense as 1 / s^3 in their face, and tells which to keep for 1 / g^2.
+/// Makes points as dense as 1 / s^3 in their face, and decides which to keep for 1 / g^2.
 template <class Real>
 bool propose_by_factors(Draw& draw, const FaceRadii<Real>& radii, float fraction) {
     const float(&s)[3] = radii.spread;
@@ -67,15 +68,15 @@ bool propose_by_factors(Draw& draw, const FaceRadii<Real>& radii, float fraction
     return fraction * (g * g) < spread * spread * spread;
 }
 
-/// The share of candidates that gives this share of the samples that fit: those of a nearly full
-/// surface take far more.
+/// Returns the share of candidates that gives this share of the samples that fit: a nearly full
+/// surface takes many more.
 float share_of_candidates(float share) {
     const float room = 1.14f - share;
     const float slope = 0.06517f + share * (-0.0582f + share * 0.01263f);
     return ratio(share * slope, room * room);
 }
 
-/// How dense candidates are at a point of this density and packing.
+/// Returns the density of candidates at a point with this density and packing.
 float thinned(float density, float packing) {
     const float share = ratio(density, packing);
     return packing * (share < 1 ? share_of_candidates(share) : 1.0f);

@@ -1,5 +1,5 @@
-// Twin of the shaders that draw candidates: how many each face has, and which (paper sections 3.3,
-// 4.2 and 5.8, face by face).
+// Twin of the shaders that draw candidates face by face: how many each face has, and which (paper
+// sections 3.3, 4.2 and 5.8).
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ template <class Real>
 std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface,
                                             const SampleParams& params, std::uint32_t stage);
 
-/// Candidates 0, 1, ... of a face in a stage, and their priorities of 28 bits: uniform by the
-/// square-root barycentric map, or where radii vary as dense as 1 / r^2. Weights are multiples of
+/// Draws candidates 0, 1, ... of a face in a stage, and their priorities of 28 bits: uniform by the
+/// square-root barycentric map, or if radii vary as dense as 1 / r^2. Weights are multiples of
 /// 2^-24, so they are the same numbers in float and double.
 template <class Real>
 void draw_candidates(const Surface<Real>& surface, const SampleParams& params, std::uint32_t face,

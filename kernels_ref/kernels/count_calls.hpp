@@ -1,5 +1,5 @@
-// Twin of shaders/kernels/count_calls.comp: how often the paper's CheckStatus would call itself
-// (section 5.4, Table 1).
+// Twin of shaders/kernels/count_calls.comp: counts calls of the paper's CheckStatus (section 5.4,
+// Table 1).
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace geodisk::ref {
 
-/// Calls of CheckStatus that each candidate of a decided batch takes: its own, and those of every
-/// conflict above it, until one of them is accepted. A candidate come to twice is followed twice.
-/// `above[i]` are the active candidates of lower rank in the disk of candidate i, ascending, as
-/// indices into the batch; `accepted[i]` is 1 if it was accepted.
+/// Returns the calls of CheckStatus for each candidate of a decided batch: one for itself, and
+/// those of every conflict above it, until one of them is accepted. A candidate reached twice
+/// counts twice. `above[i]` are the active candidates of lower rank in the disk of candidate i,
+/// ascending, as indices into the batch; `accepted[i]` is 1 if it was accepted.
 std::vector<std::uint32_t> count_calls(std::span<const std::vector<std::uint32_t>> above,
                                        std::span<const std::uint8_t> accepted);
 

@@ -19,7 +19,7 @@ Real product3(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// To 2^-23.
+/// Returns the arc sine to 2^-23.
 template <class Real>
 Real arcsine(Real x) {
     const auto real = [](float value) { return static_cast<Real>(value); };
@@ -38,8 +38,8 @@ Real arcsine(Real x) {
     return x < 0 ? -result : result;
 }
 
-/// Whether the curve between two points whose normals turn evenly is shorter than a limit, given as
-/// square; `square` is that of the straight way.
+/// Returns true if the curve between two points whose normals turn evenly is shorter than a limit,
+/// given as a square; `square` is that of the straight line.
 template <class Real>
 bool is_short_curve(const std::array<Real, 3>& way, Real square, const std::array<Real, 3>& normal,
                     const std::array<Real, 3>& other_normal, Real limit2) {

@@ -6,8 +6,8 @@
 namespace geodisk::ref {
 namespace {
 
-/// Digits of a priority, from the last on: few enough that a line of every bucket stays in the
-/// cache.
+/// A digit of a priority, lowest first. It is small enough that a cache line of every bucket stays
+/// in the cache.
 struct Digit {
     std::uint32_t shift, bits;
 };

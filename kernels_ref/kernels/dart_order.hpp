@@ -1,4 +1,4 @@
-// The order in which the candidates of a stage are thrown.
+// Dart order of the candidates of a stage.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +8,16 @@
 namespace geodisk::ref {
 
 inline constexpr std::uint32_t kPriorityBits = 28;
-/// Order words tell so many stages apart.
+/// Number of stages that order words distinguish.
 inline constexpr std::uint32_t kStagesPerWord = 16;
 
-/// What candidates are ordered by: the stage, counted from the first of the pool, and the priority.
+/// Returns the order word of a candidate: the stage, counted from the first of the pool, and the
+/// priority.
 constexpr std::uint32_t order_word(std::uint32_t stage, std::uint32_t priority) {
     return stage % kStagesPerWord << kPriorityBits | priority;
 }
 
-/// The priority of a candidate, and below it the candidate.
+/// The priority of a candidate in the high word, its index in the low word.
 using Dart = std::uint64_t;
 
 constexpr Dart make_dart(std::uint32_t priority, std::uint32_t candidate) {
@@ -29,11 +30,11 @@ constexpr std::uint32_t candidate_of(Dart dart) {
     return static_cast<std::uint32_t>(dart);
 }
 
-/// Sorts by priority; darts with the same keep their order. `scratch` is at least as large. Returns
-/// where the result is, in one of the two.
+/// Sorts by priority; equal darts keep their order. `scratch` is at least as large. Returns where
+/// the result is, in one of the two.
 std::span<Dart> sort_darts(std::span<Dart> darts, std::span<Dart> scratch);
 
-/// Sorts those with the same priority, of sorted darts, by `comes_before(a, b)` of the candidates.
+/// Sorts runs of equal priority in sorted darts by `comes_before(a, b)` of the candidates.
 template <class ComesBefore>
 void settle_ties(std::span<Dart> darts, const ComesBefore& comes_before) {
     for (std::size_t first = 0, end = 0; first < darts.size(); first = end) {

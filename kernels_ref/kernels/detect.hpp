@@ -23,16 +23,16 @@
 
 namespace geodisk::ref {
 
-/// What one disk took; the shaders count the same.
+/// Work of one disk; the shaders count the same.
 struct DiskCount {
     std::uint32_t windows = 0;      ///< Windows and vertex events pushed.
-    std::uint32_t most_waiting = 0; ///< Most windows on the stack, or events waiting.
+    std::uint32_t most_waiting = 0; ///< Maximum of windows on the stack, or events waiting.
     std::uint32_t chain = 0;        ///< Longest chain of crossings.
     std::uint32_t vertices = 0;     ///< Vertices reached.
     std::uint32_t tested = 0;       ///< Points whose distance was computed.
 };
 
-/// Edges of many faces make more windows than can be waited for, and very many triangles in a disk.
+/// A disk with too many windows: edges of many faces, or very many triangles.
 struct EndlessDisk : std::runtime_error {
     explicit EndlessDisk(std::uint32_t face)
         : std::runtime_error("the geodesic disk of a point on face " + std::to_string(face) +
@@ -40,40 +40,41 @@ struct EndlessDisk : std::runtime_error {
                              "over it, or very many triangles far smaller than the distance") {}
 };
 
-/// For distances in double precision: only its rounding has to be allowed for.
+/// Returns the tolerances of distances in double precision, which only cover its rounding.
 inline Tolerances double_tolerances() {
     Tolerances tolerances{};
     tolerances.limit = 1;
     tolerances.margin = 0x1p-40f;
-    // On needles rounding is that much larger. What a ray aside of its window misses is of its
-    // square.
+    // Wider than rounding, for needles: a ray this far aside of its window is longer by the square
+    // of it only.
     tolerances.slack = 0x1p-24f;
     return tolerances;
 }
 
-/// Computes geodesic disks one after the other; keeps its working memory between them. With
-/// kMayVary false it is only for surfaces whose radii do not vary, and faster.
+/// Computes geodesic disks one after the other, and keeps its working memory. With kMayVary false
+/// it is faster, and only for surfaces whose radii do not vary.
 template <class Real, bool kMayVary = true>
 class Detector {
   public:
-    /// Surface and bins must outlive the detector. Where radii vary, two points are near when their
-    /// distance is below the sum of their radii and `limit` - 1, else when it is below `limit`.
+    /// Makes a detector. Surface and bins must outlive it. If radii vary, two points are near if
+    /// their distance is below the sum of their radii and `limit` - 1, else if it is below `limit`.
     Detector(const Surface<Real>& surface, const Bins<Real>& bins, const Tolerances& tolerances,
              Real limit)
         : surface_(surface), bins_(bins), limit_(limit), margin_(tolerances.margin),
           slack_(tolerances.slack), vertices_(surface.fans.size()) {}
 
-    /// Another limit for the disks from now on.
+    /// Sets the limit of later disks.
     void set_limit(Real limit) { limit_ = limit; }
 
-    /// Takes vertex events in the order they came, as the shaders do with Events::oldest.
+    /// Takes vertex events oldest first, as the shaders do with Events::oldest.
     void take_oldest_first() { waiting_.take_oldest_first(); }
 
     /// Trims windows in all disks, from the start.
     void trim_all() { trims_all_ = true; }
 
-    /// Throws EndlessDisk where windows become too many. Calls `hit(place, distance)` for every
-    /// place of `bins` with `wanted(place)` that is near `source`, once for each path found.
+    /// Computes a disk. Throws EndlessDisk if windows become too many. Calls `hit(place, distance)`
+    /// for every place of `bins` with `wanted(place)` that is near `source`, once for each path
+    /// found.
     template <class Wanted, class Hit>
     DiskCount run(FacePoint<Real> source, Wanted&& wanted, Hit&& hit) {
         struct Scan {
@@ -92,11 +93,11 @@ class Detector {
         return spread(source, scan);
     }
 
-    /// The disk itself: tells `light` of each way in which faces are lit, in the frame of a
-    /// half-edge h of the face, from which a distance is the straight way from (x, y) plus sigma:
-    /// `light.face(h, x, y, sigma)` lights the whole face, and `light.wedge(h, x, y, b0, b1,
-    /// sigma)` what (x, -y) sees of it through [b0, b1] of h. The distance of a point is the least
-    /// of those that light it, where that is below the limit. Throws as run().
+    /// Computes the disk itself, and passes to `light` each way in which faces are lit, in the
+    /// frame of a half-edge h of the face. A distance is the straight distance from (x, y) plus
+    /// sigma. `light.face(h, x, y, sigma)` lights the whole face, `light.wedge(h, x, y, b0, b1,
+    /// sigma)` what (x, -y) sees of it through [b0, b1] of h. The distance of a point is the
+    /// smallest of those that light it, if that is below the limit. Throws as run().
     template <class Light>
     DiskCount spread(FacePoint<Real> source, const Light& light) {
         count_ = {};
@@ -143,18 +144,18 @@ class Detector {
         count_.vertices = 0;
     }
 
-    /// Whether radii vary.
+    /// Returns true if radii vary.
     bool adaptive() const { return kMayVary && surface_.is_adaptive(); }
 
-    /// The distance below which a point of this radius is near the source.
+    /// Returns the distance below which a point with this radius is near the source.
     Real limit_with(Real radius) const { return (own_radius_ + radius) + (limit_ - Real{1}); }
 
-    /// Beyond this distance no path through the face leads on to a point near the source.
+    /// Returns the distance beyond which no path through the face leads to a point near the source.
     Real reach_through(std::uint32_t face) const {
         return adaptive() ? limit_with(surface_.radii[face].bound) : limit_;
     }
 
-    /// Nor, beyond this one, to a point of the face.
+    /// Returns the distance beyond which no point of the face is near the source.
     Real reach_into(std::uint32_t face) const {
         return adaptive() ? limit_with(surface_.radii[face].largest()) : limit_;
     }
@@ -164,7 +165,7 @@ class Detector {
                                                       : static_cast<Real>(kFar);
     }
 
-    /// A path of the given length ends at v, having come in through `corner`.
+    /// Handles a path of the given length that ends at v, having come in through `corner`.
     void reach(std::uint32_t v, Real distance, std::uint32_t corner, std::uint32_t through,
                Real crossing, bool whole_fan, std::uint32_t chain) {
         if (!(distance < distance_at(v)) || !(distance < reach_through(corner / 3))) {
@@ -177,7 +178,7 @@ class Detector {
         }
     }
 
-    /// A window to be pushed; none if its distance is negative.
+    /// A window to push; none if its distance is negative.
     struct Child {
         Real distance = -1;
         Window window{};
@@ -189,15 +190,15 @@ class Detector {
         }
     }
 
-    /// Whether a window entering the face of h comes back to a face that it has been in: a shortest
-    /// path does not, where faces are straight. One of a long chain remembers one face, that in
-    /// which its chain was last a power of two, and so finds every cycle (Brent 1980).
+    /// Returns true if a window that enters the face of h returns to a face where it has been;
+    /// shortest paths do not, if faces are straight. A window with a long chain remembers one face,
+    /// where its chain was last a power of two, and so finds every cycle (Brent 1980).
     bool turns_back(std::uint32_t h, const Window& window) const {
         return surface_.frame.straight_faces && h / 3 == window.remembered / 3;
     }
 
-    /// What a window with this chain remembers once it has left the face of h, where it began or
-    /// came in remembering this.
+    /// Returns what a window with this chain remembers after it leaves the face of h, where it
+    /// began or came in remembering `remembered`.
     static std::uint32_t remember(std::uint32_t h, std::uint32_t chain, std::uint32_t remembered) {
         if (chain < gpu::kFirstRemembered) {
             return kNoEdge;
@@ -205,29 +206,29 @@ class Detector {
         return std::has_single_bit(chain) ? h : remembered;
     }
 
-    /// A window leaves its face through `e`, lit on [b0, b1] from (x, y) in the frame of e; `start`
-    /// and `end` are what is known of the edge's ends.
+    /// Returns the window that leaves its face through `e`, lit on [b0, b1] from (x, y) in the
+    /// frame of e; `start` and `end` are the known distances of the edge's ends.
     Child leave(std::uint32_t e, Real start, Real end, Real x, Real y, Real b0, Real b1, Real sigma,
                 std::uint32_t chain, std::uint32_t remembered) {
         if (around_half_edge(surface_.edges[e].around) == e || !(b0 < b1)) {
             return {};
         }
         y = y < static_cast<Real>(kSmallestOffset) ? Real{0} : y;
-        // From the edge's own end nothing but the edge is lit: that vertex lights its fan itself,
-        // and rounding could carry the window around it for ever.
+        // A source at an end of the edge lights only the edge: that vertex lights its fan itself,
+        // and rounding could carry the window around it forever.
         const Real grain = surface_.edges[e].length * (4 * std::numeric_limits<Real>::epsilon());
         if (y == 0 && (x <= grain || surface_.edges[e].length - x <= grain)) {
             return {};
         }
         const Real aside = x < b0 ? b0 - x : (x > b1 ? x - b1 : Real{0});
         const Real distance = sigma + root(aside * aside + y * y);
-        // Xin and Wang's filter by the two ends of the edge.
+        // Xin and Wang's filter with the two ends of the edge.
         const Real length = surface_.edges[e].length;
         if (!(distance < reach_through(e / 3)) || beats(start, b1, sigma, square(x - b1) + y * y) ||
             beats(end, length - b0, sigma, square(x - b0) + y * y)) {
             return {};
         }
-        // Where many faces share the edge the shader has no room for what is known of its ends.
+        // If many faces share the edge, the shader has no room for the known distances of its ends.
         const bool many = shared_by_many(e);
         return {distance,
                 {e, x, y, b0, b1, sigma, chain, many ? static_cast<Real>(kFar) : rounded_up(start),
@@ -236,14 +237,14 @@ class Detector {
 
     bool shared_by_many(std::uint32_t e) const {
         if (surface_.frame.splits_once) {
-            return false; // No edge of the mesh is.
+            return false; // The mesh has no such edge.
         }
         const std::uint32_t next = around_half_edge(surface_.edges[e].around);
         return around_half_edge(surface_.edges[next].around) != e;
     }
 
-    /// A known distance as a window carries it: in steps of 2^-15, never less. A bound too large
-    /// only lets a window live that could be dropped.
+    /// Rounds a known distance up to a multiple of 2^-15, as windows carry it. A bound that is too
+    /// large only keeps a window that could be dropped.
     Real rounded_up(Real distance) const {
         if (!(distance < limit_)) {
             return static_cast<Real>(kFar);
@@ -252,8 +253,8 @@ class Detector {
         return static_cast<Real>(steps) * static_cast<Real>(0x1p-15);
     }
 
-    /// Whether `known` plus a straight way of length `way` beats the window's own distance to a
-    /// point at squared distance `square` from its source, by more than the margin.
+    /// Returns true if `known` plus a straight path of length `way` beats the window's own distance
+    /// to a point, at squared distance `square` from its source, by more than the margin.
     bool beats(Real known, Real way, Real sigma, Real own_square) const {
         const Real rest = ((known + way) - sigma) + margin_;
         return rest < 0 || rest * rest < own_square;
@@ -275,8 +276,8 @@ class Detector {
         }
     }
 
-    /// Whether a shortest path that came in through corner `from` may go on into `corner`: it must
-    /// keep an angle of pi on both sides, or on one side of an open fan.
+    /// Returns true if a shortest path that came in through corner `from` may go on into `corner`: it
+    /// must keep an angle of pi on both sides, or on one side of an open fan.
     bool in_shadow(const VertexFan& fan, std::uint32_t from, std::uint32_t corner) const {
         if (from == kWholeFan || (fan.flags & gpu::kFanIrregular)) {
             return true;
@@ -285,7 +286,8 @@ class Detector {
         const auto [start, end] = angles(corner);
         const std::uint32_t left = end - from_start;
         const std::uint32_t right = from_end - start;
-        // In steps of angles a needle may begin where its neighbour does: either may be the first.
+        // Angles are in steps, so a needle may begin where its neighbour does: either may be the
+        // first.
         const bool may_come_before = start < from_start || (start == from_start && corner != from);
         const bool may_come_behind = start >= from_start;
         const std::uint32_t needed = gpu::kAnglePi - gpu::kAngleTolerance;
@@ -329,7 +331,7 @@ class Detector {
         }
     }
 
-    /// A window enters every other face of its edge.
+    /// Carries a window into every other face of its edge.
     template <class Light>
     void cross_edge(const Window& window, const Light& light) {
         const Real length = surface_.edges[window.edge].length;
@@ -363,28 +365,28 @@ class Detector {
         }
     }
 
-    /// Whether there were so many windows that the disk is to begin again, trimming.
+    /// Returns true if there are so many windows that the disk must restart to trim.
     bool makes_many() const {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
         const std::uint32_t each = gpu::kUntrimmedEach + (vertices >> gpu::kUntrimmedShift);
         return !waiting_.trims() && waiting_.pushed() > gpu::kUntrimmedWindows + vertices * each;
     }
 
-    /// Whether the disk goes on without end though it trims.
+    /// Returns true if the disk does not end although it trims.
     bool is_endless() const {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
         const std::uint32_t trimmed = waiting_.pushed() - untrimmed_;
         return waiting_.trims() && trimmed > gpu::kMostWindows + vertices * gpu::kMostPerVertex;
     }
 
-    /// Whether the window, given in the frame of h, is to go.
+    /// Returns true if the window, given in the frame of h, is dropped by trimming.
     bool is_trimmed(std::uint32_t h, const Window& window) {
         return kept_.trims(surface_.edges[h].origin, surface_.edges[next_in_face(h)].origin,
                            surface_.edges[h].length,
                            {window.x, window.y, window.b0, window.b1, window.sigma}, limit_);
     }
 
-    /// The window, given in the frame of h with its source at (x, -y), enters the face of h.
+    /// Carries the window, given in the frame of h with its source at (x, -y), into the face of h.
     template <class Light>
     void enter_face(std::uint32_t h, const Window& window, const Light& light) {
         const Real x = window.x;
@@ -392,7 +394,7 @@ class Detector {
         const Real b0 = window.b0;
         const Real b1 = window.b1;
         const Real sigma = window.sigma;
-        // First, so that the memory of both the bins and the face is waited for at once.
+        // First, so that memory of the bins and of the face is loaded at the same time.
         light.wedge(h, x, y, b0, b1, sigma);
         const Edge<Real>& edge = surface_.edges[h];
         const std::uint32_t left = previous_in_face(h);
@@ -414,7 +416,7 @@ class Detector {
             to_right ? lit_child(right, false, h, edge.length - x, y, edge.length - b1,
                                  crossing > b0 ? kFull : edge.length - b0, known, window)
                      : Child{};
-        // The nearer one comes last, so that the stack gives it back first.
+        // The nearer one is pushed last, so that the stack returns it first.
         const bool right_first = over_left.distance < over_right.distance;
         push(right_first ? over_right : over_left);
         push(right_first ? over_left : over_right);
@@ -422,8 +424,8 @@ class Detector {
 
     static constexpr Real kFull = -1;
 
-    /// One angle, one split (Chen and Han 1990): when another window reached the apex through the
-    /// same angle by a shorter path, only the child on this window's own side can matter.
+    /// One angle, one split (Chen and Han 1990): if another window reached the apex through the
+    /// same angle by a shorter path, only the child on this window's own side matters.
     void split_once(std::uint32_t apex, std::uint32_t h, Real crossing, Real distance,
                     bool& to_left, bool& to_right) const {
         const VertexNote& note = vertices_[apex];
@@ -431,7 +433,7 @@ class Detector {
             !to_left || !to_right || !(distance > note.distance + margin_)) {
             return;
         }
-        // Rays that cross at one place within rounding do not tell which side is whose.
+        // If both rays cross at the same position within rounding, the sides are ambiguous.
         if (crossing < note.crossing - slack_) {
             to_right = false;
         } else if (crossing > note.crossing + slack_) {
@@ -439,9 +441,9 @@ class Detector {
         }
     }
 
-    /// The child over the left or right edge e, lit between the rays through `near` and `far`. For
-    /// the left child all is measured from the start of h, for the right one from its end. `apex`
-    /// is what is known of the corner both children share.
+    /// Returns the child through the left or right edge e, lit between the rays through `near` and
+    /// `far`. Positions are measured from the start of h for the left child, from its end for the
+    /// right one. `apex` is the known distance of the corner that both children share.
     Child lit_child(std::uint32_t e, bool left, std::uint32_t h, Real x, Real y, Real near,
                     Real far, Real apex, const Window& window) {
         const Edge<Real>& child = surface_.edges[e];
@@ -459,7 +461,7 @@ class Detector {
         const Real px = left ? child.length - child_x : child_x;
         const Real b0 = left ? child.length - high : low;
         const Real b1 = left ? child.length - low : high;
-        // Xin and Wang's filter by the third corner of the face, which lies at the child's apex:
+        // Xin and Wang's filter with the third corner of the face, at the apex of the child,
         // against the end of the lit interval next to the edge the window came through.
         const Real b = left ? b1 : b0;
         const Real third = left ? window.end : window.start;
@@ -472,13 +474,13 @@ class Detector {
                      remember(h, window.chain + 1, window.remembered));
     }
 
-    /// Points of h's face at straight distance from (x, y) in the frame of h.
+    /// Tests points of h's face at straight distance from (x, y) in the frame of h.
     template <class Wanted, class Hit>
     void scan_face(std::uint32_t h, Real x, Real y, Real sigma, Wanted& wanted, Hit& hit) {
         scan(h, x, y, sigma, wanted, hit, [](Real, Real) { return true; });
     }
 
-    /// Points of h's face that (x, -y) sees through [b0, b1] of h.
+    /// Tests points of h's face that (x, -y) sees through [b0, b1] of h.
     template <class Wanted, class Hit>
     void scan_wedge(std::uint32_t h, Real x, Real y, Real b0, Real b1, Real sigma, Wanted& wanted,
                     Hit& hit) {
@@ -496,7 +498,7 @@ class Detector {
         const Grid& grid = bins_.grids[f];
         const Real rest = reach_into(f) - sigma;
         if (adaptive() && !(rest > 0)) {
-            return; // The disk ends before the face.
+            return; // The disk does not reach the face.
         }
         const Real rest2 = rest * rest;
         const auto scan_places = [&](std::uint32_t from, std::uint32_t to) {
@@ -534,7 +536,8 @@ class Detector {
         }
     }
 
-    /// The squared distance from a source at sigma below which a place is near, where radii vary.
+    /// Returns, if radii vary, the squared distance from a source at sigma below which a place is
+    /// near.
     Real near_square(std::uint32_t place, Real sigma) const {
         const Real rest = limit_with(surface_.radius_at(bins_.points[place])) - sigma;
         return rest > 0 ? rest * rest : Real{0};
@@ -558,12 +561,13 @@ class Detector {
     const Surface<Real>& surface_;
     const Bins<Real>& bins_;
     Real limit_, margin_, slack_;
-    Real own_radius_ = 0; ///< Of the source, where radii vary.
+    Real own_radius_ = 0; ///< Radius of the source, if radii vary.
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
     Waiting<Real> waiting_;
     bool trims_all_ = false;
-    std::uint32_t untrimmed_ = 0; ///< Pushed in this disk before it began to trim.
+    std::uint32_t untrimmed_ = 0; ///< Windows and events pushed in this disk before it began to
+                                  ///< trim.
     KeptWindows<Real> kept_;
     DiskCount count_;
 };

@@ -18,7 +18,7 @@ BoxCellTable<Real>::BoxCellTable(const BoxLattice& lattice, std::size_t candidat
         const double side = length * lattice.relative_step(i);
         const double cells = std::max(1.0, std::floor(side * 2 / (1 + 4 * guard)));
         all_cells *= cells;
-        // Rounded down: cells are no narrower than they have to be, and no more.
+        // Rounded down: cells are not narrower and not more numerous than planned.
         const double per_step = cells > 1 ? std::floor(cells * 0x1p32 / length) : 0;
         const double width = cells > 1 ? 0x1p32 / per_step * lattice.relative_step(i) : side;
         axes.push_back({static_cast<std::uint32_t>(cells), 1,

@@ -17,20 +17,20 @@ namespace geodisk::ref {
 template <class Real>
 struct GridAxis {
     std::uint32_t cells, stride;
-    Real unit, width;       ///< Of a coordinate and of a cell, in minimum distances.
-    std::uint32_t per_step; ///< Cells to a step of the lattice, in units of 2^-32.
+    Real unit, width;       ///< Length of a step and width of a cell, in minimum distances.
+    std::uint32_t per_step; ///< Cells per step of the lattice, in units of 2^-32.
 
     std::uint32_t cell_of(std::uint32_t coordinate) const {
         return static_cast<std::uint32_t>(std::uint64_t{coordinate} * per_step >> 32);
     }
-    /// Where in its cell a coordinate is, as part of the width, rounded down.
+    /// Returns the position of a coordinate in its cell, as a part of the width, rounded down.
     Real inside_of(std::uint32_t coordinate) const {
         const auto part = static_cast<std::uint32_t>(std::uint64_t{coordinate} * per_step);
         return static_cast<Real>(part >> 8) * static_cast<Real>(0x1p-24);
     }
 };
 
-/// Cells of half the minimum distance and a little more over a box, in a table of heads.
+/// Grid over a box with cells slightly wider than half the minimum distance, in a table of heads.
 template <class Real>
 struct BoxCellTable {
     std::vector<GridAxis<Real>> axes;
@@ -42,20 +42,21 @@ struct BoxCellTable {
     std::uint32_t head_of(const BoxPoint& point) const;
 };
 
-/// Candidates sorted by head: those of head h are in the places from starts[h] to starts[h + 1].
+/// Candidates sorted by head: those of head h are at the places starts[h] to starts[h + 1].
 template <class Real>
 struct BoxPool {
     BoxCellTable<Real> table;
     std::vector<std::uint32_t> starts;
-    std::vector<BoxPoint> points;      ///< By place.
-    std::vector<std::uint32_t> order;  ///< Ranks, by place.
-    std::vector<std::uint32_t> places; ///< By rank.
-    /// By place; with normals, distances are lengths of curves.
+    std::vector<BoxPoint> points;      ///< Points by place.
+    std::vector<std::uint32_t> order;  ///< Ranks by place.
+    std::vector<std::uint32_t> places; ///< Places by rank.
+    /// Normals by place; with them, distances are lengths of curves.
     std::vector<std::array<Real, 3>> normals;
 
-    /// The candidates of a job.
+    /// Draws the candidates of a job.
     explicit BoxPool(const BoxParams& box);
-    /// Points of a lattice. The table is as large as so many candidates ask, or if 0 as the points.
+    /// Takes points of a lattice. The table is sized for this many candidates, or if 0 for the
+    /// points.
     BoxPool(const BoxLattice& lattice, std::span<const BoxPoint> by_rank, double guard,
             std::size_t capacity = 0);
 
@@ -67,8 +68,8 @@ struct BoxDiskCount {
     std::uint32_t rows = 0, tested = 0;
 };
 
-/// Calls `hit(place)` for each candidate in the disk of another whose `wanted(place)` holds: once,
-/// or more often where cells share a head.
+/// Calls `hit(place)` for each candidate with `wanted(place)` in the disk of another: once, or more
+/// often if cells share a head.
 template <class Real>
 class BoxDetector {
   public:
@@ -98,8 +99,8 @@ class BoxDetector {
     std::array<Real, gpu::kMostAxes> own_inside_{};
 };
 
-/// Sequential dart throwing over the pool, until it is used up or `most` are accepted: their ranks,
-/// ascending.
+/// Throws darts sequentially over the pool, until it is used up or `most` are accepted. Returns
+/// their ranks, ascending.
 template <class Real>
 std::vector<std::uint32_t> throw_darts(const BoxPool<Real>& pool,
                                        std::uint32_t most = kMostCandidates);
@@ -167,7 +168,7 @@ bool BoxDetector<Real>::conflicts_with(std::uint32_t other) const {
                           pool_.table.limit2);
 }
 
-/// From the last axis down to the second; then a row.
+/// Visits axes from the last to the second, then rows.
 template <class Real>
 template <class Visit>
 void BoxDetector<Real>::visit_rows(std::size_t axis, Real sum, std::uint32_t head,
@@ -202,7 +203,7 @@ BoxDiskCount BoxDetector<Real>::run(std::uint32_t place, Wanted&& wanted, Hit&& 
     std::uint32_t next_cell = 0;
     std::uint32_t next_head = 0;
     auto visit = [&](std::uint32_t cell, std::uint32_t head) {
-        // Cells in a row whose heads follow each other make one visit.
+        // Cells of a row with consecutive heads make one visit.
         const bool goes_on = count.rows > 0 && cell == next_cell && head == next_head;
         count.rows += goes_on ? 0 : 1;
         next_cell = cell + 1;

@@ -1,4 +1,4 @@
-// Twin of shaders/kernels/place.comp: where a sample lies in space.
+// Twin of shaders/kernels/place.comp: position of a sample in space.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@ namespace geodisk::ref {
 
 using Vec = std::array<double, 3>;
 
-/// What is linear in a triangle, at the point with these weights of its second and third corner.
+/// Interpolates linearly in a triangle, at the point with these weights of its second and third
+/// corner.
 inline Vec weighed(const std::array<Vec, 3>& corners, double weight1, double weight2) {
     Vec sum{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -19,7 +20,7 @@ inline Vec weighed(const std::array<Vec, 3>& corners, double weight1, double wei
     return sum;
 }
 
-/// Of length 1; a zero vector stays.
+/// Returns the vector with length 1; a zero vector stays.
 inline Vec normalized(Vec v) {
     const double length = std::hypot(v[0], v[1], v[2]);
     for (double& coordinate : v) {
@@ -28,7 +29,7 @@ inline Vec normalized(Vec v) {
     return v;
 }
 
-/// The normal of a triangle, to the side from which its corners run counterclockwise.
+/// Returns the normal of a triangle, on the side from which its corners run counterclockwise.
 inline Vec face_normal(const std::array<Vec, 3>& corners) {
     Vec u{}, v{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

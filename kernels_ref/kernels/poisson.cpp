@@ -6,18 +6,18 @@ namespace geodisk::ref {
 namespace {
 
 constexpr float kSmallestMean = 0x1p-40f;
-/// From it on the whole part of a mean is drawn by itself.
+/// From this mean on, its integer part is drawn separately.
 constexpr float kWalkedMean = 8;
-/// Numbers less probable are not looked at.
+/// Less probable numbers are ignored.
 constexpr float kSmallestProbability = 0x1p-32f;
 constexpr std::uint32_t kMostOfTail = 64;
 
-/// The middle of one of 2^32 equal parts of [0, 1].
+/// Returns the middle of one of 2^32 equal parts of [0, 1].
 float unit_fraction(std::uint32_t u) {
     return (static_cast<float>(u >> 8) * 256.0f + (static_cast<float>(u & 255u) + 0.5f)) * 0x1p-32f;
 }
 
-/// 1 - exp(-r), 0 <= r < 0.5, by its series.
+/// Returns 1 - exp(-r), 0 <= r < 0.5, by its series.
 float one_less_exp(float r) {
     float rest = 1.0f;
     for (int k = 8; k > 1; --k) {
@@ -26,10 +26,10 @@ float one_less_exp(float r) {
     return r * rest;
 }
 
-/// Of a mean from 0 to 8: the greatest n with P(N >= n) above the target.
+/// Returns, for a mean from 0 to 8, the largest n with P(N >= n) above the target.
 std::uint32_t poisson_tail(float mean, std::uint32_t word) {
     const float target = unit_fraction(word);
-    // P(N >= 1) is below the mean but for rounding.
+    // P(N >= 1) is below the mean except for rounding.
     if (target > mean * 1.001f) {
         return 0;
     }
@@ -49,7 +49,8 @@ std::uint32_t poisson_tail(float mean, std::uint32_t word) {
     return n;
 }
 
-/// Of a whole mean, by inversion outwards from the mode; its probability is Stirling's.
+/// Returns a number for an integer mean, by inversion outwards from the mode; its probability is
+/// from Stirling's series.
 std::uint32_t poisson_walk(std::uint32_t mean, std::uint32_t word) {
     const auto c = static_cast<float>(mean);
     const float e1 = ratio(1.0f, 12.0f * c);

@@ -1,4 +1,4 @@
-// How many candidates a face or a cell of a box has. In float throughout, being part of the
+// Number of candidates of a face or a cell of a box. In float throughout, since it is part of the
 // definition of the candidates.
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace geodisk::ref {
 
-/// A number from the Poisson law of the mean, at most 2^24, by two random words: that of the mean's
-/// whole part, where it is at least 8, and that of the rest.
+/// Returns a Poisson number for the mean, at most 2^24, from two random words: one for the integer
+/// part of the mean, if it is at least 8, and one for the rest.
 std::uint32_t poisson(float mean, std::uint32_t whole_word, std::uint32_t rest_word);
 
 } // namespace geodisk::ref

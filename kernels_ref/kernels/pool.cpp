@@ -11,7 +11,7 @@
 namespace geodisk::ref {
 namespace {
 
-/// Candidates of each face, stage by stage.
+/// Number of candidates of each face, by stage.
 using Counts = std::vector<std::vector<std::uint32_t>>;
 
 std::vector<std::size_t> stage_starts(const Counts& counts) {
@@ -53,14 +53,14 @@ class Drawing {
 
     void draw_stage(std::uint32_t face, std::size_t stage, std::span<FacePoint<Real>> points) {
         if (points.empty()) {
-            return; // As in most faces, where these are many.
+            return; // Common case in meshes of many faces.
         }
         priorities_.resize(points.size());
         draw_candidates(surface_, params_, face, first_stage_ + static_cast<std::uint32_t>(stage),
                         points, std::span(priorities_));
     }
 
-    /// A face of one cell has its candidates as they are drawn.
+    /// Keeps the candidates of a face with one cell in the order drawn.
     void draw_cell(std::uint32_t face, const Grid& grid) {
         pool_.bins.starts[grid.first_cell] = place_;
         for (std::size_t stage = 0; stage < counts_.size(); ++stage) {
@@ -123,19 +123,19 @@ class Drawing {
     const SampleParams& params_;
     std::uint32_t first_stage_;
     const Counts& counts_;
-    std::vector<std::size_t> starts_; ///< Of the stages in dart order, and the end.
-    std::vector<std::size_t> next_;   ///< By stage.
-    UninitializedVector<Dart> darts_; ///< By stage, of places.
+    std::vector<std::size_t> starts_; ///< First dart of each stage in dart order, and the end.
+    std::vector<std::size_t> next_;   ///< Next dart by stage.
+    UninitializedVector<Dart> darts_; ///< Darts of places, by stage.
     Pool<Real> pool_;
     std::uint32_t place_ = 0;
     std::vector<std::uint32_t> priorities_;
-    // Of a face with many cells.
+    // Scratch memory for a face with many cells.
     std::vector<FacePoint<Real>> face_points_;
     std::vector<Drawn> drawn_;
     std::vector<std::uint32_t> cells_;
 };
 
-/// Leaves out all candidates but the first in dart order.
+/// Keeps only the first candidates in dart order.
 template <class Real>
 void keep_first(Pool<Real>& pool, std::uint32_t count) {
     const std::vector<std::uint32_t> ranks = pool.ranks();

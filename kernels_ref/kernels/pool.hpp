@@ -1,4 +1,4 @@
-// The candidates of a job: drawn face by face, in cells, and listed in dart order.
+// Pool: the candidates of a job, drawn face by face into cells and listed in dart order.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@ namespace geodisk::ref {
 template <class Real>
 struct Pool {
     Bins<Real> bins;
-    std::vector<std::uint32_t> words;  ///< In the order of the bins, see order_word().
-    std::vector<std::uint32_t> places; ///< In the bins, by rank.
+    std::vector<std::uint32_t> words;  ///< Order words in the order of the bins, see order_word().
+    std::vector<std::uint32_t> places; ///< Places in the bins, by rank.
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(places.size()); }
     FacePoint<Real> candidate(std::uint32_t rank) const { return bins.points[places[rank]]; }
     std::uint32_t word(std::uint32_t rank) const { return words[places[rank]]; }
     std::vector<FacePoint<Real>> by_rank() const;
-    /// The ranks, in the order of the bins.
+    /// Returns the ranks in the order of the bins.
     std::vector<std::uint32_t> ranks() const;
 };
 
-/// All candidates of `stages` stages of a job, from `first` on. `surface` is that of the mesh and
-/// the parameters.
+/// Draws all candidates of `stages` stages of a job, from `first` on. `surface` is that of the mesh
+/// and the parameters.
 template <class Real>
 Pool<Real> draw_stages(const Surface<Real>& surface, const SampleParams& params,
                        std::uint32_t first, std::uint32_t stages);
 
-/// All candidates of a job: the stages of a pool, or its first `params.throws` darts.
+/// Draws all candidates of a job: the stages of a pool, or its first `params.throws` darts.
 template <class Real>
 Pool<Real> draw_pool(const Surface<Real>& surface, const SampleParams& params);
 

@@ -11,17 +11,17 @@
 namespace geodisk::ref {
 
 struct SpacePoints {
-    BoxParams box;                             ///< The bounding box of the mesh, as a job.
-    std::vector<BoxPoint> by_rank;             ///< In dart order, on BoxLattice::finest().
-    std::vector<std::array<float, 3>> normals; ///< Likewise, of unit length or zero.
+    BoxParams box;                             ///< Bounding box of the mesh, as a job.
+    std::vector<BoxPoint> by_rank;             ///< Points in dart order, on BoxLattice::finest().
+    std::vector<std::array<float, 3>> normals; ///< Normals in dart order, of unit length or zero.
     double guard;                              ///< Conflicts are tested against 1 + guard.
 };
 
-/// `mesh` was prepared from `view`, of three coordinates per vertex.
+/// Draws candidates on `mesh`, prepared from `view`, with three coordinates per vertex.
 SpacePoints draw_in_space(const MeshView& view, const PreparedMesh& mesh,
                           const SampleParams& params);
 
-/// The points in cells. Distances are straight, or those of curves.
+/// Sorts the points into cells. Distances are straight, or those of curves.
 template <class Real>
 BoxPool<Real> space_pool(const SpacePoints& points, bool is_curved);
 

@@ -1,5 +1,5 @@
-// Twin of shaders/lib/trim.glsl: windows trimmed against each other (Mitchell, Mount and
-// Papadimitriou 1987), in disks that make very many.
+// Twin of shaders/lib/trim.glsl: trimming of windows against each other (Mitchell, Mount and
+// Papadimitriou 1987), in disks with very many.
 #pragma once
 
 #include <algorithm>
@@ -15,22 +15,22 @@
 
 namespace geodisk::ref {
 
-/// Of the windows of a disk that came to edges, the widest for each edge and the last that was
-/// narrower; of some edges, since there is room for kKeptEdges.
+/// Keeps, of the windows of a disk that came to each edge, the widest and the last narrower one,
+/// for up to kKeptEdges edges.
 template <class Real>
 class KeptWindows {
   public:
-    /// A window in the frame of the edge, from one of its ends on; the source at y from its line.
+    /// A window in the frame of the edge, from one of its ends, with the source at y from its line.
     struct Window {
         Real x, y, b0, b1, sigma;
     };
 
-    /// Keeps nothing of the disks before.
+    /// Forgets the windows of earlier disks.
     void begin_disk() { ++generation_; }
 
-    /// Whether a window that comes to the edge from vertex `start` to vertex `end` is to go: where
-    /// another one is not farther by more than rounding, all along what it lights before its paths
-    /// are `limit` long. Else it may be kept from now on.
+    /// Returns true if a window that comes to the edge from vertex `start` to vertex `end` is
+    /// dropped: another one is not farther by more than rounding, everywhere that the window lights
+    /// before its paths are `limit` long. Otherwise it may be kept from now on.
     bool trims(std::uint32_t start, std::uint32_t end, Real length, Window window, Real limit) {
         if (start > end) {
             std::swap(start, end);
@@ -48,7 +48,7 @@ class KeptWindows {
                 return true;
             }
         }
-        // The narrowest gives way, or one of another edge.
+        // Replace the narrowest, or one of another edge.
         const auto width = [&](const Row& row) {
             return is_of_edge(row) ? row.window.b1 - row.window.b0 : Real{-1};
         };
@@ -70,15 +70,15 @@ class KeptWindows {
 
     static Real square(Real v) { return v * v; }
 
-    /// Whether the kept window is hardly farther from the point `at` of the edge.
+    /// Returns true if the kept window is hardly farther from the point `at` of the edge.
     static bool is_as_near(const Window& kept, const Window& other, Real at) {
         const Real distance = other.sigma + root(square(at - other.x) + square(other.y));
         const Real rest = (distance - kept.sigma) + kError;
         return rest >= 0 && square(at - kept.x) + square(kept.y) <= rest * rest;
     }
 
-    /// The difference of the two is largest at an end, or where both sources lie on one line with
-    /// the point.
+    /// Returns true if this holds everywhere. The difference of the two is largest at an end, or
+    /// where both sources are collinear with the point.
     static bool dominates(const Window& kept, const Window& other, Real limit) {
         const Real way = limit - other.sigma;
         const Real low = std::max(other.b0, other.x - way);
@@ -97,7 +97,8 @@ class KeptWindows {
                is_as_near(kept, other, low + width * part);
     }
 
-    std::vector<std::array<Row, gpu::kKeptPerEdge>> edges_; ///< Empty until a disk trims.
+    std::vector<std::array<Row, gpu::kKeptPerEdge>> edges_; ///< Kept windows; empty until a disk
+                                                            ///< trims.
     std::uint32_t generation_ = 0;
 };
 

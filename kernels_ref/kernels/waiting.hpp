@@ -1,5 +1,4 @@
-// Twin of shaders/lib/waiting.glsl: what is still to be spread of a disk, windows and vertex
-// events.
+// Twin of shaders/lib/waiting.glsl: waiting windows and vertex events of a disk.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +10,14 @@
 
 namespace geodisk::ref {
 
-/// A window in the frame of the half-edge it leaves its face through, the source at (x, y) with
-/// y >= 0.
+/// A window in the frame of the half-edge through which it leaves its face, with the source at (x,
+/// y), y >= 0.
 template <class Real>
 struct Window {
     std::uint32_t edge;
     Real x, y, b0, b1, sigma;
     std::uint32_t chain;
-    Real start, end; ///< What was known of the edge's ends, rounded up.
+    Real start, end; ///< Known distances of the edge's ends, rounded up.
     /// A half-edge of a face that the window came through, see Detector::turns_back().
     std::uint32_t remembered;
 };
@@ -31,22 +30,22 @@ struct Event {
     std::uint32_t chain;
 };
 
-/// Windows go first, the last one first; events follow when no window is left, the nearest first or
-/// the oldest: a vertex then mostly has its final distance before its fan is lit. Of a disk that
-/// trims its windows both go by distance.
+/// Waiting work. Windows go first, latest first; events follow when no window is left, nearest or
+/// oldest first. Most vertices then have their final distance before their fan is lit. In a disk
+/// that trims, both go by distance.
 template <class Real>
 class Waiting {
   public:
-    /// Takes events in the order they came, but for disks that trim.
+    /// Takes events oldest first, except in disks that trim.
     void take_oldest_first() { oldest_first_ = true; }
 
-    /// A new disk.
+    /// Begins a new disk.
     void begin_disk(bool trims) {
         pushed_ = most_ = longest_chain_ = 0;
         begin(trims);
     }
 
-    /// Drops what waits.
+    /// Drops all waiting work.
     void begin(bool trims) {
         trims_ = trims;
         windows_.clear();
@@ -57,14 +56,15 @@ class Waiting {
 
     bool trims() const { return trims_; }
 
-    /// Windows and events pushed in the disk, most that waited, and their longest chain.
+    /// Return the windows and events pushed in the disk, the maximum that waited, and their longest
+    /// chain.
     std::uint32_t pushed() const { return pushed_; }
     std::uint32_t most() const { return most_; }
     std::uint32_t longest_chain() const { return longest_chain_; }
 
     void push(const Window<Real>& window, Real distance) {
         if (trims_) {
-            // Of windows as near the first comes first.
+            // Equally near windows go in the order they came.
             push_row({{gpu::kWindowWaits, pushed_, distance, window.chain}, place_for(window)});
         } else {
             windows_.push_back(window);
@@ -74,7 +74,7 @@ class Waiting {
 
     void push(const Event<Real>& event) { push_row({event, 0}); }
 
-    /// Calls `on_window` or `on_event` with what comes next; false if nothing waits.
+    /// Calls `on_window` or `on_event` with the next one. Returns false if nothing waits.
     template <class OnWindow, class OnEvent>
     bool take(OnWindow&& on_window, OnEvent&& on_event) {
         if (!trims_ && !windows_.empty()) {
@@ -97,7 +97,7 @@ class Waiting {
     }
 
   private:
-    /// An event, or with kWindowWaits for a vertex a window, by where it is in windows_.
+    /// An event; or with kWindowWaits as vertex, a window with its index in windows_.
     struct Row {
         Event<Real> event;
         std::uint32_t place;
@@ -109,7 +109,7 @@ class Waiting {
         return std::tie(a.event.vertex, a.event.corner) > std::tie(b.event.vertex, b.event.corner);
     }
 
-    /// Whether events are a heap.
+    /// Returns true if events are a heap.
     bool by_distance() const { return trims_ || !oldest_first_; }
 
     void push_row(const Row& row) {
@@ -149,10 +149,10 @@ class Waiting {
 
     bool trims_ = false;
     bool oldest_first_ = false;
-    std::vector<Window<Real>> windows_;      ///< A stack; of a disk that trims, with gaps.
-    std::vector<std::uint32_t> free_places_; ///< Those.
-    std::vector<Row> events_;                ///< A heap, the nearest on top; or all as they came.
-    std::size_t events_taken_ = 0;           ///< Of those.
+    std::vector<Window<Real>> windows_;      ///< A stack, with gaps in a disk that trims.
+    std::vector<std::uint32_t> free_places_; ///< Indices of the gaps.
+    std::vector<Row> events_;                ///< A heap, nearest on top; or a queue, oldest first.
+    std::size_t events_taken_ = 0;           ///< Number of events taken from the queue.
     std::uint32_t pushed_ = 0, most_ = 0, longest_chain_ = 0;
 };
 
