@@ -276,8 +276,8 @@ class Detector {
         }
     }
 
-    /// Returns true if a shortest path that came in through corner `from` may go on into `corner`: it
-    /// must keep an angle of pi on both sides, or on one side of an open fan.
+    /// Returns true if a shortest path that came in through corner `from` may go on into `corner`:
+    /// it must keep an angle of pi on both sides, or on one side of an open fan.
     bool in_shadow(const VertexFan& fan, std::uint32_t from, std::uint32_t corner) const {
         if (from == kWholeFan || (fan.flags & gpu::kFanIrregular)) {
             return true;
