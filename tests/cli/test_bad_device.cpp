@@ -50,15 +50,13 @@ std::string real_driver() {
 }
 
 /// With the driver of weak_driver.cpp; nothing if there is none to build it on.
-std::optional<Setting> with_weak_driver(const TemporaryFolder& folder) {
+std::optional<Setting> with_weak_driver() {
     const std::string driver = real_driver();
     if (driver.empty()) {
         MESSAGE("skipped: no driver manifest found to build a weak driver on");
         return std::nullopt;
     }
-    folder.write("weak.json", R"({"file_format_version": "1.0.0", "ICD": {"api_version": "1.1.0",
-                                  "library_path": ")" GEODISK_WEAK_DRIVER R"("}})");
-    Setting setting = with_driver((folder / "weak.json").string());
+    Setting setting = with_driver(GEODISK_WEAK_DRIVER_MANIFEST);
     setting.environment.emplace_back("GEODISK_TEST_DRIVER", driver);
     return setting;
 }
@@ -87,7 +85,7 @@ TEST_CASE("a device can be chosen by index") {
 
 TEST_CASE("a device that is too weak") {
     const TemporaryFolder folder;
-    const std::optional<Setting> setting = with_weak_driver(folder);
+    const std::optional<Setting> setting = with_weak_driver();
     if (!setting) {
         return;
     }
@@ -100,7 +98,7 @@ TEST_CASE("a device that is too weak") {
 
 TEST_CASE("a device that cannot draw may still sample") {
     const TemporaryFolder folder;
-    std::optional<Setting> setting = with_weak_driver(folder);
+    std::optional<Setting> setting = with_weak_driver();
     if (!setting) {
         return;
     }
@@ -109,7 +107,7 @@ TEST_CASE("a device that cannot draw may still sample") {
     INFO(quick.err);
     CHECK(quick.status == 0);
     CHECK(contains(quick.out, "picture       none, the device cannot draw\n"));
-    CHECK(files_in(folder) == std::vector<std::string>{"cube-samples.ply", "weak.json"});
+    CHECK(files_in(folder) == std::vector<std::string>{"cube-samples.ply"});
 
     // The mesh is read once, and warned about once.
     setting->stdin_path =
@@ -128,7 +126,7 @@ TEST_CASE("a device that cannot draw may still sample") {
 #ifdef __linux__
 TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
     const TemporaryFolder folder;
-    std::optional<Setting> setting = with_weak_driver(folder);
+    std::optional<Setting> setting = with_weak_driver();
     if (!setting) {
         return;
     }
@@ -157,7 +155,7 @@ TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
 TEST_CASE("a driver that crashes is told from geodisk" *
           doctest::skip(GEODISK_HAS_ADDRESS_SANITIZER)) {
     const TemporaryFolder folder;
-    const std::optional<Setting> setting = with_weak_driver(folder);
+    const std::optional<Setting> setting = with_weak_driver();
     if (!setting) {
         return;
     }
