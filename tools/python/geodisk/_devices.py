@@ -18,20 +18,20 @@ from . import _structs as s
 
 @dataclass(frozen=True)
 class Device:
-    """A Vulkan device of this machine, which ``device=`` of other functions takes.
+    """A Vulkan device of this machine, for ``device=`` of other functions.
 
     Attributes
     ----------
     index : int
-        Its place in the list.
+        Index in the list.
     name, driver : str
     type : str
         ``"discrete"``, ``"integrated"``, ``"virtual"``, ``"cpu"`` or ``"other"``.
     usable : bool
     reasons : tuple of str
-        Why it is not usable.
+        Reasons why it is not usable.
     memory : int
-        Bytes of its largest heap of its own.
+        Size of its largest device-local heap, in bytes.
     uuid : str
     """
 
@@ -49,12 +49,12 @@ _TYPES = {1: "integrated", 2: "discrete", 3: "virtual", 4: "cpu"}
 
 
 def devices() -> list[Device]:
-    """All Vulkan devices of this machine, usable or not.
+    """Returns all Vulkan devices of this machine, usable or not.
 
     Raises
     ------
     NoDevice
-        Without loader, driver or device, with a hint what to install.
+        Without loader, driver or device; the message names what to install.
     """
     global _uses_drivers
     _uses_drivers = True
@@ -81,9 +81,9 @@ DeviceLike = Union[Device, int, str]
 
 
 def name_of(device: DeviceLike | None) -> str:
-    """Returns what the library chooses a device by; "" for the best one.
+    """Returns the name of a device for the library; "" for the best one.
 
-    None is what the environment variable GEODISK_DEVICE says.
+    None stands for the environment variable GEODISK_DEVICE.
     """
     if device is None:
         return os.environ.get("GEODISK_DEVICE", "")

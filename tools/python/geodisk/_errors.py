@@ -1,4 +1,4 @@
-"""What geodisk raises and warns of."""
+"""Exceptions and warnings of geodisk."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ class Error(Exception):
     Attributes
     ----------
     status : str
-        What kind of failure: ``"invalid_argument"``, ``"mesh_rejected"``, ``"no_device"`` ...
+        Kind of failure: ``"invalid_argument"``, ``"mesh_rejected"``, ``"no_device"`` ...
     element : int or None
-        The face or vertex at fault, where one is.
+        The offending face or vertex, if there is one.
     """
 
     def __init__(
@@ -39,7 +39,7 @@ class OutOfMemory(Error, MemoryError):
 
 
 class DeviceLost(Error):
-    """The device stopped to work. The next call opens it anew."""
+    """The device stopped working. The next call opens it again."""
 
 
 class Cancelled(Error):
@@ -47,7 +47,7 @@ class Cancelled(Error):
 
 
 class NoProgram(Error):
-    """The program ``geodisk``, which some functions run, is not there or of another version."""
+    """The program ``geodisk``, which some functions run, is missing or has another version."""
 
 
 #: Exceptions by status.
@@ -66,17 +66,17 @@ BY_STATUS = {
 
 
 def invalid(message: str) -> InvalidArgument:
-    """What to raise for an argument that the library does not see."""
+    """Returns the error for an argument that is checked in Python."""
     return InvalidArgument(message, "invalid_argument")
 
 
 class GeodiskWarning(UserWarning):
-    """Base class of the warnings of geodisk. Itself, it is about samples.
+    """Base class of the warnings of geodisk; used directly for warnings about samples.
 
     Attributes
     ----------
     kind : str
-        ``"count_missed"``, ``"bare_parts"``, ``"single_samples"``; or what a mesh has.
+        ``"count_missed"``, ``"bare_parts"``, ``"single_samples"``; or a kind of MeshWarning.
     count : int
         Number of elements concerned.
     """
@@ -88,7 +88,7 @@ class GeodiskWarning(UserWarning):
 
 
 class MeshWarning(GeodiskWarning):
-    """Something is odd about a mesh. The samples are right, but perhaps not what you expect.
+    """The mesh has an oddity. The samples are correct, but may not be what you expect.
 
     Its ``kind`` is ``"unwelded"``, ``"components"``, ``"nonmanifold_edges"``, ``"duplicate_faces"``
     or another one.

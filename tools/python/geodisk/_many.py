@@ -100,31 +100,31 @@ def sample_many(
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> list[Samples]:
-    """Samples many meshes as one job, which takes less time than one after the other.
+    """Samples several meshes as one job, which is faster than sampling them separately.
 
-    Each mesh gets the samples that :func:`sample` gives it by itself.
+    Each mesh gets the same samples as from :func:`sample`.
 
     Parameters
     ----------
     meshes : iterable of meshes
-        Each is what :func:`sample` takes: a :class:`Mesh`, a path, an object of another package, or
-        a pair of vertices and faces. One :class:`Mesh` may be there many times.
-    min_distance, radius, count, seed : number, or a sequence with one for each mesh
-        As :func:`sample` takes them.
-    density, radius_factor, face_keys : sequence with one for each mesh, or None
-        As :func:`sample` takes them; None for a mesh without.
+        Each is a :class:`Mesh`, a path, an object of another package, or a pair of vertices and
+        faces, as for :func:`sample`. A :class:`Mesh` may appear several times.
+    min_distance, radius, count, seed : number, or a sequence with one per mesh
+        As for :func:`sample`.
+    density, radius_factor, face_keys : sequence with one per mesh, or None
+        As for :func:`sample`; None for a mesh without.
     pool_ratio, weld, keep_seams, device, progress
-        As :func:`sample` takes them, for all meshes.
+        As for :func:`sample`, for all meshes.
 
     Returns
     -------
     list of Samples
-        In the order of the meshes. Their reports tell of the whole job.
+        Samples in the order of the meshes. Their reports describe the whole job.
 
     Raises
     ------
     InvalidArgument, MeshRejected, TypeError and the others of :func:`sample`
-        With ``mesh 3: `` before the message where one of the meshes is at fault.
+        With ``mesh 3: `` before the message if the error concerns one mesh.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Meshes that are prepared for any number of runs."""
+"""Meshes prepared for any number of runs."""
 
 from __future__ import annotations
 
@@ -28,64 +28,64 @@ class Mesh:
     Parameters
     ----------
     vertices : array_like of float, shape (v, d), or a mesh
-        Coordinates, d from 2 to 8, in any unit, which is that of all distances. Or a mesh that
-        brings its faces: the path of a file, or an object of trimesh (meshes and scenes), Open3D
-        (legacy and tensor meshes), PyVista, meshio or vedo, or any with ``vertices`` and ``faces``.
+        Coordinates, d from 2 to 8. Their unit is that of all distances. Or a mesh with faces: the
+        path of a file, an object of trimesh (meshes and scenes), Open3D (legacy and tensor meshes),
+        PyVista, meshio or vedo, or any object with ``vertices`` and ``faces``.
     faces : array_like of int, shape (f, 3) or (f, k), or sequence of sequences
         Vertices of each face. Polygons are split into triangles.
     edge_lengths : array_like of float, shape (f, 3), optional
-        The surface by its lengths instead of its coordinates: of each face from its first corner
-        to the second, to the third and back. ``vertices`` is then their number.
+        Edge lengths instead of coordinates: for each face from its first corner to the second, to
+        the third, and back. ``vertices`` is then the number of vertices.
     weld : bool or float
-        Join vertices that lie in one place, or no farther apart than so much.
+        Join vertices at the same place, or at most this far apart.
     keep_seams : bool
-        Keep border edges apart that coincide exactly with others. They are joined otherwise, as
-        along seams of texture coordinates; ``info["joined_edges"]`` counts them.
+        Do not join border edges that coincide exactly, as along seams of texture coordinates.
+        By default they are joined; ``info["joined_edges"]`` counts them.
     attributes : sequence of str
         Names of vertex attributes to read from a PLY file.
     columns : sequence of str
-        What to read for each triangle of a glTF file: ``"mesh"``, ``"primitive"`` and ``"node"``,
-        the numbers of those that it lies in. Samples have them as well.
+        Numbers to read for each triangle of a glTF file: any of ``"mesh"``, ``"primitive"`` and
+        ``"node"``. Samples have them as well.
     mesh_format : str, optional
-        Read the file as gltf, glb, obj, off, ply or stl, whatever its extension.
+        Read the file as gltf, glb, obj, off, ply or stl, ignoring its extension.
 
     Attributes
     ----------
     vertices : ndarray of float, shape (v, d), or int
     triangles : ndarray of int, shape (f, 3)
-        What ``Samples.face_index`` counts.
+        The triangles that ``Samples.face_index`` refers to.
     polygons : ndarray of uint32, shape (f,), or None
-        The face, as given, that each triangle is part of. None if all faces are triangles, so that
-        the numbers are the same.
+        Number of the given face that each triangle is part of. None if all faces are triangles,
+        since the numbers are the same then.
     attributes : dict of ndarray, shape (v,)
     columns : dict of ndarray of uint32, shape (f,)
     warnings : tuple of MeshWarning
-        Everything odd about the mesh. They are also shown, once, when the mesh is made.
+        All oddities of the mesh. They are also shown once, when the mesh is made.
 
     Raises
     ------
     MeshRejected
-        For a mesh that cannot be sampled; ``element`` is the face or vertex. Also for a file that
-        holds no mesh.
+        For a mesh that cannot be sampled; ``element`` is the face or vertex. Also for a file without
+        a mesh.
     OSError
-        For a file that is not there or may not be read.
+        For a file that does not exist or cannot be read.
     TypeError, InvalidArgument
-        For arrays of another kind or shape.
+        For arrays of a wrong type or shape.
 
     Warns
     -----
     MeshWarning
-        For open seams and whatever else is odd.
+        For open seams and other oddities.
 
     Notes
     -----
     Files are read as the program reads them: *.gltf, *.glb, *.obj, *.off, *.ply, *.stl and
     ``builtin:NAME``.
 
-    float32 and float64 coordinates are read where they are, also with other columns beside them;
-    all else is copied first. The mesh and samples on it refer to the arrays, for :func:`verify` and
-    the like: change copies of them. Faces may be oriented either way, share an edge by any number
-    and leave borders open.
+    float32 and float64 coordinates are read in place, also as a part of wider arrays; other types
+    are copied first. The mesh and samples on it keep references to the arrays, for :func:`verify`
+    and others, so do not change them. Any number of faces may share an edge. Faces may have either
+    orientation and leave borders open.
 
     Meshes can be pickled and copied, with their arrays.
 
@@ -112,7 +112,7 @@ class Mesh:
         source: Source | None = None
         if faces is None and isinstance(vertices, (str, os.PathLike)):
             if edge_lengths is not None:
-                raise TypeError("edge_lengths are of faces that are given as well, not of a file")
+                raise TypeError("edge_lengths need faces given as arrays, not a file")
             path = vertices
             source = interruptible(
                 lambda stop: read_file(
@@ -128,7 +128,7 @@ class Mesh:
             surface = _surface_of(source, source.vertices, keep_seams)
         else:
             if attributes or columns or mesh_format is not None:
-                raise TypeError("attributes, columns and mesh_format are for meshes of files")
+                raise TypeError("attributes, columns and mesh_format are for meshes from files")
             if faces is None:
                 vertices, faces = arrays_of(vertices)
             given = faces_of(faces)

@@ -17,12 +17,12 @@ from ._samples import Samples
 
 
 class Picture:
-    """A picture as PNG, which notebooks show.
+    """A PNG picture, which notebooks show.
 
     Attributes
     ----------
     png : bytes
-        The file. ``matplotlib.pyplot.imread(io.BytesIO(picture.png))`` is an array.
+        The file. ``matplotlib.pyplot.imread(io.BytesIO(picture.png))`` returns an array.
     """
 
     def __init__(self, png: bytes) -> None:
@@ -34,7 +34,7 @@ class Picture:
         return int.from_bytes(self.png[16:20], "big"), int.from_bytes(self.png[20:24], "big")
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes it to a file, ``*.png``, whole or not at all."""
+        """Writes it to a file, ``*.png``, completely or not at all."""
         path = os.fspath(path)
         if os.path.splitext(path)[1].lower() != ".png":
             raise e.invalid(f"{path}: pictures are saved as *.png")
@@ -70,31 +70,31 @@ def render(
     Parameters
     ----------
     samples : Samples
-        On a mesh of up to three dimensions, or in a box.
+        Samples on a mesh of up to three dimensions, or in a box.
     vertices, faces, weld, keep_seams
-        Their mesh, as :func:`sample` takes it, where it is not the one that they were made on:
-        for samples that were read from a file.
+        Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     size : (int, int)
         Width and height in pixels.
     style : {"auto", "disks", "points", "voronoi", "distance", "density"}
-        Geodesic disks, exact in each pixel; or points, cells, how far the nearest sample is, or how
-        dense they are. "auto" draws disks, or points where disks would be too small to tell apart.
+        Geodesic disks, exact in each pixel; or points, Voronoi cells, the distance to the nearest
+        sample, or the density. "auto" draws disks, or points if disks would be too small.
     view : str, (float, float), or several of them
         ``"front"``, ``"back"``, ``"left"``, ``"right"``, ``"top"``, ``"bottom"``, azimuth and
-        elevation in degrees, or ``"auto"`` for where most is seen from. Several make a sheet.
+        elevation in degrees, or ``"auto"`` for the view that shows most. Give several for several.
     up : {"x", "y", "z"}, optional
-        The axis that points up. Guessed from what the surface stands on unless given.
+        Axis that points up. By default it is guessed from the surface.
     background : str
         ``"white"``, ``"black"``, ``"transparent"`` or ``"RRGGBB"``.
     cut : bool
-        Of a box of three dimensions, cut away the eighth nearest to the eye.
+        Cut the nearest eighth out of a box of three dimensions.
     legend : bool
         Add a legend below each view: samples, distance, a scale bar in the unit of the vertices,
-        and a colour bar where ``style`` is "distance" or "density".
+        and a colour bar if ``style`` is "distance" or "density".
     min_distance : float, optional
-        For disks of half of it, in the unit of the vertices, instead of the samples' radii.
+        Draw disks with half of this as radius, in the unit of the vertices, instead of the samples'
+        radii.
     device : Device, int or str, optional
-        As :func:`sample` takes it.
+        Device, as for :func:`sample`.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def render(
     Raises
     ------
     InvalidArgument
-        For values out of range, and samples that do not lie on this mesh.
+        For values out of range, and samples that are not on this mesh.
     MeshRejected, TypeError, NoDevice, NoProgram, KeyboardInterrupt
         As :func:`sample` and :func:`verify` do.
 

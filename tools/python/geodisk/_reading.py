@@ -19,7 +19,7 @@ Columns = dict[str, NDArray[Any]]
 
 
 def read(path: str | os.PathLike[str]) -> Samples:
-    """Samples from a file that :meth:`Samples.save` or the program ``geodisk`` wrote.
+    """Reads samples from a file of :meth:`Samples.save` or of the program ``geodisk``.
 
     Parameters
     ----------
@@ -29,20 +29,20 @@ def read(path: str | os.PathLike[str]) -> Samples:
     Returns
     -------
     Samples
-        Equal to those that were saved. `min_distance` is NaN and `seed` None where the file does
-        not tell them. They do not know their mesh.
+        Equal to those that were saved. `min_distance` is NaN and `seed` None if the file does not
+        have them. They do not refer to their mesh.
 
     Raises
     ------
     InvalidArgument
-        For a file that is not one of samples, or is damaged or cut off, naming it and the cause.
+        For a file without samples, or damaged or cut short, naming it and the cause.
     OSError
-        Where it cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
-    CSV and PLY of the program hold weights and normals of single precision, and PLY points in
-    float where that is enough; NPZ has all that there is.
+    CSV and PLY files of the program hold weights and normals in single precision; PLY also holds
+    points in single precision if that is enough. NPZ holds everything.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def _samples(header: Header, **arrays: Any) -> Samples:
         arrays["extents"] = tuple(float(side) for side in header["box"].split(" x "))
         arrays["periodic"] = header.get("sides") == "periodic"
     elif arrays.get("face_index") is None:
-        raise ValueError("has neither face_index nor a box, so these are no samples of geodisk")
+        raise ValueError("has neither face_index nor a box, so it holds no samples of geodisk")
     arrays["min_distance"] = float(header.get("min_distance", math.nan))
     arrays["seed"] = int(header["seed"]) if "seed" in header else None
     return Samples(**arrays)
@@ -81,7 +81,7 @@ def _samples(header: Header, **arrays: Any) -> Samples:
 def _from_npz(file: BinaryIO) -> Samples:
     names = ("points", "normals", "face_index", "barycentric", "radius", "polygon_index")
     if not zipfile.is_zipfile(file):
-        raise ValueError("is no archive of numpy, or is cut off")
+        raise ValueError("is not a numpy archive, or is cut short")
     file.seek(0)
     with np.load(file, allow_pickle=False) as archive:
         header = json.loads(str(archive["header"])) if "header" in archive else {}

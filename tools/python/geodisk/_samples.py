@@ -56,10 +56,10 @@ def _column(values: ArrayLike, name: str, n: int) -> NDArray[np.uint32]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Samples:
-    """Samples, in the order of the darts: the first n of them are the set of the first n.
+    """Samples in dart order: the first n of them are the set of a run with ``stop_count=n``.
 
-    :func:`sample`, :func:`sample_box`, :func:`transfer` and :func:`read` make them; those of other
-    programs are made of their arrays, to verify or draw them.
+    :func:`sample`, :func:`sample_box`, :func:`transfer` and :func:`read` return them. For samples of
+    other programs, make them from arrays, to verify or draw them.
 
     Attributes
     ----------
@@ -68,41 +68,41 @@ class Samples:
     normals : ndarray of float64, shape (n, 3) or None
         Normals of the triangles, on meshes in three dimensions.
     face_index : ndarray of uint32, shape (n,) or None
-        Triangles, on meshes: rows of ``Mesh.triangles``.
+        Triangles on meshes: rows of ``Mesh.triangles``.
     barycentric : ndarray of float64, shape (n, 3) or None
         Weights of the triangles' corners. They sum to 1.
     radius : ndarray of float64, shape (n,)
-        Half the minimum distance, or where radii vary, the radius of each.
+        Half the minimum distance, or the radius of each sample if radii vary.
     order : ndarray of int64, shape (n,)
-        Places in the order of the darts.
+        Positions in dart order.
     min_distance : float
-        Smallest distance along the surface that two may have; where radii vary, two with the
-        largest radii. NaN if unknown.
+        Minimum distance along the surface; if radii vary, of two samples with the largest radius.
+        NaN if unknown.
     seed : int or None
     extents : tuple of float or None
-        Sides of their box.
+        Sides of the box.
     periodic : bool
-        Whether its opposite sides are glued together.
+        True if its opposite sides are glued together.
     report : dict
-        How the run went: candidates, disks, windows, rho, bytes and seconds.
+        Report of the run: candidates, disks, windows, rho, bytes and seconds.
     polygon_index : ndarray of uint32, shape (n,) or None
-        Faces as they were given, where polygons were split into triangles.
+        Numbers of the given faces, if polygons were split into triangles.
     columns : dict of ndarray of uint32, shape (n,)
-        What was read for triangles: ``"mesh"``, ``"primitive"`` and ``"node"`` of a glTF file, as
-        far as :class:`Mesh` was asked for them.
+        Numbers of the triangles' ``"mesh"``, ``"primitive"`` and ``"node"`` in a glTF file, if
+        requested from :class:`Mesh`.
 
     Raises
     ------
     InvalidArgument, TypeError
-        For arrays of another kind or shape, and numbers that are not finite.
+        For arrays of a wrong type or shape, and numbers that are not finite.
 
     Notes
     -----
-    Samples of a mesh refer to its arrays, so that :func:`verify`, :func:`render` and
-    :func:`transfer` need not be given them again. Files and pickles do not have them.
+    Samples of a mesh refer to its arrays, so :func:`verify`, :func:`render` and :func:`transfer` do
+    not need them again. Files and pickles do not contain them.
 
-    ``samples[3]`` is a :class:`Sample`, and iteration gives one after the other. Slices, masks and
-    lists of indices give Samples with all that the chosen ones have.
+    ``samples[3]`` is a :class:`Sample`, and iteration yields each of them. Slices, masks and lists
+    of indices give Samples with all data of the selected ones.
 
     Examples
     --------
@@ -240,14 +240,14 @@ class Samples:
         return f"<geodisk.Samples: {len(self)}, {self.min_distance:.6g} apart{seed}>"
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """Returns a table of pandas with the columns that files have.
+        """Returns a pandas table with the columns of sample files.
 
         Returns
         -------
         pandas.DataFrame
             x, y, z (or x0, x1 ... in more dimensions), nx, ny, nz, face_index, bary_u, bary_v,
-            bary_w, polygon_index, those of ``columns``, radius and order, as far as there are any.
-            ``attrs`` has the minimum distance, the seed and the like.
+            bary_w, polygon_index, those of ``columns``, radius and order, if they exist.
+            ``attrs`` has the minimum distance, the seed and so on.
 
         Raises
         ------
@@ -264,10 +264,10 @@ class Samples:
         return table
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the samples to a file, whole or not at all.
+        """Writes the samples to a file, completely or not at all.
 
-        What is at the path is replaced once all is written. Links are followed, and the file keeps
-        its permissions. Any number of threads and processes may save to one path.
+        An existing file is replaced after everything is written. Links are followed, and the file
+        keeps its permissions. Any number of threads and processes may save to the same path.
 
         Parameters
         ----------
@@ -278,7 +278,7 @@ class Samples:
         Raises
         ------
         ValueError
-            For another kind of file.
+            For another file extension.
         OSError
             Where it cannot be written. What was there is kept.
         """

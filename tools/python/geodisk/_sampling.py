@@ -46,46 +46,46 @@ def sample(
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
-    """Random points on a mesh, no two closer than a minimum distance along the surface.
+    """Returns random points on a mesh, no two closer than a minimum distance along the surface.
 
     Parameters
     ----------
     vertices : array_like of float, shape (v, d), or a mesh
-        Coordinates; or a mesh that brings its faces: a :class:`Mesh`, the path of a file, or an
-        object of another package, as :class:`Mesh` takes it.
+        Coordinates; or a mesh with faces: a :class:`Mesh`, the path of a file, or an object of
+        another package that :class:`Mesh` accepts.
     faces : array_like of int, shape (f, 3) or (f, k), or sequence of sequences
         Triangles or polygons.
     min_distance, radius, count : float
-        Give one: the minimum distance along the surface in the unit of the vertices, half of it,
-        or about how many samples are wanted, for which a distance is found.
+        Give one: the minimum distance along the surface, in the unit of the vertices; half of it;
+        or the approximate number of samples, for which a distance is found.
     seed : int
-        A number of 64 bits. Equal seeds give equal samples, on every device.
+        A 64-bit number. Equal seeds give equal samples, on every device.
     density : array_like of float, shape (v,), optional
-        How dense samples are to be at each vertex, in any unit: none where it is 0. The distance
-        is then that where it is largest.
+        Density of samples at each vertex, in any unit; 0 for none. The distance applies where the
+        density is largest.
     radius_factor : array_like of float, shape (v,), optional
-        Radii that vary: at each vertex the part of the largest radius, 0.001 to 1. The distance is
-        then that of two samples with the largest radius.
+        Factor of the radius at each vertex, 0.001 to 1. The distance applies to two samples with
+        factor 1.
     pool_ratio : float
-        Candidates per expected sample, 1 to 10,000; more leave fewer gaps.
+        Candidates per expected sample, 1 to 10,000. More candidates leave fewer gaps.
     throws : int
-        Number of darts, instead of candidates by `pool_ratio`.
+        Number of darts to throw, instead of a pool by `pool_ratio`.
     stop_count : int
-        Stop after this many samples. A warning tells if fewer fit.
+        Stop after this many samples. A warning reports if fewer fit.
     face_keys : array_like of int, shape (f,), optional
-        Keys that candidates of each triangle are drawn by, no two alike: the same triangle with the
+        One key per triangle, all different, by which its candidates are drawn: a triangle with the
         same key has the same candidates in every mesh.
     metric : {"geodesic", "euclidean", "approximate"}
-        The latter two are for comparison.
+        Distance to use; the last two are for comparison.
     edge_lengths, weld, keep_seams, columns, mesh_format
-        As :class:`Mesh` has them.
+        Parameters of :class:`Mesh`.
     device : Device, int or str, optional
-        One of :func:`devices`, its index, its UUID or a part of its name. Without it, the device
-        that the environment variable GEODISK_DEVICE names, or else the best one.
+        One of :func:`devices`, its index, its UUID or a part of its name. The default is the
+        environment variable GEODISK_DEVICE, else the best device.
     progress : bool or callable
-        True for a bar by tqdm. A function is called about ten times per second with the part that
-        is done, 0 to 1, and the number of samples so far. If it returns False, the run stops with
-        :class:`Cancelled`; if it raises anything, the run stops with that.
+        True for a progress bar by tqdm. A function is called about ten times per second with the
+        part that is done, 0 to 1, and the number of samples so far. If it returns False, the run
+        stops with :class:`Cancelled`. If it raises an exception, the run stops with it.
 
     Returns
     -------
@@ -96,9 +96,9 @@ def sample(
     MeshRejected
         For a mesh that cannot be sampled; ``element`` is the face or vertex.
     InvalidArgument, TypeError
-        For values out of range, and arrays of another kind or shape.
+        For values out of range, and arrays of a wrong type or shape.
     NoDevice, OutOfMemory, DeviceLost
-        As the device fails.
+        If the device fails.
     Cancelled
         If the progress callback returns False.
     KeyboardInterrupt
@@ -109,8 +109,8 @@ def sample(
     MeshWarning
         As :class:`Mesh` does.
     GeodiskWarning
-        For another number of samples than asked for, parts of the area without samples, and a
-        distance that leaves one sample to each part.
+        For a number of samples that differs from the count, parts of the area without samples, and
+        a distance that leaves one sample per part.
 
     Examples
     --------
@@ -176,14 +176,14 @@ def sample_box(
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
-    """Random points in a box, no two closer than a minimum distance.
+    """Returns random points in a box, no two closer than a minimum distance.
 
     Parameters
     ----------
     extents : sequence of float
         One to six sides; the box begins at the origin.
     periodic : bool
-        Opposite sides are glued together: distances go around.
+        Glue opposite sides together: distances wrap around.
 
     The other parameters, the result and the errors are those of :func:`sample`; `face_index`,
     `barycentric` and `normals` of the result are None.
@@ -199,7 +199,7 @@ def sample_box(
     distance = distance_of(min_distance, radius, count, throws)
     sides = np.ascontiguousarray(extents, dtype=np.float64)
     if sides.ndim != 1:
-        raise e.invalid("extents are one number for each dimension")
+        raise e.invalid("extents must be one number per dimension")
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     params = s.BoxParams(

@@ -28,28 +28,27 @@ def transfer(
     weld: bool | float = False,
     keep_seams: bool = False,
 ) -> Samples:
-    """The same samples on another pose of their mesh: the same faces, elsewhere.
+    """Returns the same samples on another pose of their mesh, with identical faces.
 
     Parameters
     ----------
     samples : Samples
-        On a mesh.
+        Samples on a mesh.
     to : array_like of float, shape (v, d), or a mesh
-        Where the vertices are; or a mesh of the same faces.
+        Positions of the vertices, or a mesh with identical faces.
     vertices, faces, edge_lengths, weld, keep_seams
-        The mesh that the samples lie on, as :func:`sample` takes it, where it is not the one that
-        they were made on: for samples that were read from a file.
+        Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
 
     Returns
     -------
     Samples
-        With the same faces and weights. `min_distance` is the smallest distance there, NaN where
-        no path joins two samples, and `radius` half of it.
+        Samples with the same faces and weights. `min_distance` is their smallest distance there,
+        NaN if no path joins two samples, and `radius` is half of it.
 
     Raises
     ------
     InvalidArgument
-        For samples that do not lie on their mesh, and for other faces.
+        For samples that are not on their mesh, and for different faces.
     MeshRejected, TypeError, NoProgram, KeyboardInterrupt
         As :func:`verify` does.
 
@@ -65,7 +64,7 @@ def transfer(
     """
     source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
-        raise e.invalid("samples in a box lie on no mesh")
+        raise e.invalid("samples in a box have no mesh")
     if is_mesh(to):
         target = mesh_of(to, None, None, False)._surface
     else:

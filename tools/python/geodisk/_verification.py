@@ -1,4 +1,4 @@
-"""Whether samples are as far apart as they should be."""
+"""Checks that samples keep their distance."""
 
 from __future__ import annotations
 
@@ -20,34 +20,34 @@ from ._writing import has_own_radii
 
 @dataclass(frozen=True, eq=False)
 class Verification:
-    """What :func:`verify` found. It is true where nothing is wrong.
+    """Result of :func:`verify`. It is true if nothing is wrong.
 
     Attributes
     ----------
     samples : int
-        How many there are.
+        Number of samples.
     min_distance : float
-        How far apart they should be; with a radius_factor, those of the largest radius;
-        NaN where each keeps the radius that it has.
+        Required distance; with a radius_factor, of two samples with the largest radius. NaN if
+        each sample keeps its own radius.
     smallest : float
-        The distance of the closest pair, or of the one that is closest for its radii; infinite
-        where all are farther apart than 1.25 times what they should be.
+        Distance of the closest pair, relative to its radii if these vary. Infinite if all are
+        farther apart than 1.25 times the required distance.
     smallest_ratio : float
-        What part it is of the distance that it should be.
+        This distance divided by the required one.
     closest : tuple of two int, or None
-        That pair.
+        The closest pair.
     violations : ndarray of int64, shape (k, 2)
-        Pairs that are too close, by more than a billionth, the closest one first.
+        Pairs that are too close by more than a billionth, closest first.
     distances : ndarray of float64, shape (k,)
-        Of these pairs.
+        Distances of these pairs.
     complete : bool
-        False where the check ended at a million violations.
+        False if the check ended after a million violations.
     misplaced : int
-        Samples that are not where their face and weights put them, or not in their box.
+        Number of samples that are not at the point given by face and weights, or outside the box.
     wrong_radii : int
-        Samples whose radius is not what the density gives.
+        Number of samples whose radius does not match the density.
     rho : float
-        The packing density; NaN in boxes, and without a minimum distance.
+        Packing density; NaN in boxes, and without a minimum distance.
     """
 
     samples: int
@@ -64,7 +64,7 @@ class Verification:
 
     @property
     def ok(self) -> bool:
-        """Whether no pair is too close, no sample misplaced and no radius wrong."""
+        """True if no pair is too close, no sample misplaced and no radius wrong."""
         return len(self.violations) == 0 and self.misplaced == 0 and self.wrong_radii == 0
 
     def __bool__(self) -> bool:
@@ -78,7 +78,7 @@ class Verification:
                 found += f", {self.wrong_radii} of wrong radius"
         return (
             f"<geodisk.Verification: {self.samples} samples, {found}, smallest distance "
-            f"{self.smallest:.9g}, {self.smallest_ratio:.9g} of what it should be>"
+            f"{self.smallest:.9g}, {self.smallest_ratio:.9g} of the required one>"
         )
 
 
@@ -94,36 +94,35 @@ def verify(
     weld: bool | float = False,
     keep_seams: bool = False,
 ) -> Verification:
-    """Computes the distances of samples anew, on the CPU in double precision.
+    """Computes the distances of samples again, on the CPU in double precision.
 
-    This is an implementation of its own, in the program ``geodisk``, which runs by itself.
+    This is a separate implementation in the program ``geodisk``, which is run for it.
 
     Parameters
     ----------
     samples : Samples
-        On a mesh or in a box.
+        Samples on a mesh or in a box.
     vertices, faces, edge_lengths, weld, keep_seams
-        Their mesh, as :func:`sample` takes it, where it is not the one that they were made on:
-        for samples that were read from a file.
+        Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     min_distance : float, optional
-        The distance to keep, in the unit of the vertices; without it, each keeps its radius.
+        Required distance, in the unit of the vertices. By default each sample keeps its radius.
     density, radius_factor : array_like of float, shape (v,), optional
-        As :func:`sample` takes them: radii are computed again from one and the minimum distance,
-        that of the samples if none is given, and those of the samples are compared with them.
+        As for :func:`sample`. Radii are computed again from it and the minimum distance (by default
+        that of the samples), and compared with those of the samples.
 
     Returns
     -------
     Verification
-        Also where samples are too close: nothing is raised for that.
+        Also if samples are too close; this raises no exception.
 
     Raises
     ------
     InvalidArgument
-        For samples that cannot lie on this mesh, or without a mesh or distance.
+        For samples that are not on this mesh, or without a mesh or distance.
     MeshRejected, TypeError
-        As :func:`sample` does.
+        As for :func:`sample`.
     NoProgram
-        Where the program ``geodisk`` is not there.
+        If the program ``geodisk`` is missing.
     KeyboardInterrupt
         Ctrl-C ends it at once.
 
