@@ -129,7 +129,7 @@ def archive(**arrays):
         ("a.npz", archive(face_index=[0], barycentric=np.ones((2, 3))), "shape"),
         ("a.npz", archive(face_index=[0], barycentric=[[np.nan, 0, 0]]), "nan"),
         ("a.npz", archive(face_index=[-1], barycentric=[[1, 0, 0]]), "is -1"),
-        ("a.npz", b"no archive", "no archive"),
+        ("a.npz", b"no archive", "not a numpy archive"),
         ("a.csv", b"x,y,z\n1,2,3\n", "neither face_index nor a box"),
         ("a.csv", b"face_index,bary_u,bary_v,bary_w\n0,1,0\n", "3 columns"),
         ("a.csv", b"# samples: 2\nface_index,bary_u,bary_v,bary_w\n0,1,0,0\n", "header says 2"),
