@@ -106,6 +106,6 @@ void set_up(tools::Command app) {
 int main(int argc, char** argv) {
     return tools::run_program(
         "geodisk_bench",
-        "Times the sampler beside a sequential reference that returns the same samples", set_up,
+        "Measure the sampler and a sequential reference that returns the same samples", set_up,
         argc, argv);
 }

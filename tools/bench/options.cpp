@@ -47,14 +47,14 @@ Options checked(const RawOptions& raw) {
     }
     if (!options.scaling && std::any_of(raw.sweep_options.begin(), raw.sweep_options.end(),
                                         [](Option option) { return option.is_given(); })) {
-        tools::fail_usage("options that begin with --scaling- need --scaling as well");
+        tools::fail_usage("options that begin with --scaling- need --scaling");
     }
     if (options.tune && (options.scaling || !options.json.empty() || !options.csv.empty())) {
         tools::fail_usage(
             "--tune measures nothing else and contradicts --scaling, --json and --csv");
     }
     if (!options.scaling && !options.plot.empty()) {
-        tools::fail_usage("--plot draws sweeps, so it needs --scaling");
+        tools::fail_usage("--plot needs --scaling");
     }
     if (options.copies != 0 &&
         (options.tune || options.scaling || !options.json.empty() || !options.csv.empty())) {
@@ -86,7 +86,7 @@ void add_scaling(Command app, RawOptions& raw) {
                                                group)
                                     .shows_default());
     raw.sweep_options.push_back(app.add_option("--scaling-faces", raw.scaling_faces, "F",
-                                               "Most triangles of the second sweep", group)
+                                               "Maximum of triangles in the second sweep", group)
                                     .shows_default());
     app.add_option("--plot", raw.options.plot, "PREFIX",
                    "Draw the sweeps: PREFIX-time-n.svg,\n"
@@ -107,21 +107,22 @@ void add_tuning(Command app, RunnerOptions& runner, bool& tune) {
         app.add_option(name, value, "K", what, kGroup);
     };
     app.add_flag("--tune", tune,
-                 "Find out what suits the device and keep it for\n"
+                 "Find the best tuning of the device and save it for\n"
                  "geodisk sample and later runs; settings given stay",
                  kGroup);
     add("--slots", runner.plan.slots, "Candidates active at a time");
-    add("--lanes", runner.plan.lanes, "Invocations that share the work on them");
+    add("--lanes", runner.plan.lanes, "Invocations that compute their disks");
     add("--passes", runner.plan.detect_passes, "Dispatches of detect per round");
     add("--steps", runner.plan.step_budget, "Steps of detect per dispatch");
     Tuning& tuning = runner.sampler.tuning;
-    add("--batches", tuning.batches, "Batches to aim at, N/T");
+    add("--batches", tuning.batches, "Target number of batches, N/T");
     add("--local-size", tuning.local_size, "Invocations per work group, a power of two");
-    add("--slot-local-size", tuning.slot_local_size, "The same for kernels per slot and lane");
-    add("--pool-block", tuning.pool_block, "Lanes whose memory alternates, a power of two");
+    add("--slot-local-size", tuning.slot_local_size,
+        "Invocations per work group of kernels over slots and lanes");
+    add("--pool-block", tuning.pool_block, "Lanes whose rows alternate in memory, a power of two");
     app.add_reader(
         "--reads", [&tuning](const std::string& name) { tuning.reads = reads_from(name); }, "KIND",
-        "Through which buffers: auto, storage or texels", kGroup);
+        "Buffers to read through: auto, storage or texels", kGroup);
 }
 
 } // namespace
@@ -131,10 +132,9 @@ void add_options(Command app, void (*run)(const Options&)) {
     Options& options = raw->options;
     app.add_option("MESH", options.meshes, "", "Meshes: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
         .required();
-    raw->counts_option =
-        app.add_option("-n,--count", raw->counts, "N,...", "Sample counts to aim at")
-            .takes_commas()
-            .shows_default();
+    raw->counts_option = app.add_option("-n,--count", raw->counts, "N,...", "Target sample counts")
+                             .takes_commas()
+                             .shows_default();
     app.add_option("--repeats", options.repeats, "K", "Runs to take the median of, 1 to 1000")
         .takes_range(1, 1000)
         .shows_default();

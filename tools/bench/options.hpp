@@ -14,7 +14,7 @@ namespace geodisk::bench {
 /// The command line, checked as far as that is possible without meshes and device.
 struct Options {
     std::vector<std::string> meshes;
-    std::vector<double> counts; ///< Samples to aim at; those of the sweep if `scaling`.
+    std::vector<double> counts; ///< Target number of samples; those of the sweep if `scaling`.
     int repeats = 5;
     int warm_ups = 1;
     std::uint64_t seed = 1; ///< Of all runs; copies count on from it.
@@ -24,7 +24,7 @@ struct Options {
     bool tune = false;
     bool scaling = false;
     std::uint32_t copies = 0;     ///< Of each mesh, to sample together; 0 for a table of meshes.
-    double face_sweep_count = 0;  ///< Samples to aim at while triangles vary.
+    double face_sweep_count = 0;  ///< Target number of samples while triangles vary.
     std::uint64_t most_faces = 0; ///< Where the sweep of triangles ends.
 
     std::string json, csv; ///< Files to write; empty for none.

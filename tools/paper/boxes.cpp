@@ -126,10 +126,10 @@ void add_boxes(tools::Command app) {
     add_figure<Options>(
         app, "boxes", "Sections 5.9 and 6: speed in boxes of R^n, on a device and sequentially", 5,
         run, [](tools::Command command, Options& options) {
-            command.add_option("-n,--count", options.count, "N", "Samples to aim at")
+            command.add_option("-n,--count", options.count, "N", "Target number of samples")
                 .shows_default();
             add_list(command, options.dimensions, "--dims", "Dimensions, 1 to 6");
-            command.add_flag("--open", options.is_open, "Boxes that are not periodic");
+            command.add_flag("--open", options.is_open, "Use boxes that are not periodic");
             command
                 .add_option("--trials", options.trials, "K",
                             "Darts around a sample before it retires, 1 to 1000")

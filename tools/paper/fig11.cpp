@@ -100,10 +100,11 @@ void add_fig11(tools::Command app) {
         app, "fig11", "Fig. 11: pictures of samples whose radii vary, on a device", 1, run,
         [](tools::Command command, Options& options) {
             add_meshes(command, options.meshes);
-            command.add_option("-n,--count", options.count, "N", "Samples, about").shows_default();
+            command.add_option("-n,--count", options.count, "N", "Approximate number of samples")
+                .shows_default();
             command
                 .add_option("--least", options.least, "G",
-                            "The least radius over the largest, 0.001 to 1")
+                            "Smallest radius over the largest, 0.001 to 1")
                 .shows_default();
             add_panel_size(command, options.size);
             add_device(command, options.device);

@@ -170,7 +170,7 @@ void add_fig13(tools::Command app) {
         app, "fig13", "Fig. 13: exact distances, the closed form, and phase groups", 3, run,
         [](tools::Command command, Options& options) {
             add_meshes(command, options.meshes);
-            add_list(command, options.counts, "--counts", "Sample counts to aim at");
+            add_list(command, options.counts, "--counts", "Target sample counts");
             command.add_option("--ratio", options.ratio, "X", "Samples per active candidate (N/T)")
                 .shows_default();
             command.add_option(

@@ -262,7 +262,7 @@ void add_fig4(tools::Command app) {
             add_meshes(command, options.meshes);
             command
                 .add_option("-n,--count", options.count, "N",
-                            "Samples, about; the paper has 300 to 500")
+                            "Approximate number of samples; the paper has 300 to 500")
                 .shows_default();
             command
                 .add_option("--harmonics", options.harmonics, "K",

@@ -73,7 +73,7 @@ void add_fig8(tools::Command app) {
         app, "fig8", "Fig. 8: as many samples on a surface at several resolutions, on a device", 10,
         run, [](tools::Command command, Options& options) {
             add_meshes(command, options.meshes);
-            command.add_option("-n,--count", options.count, "N", "Samples to aim at")
+            command.add_option("-n,--count", options.count, "N", "Target number of samples")
                 .shows_default();
             add_panel_size(command, options.size);
             add_device(command, options.device);

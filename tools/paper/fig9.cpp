@@ -99,14 +99,14 @@ void run(const Options& options) {
 } // namespace
 
 void add_fig9(tools::Command app) {
-    add_figure<Options>(
-        app, "fig9", "Fig. 9: samples that the closed form places too close together", 3, run,
-        [](tools::Command command, Options& options) {
-            add_meshes(command, options.meshes);
-            add_list(command, options.counts, "--counts", "Sample counts to aim at");
-            add_panel_size(command, options.size);
-            add_device(command, options.device);
-        });
+    add_figure<Options>(app, "fig9",
+                        "Fig. 9: samples that the closed form places too close together", 3, run,
+                        [](tools::Command command, Options& options) {
+                            add_meshes(command, options.meshes);
+                            add_list(command, options.counts, "--counts", "Target sample counts");
+                            add_panel_size(command, options.size);
+                            add_device(command, options.device);
+                        });
 }
 
 } // namespace geodisk::paper

@@ -85,7 +85,7 @@ void add_figures(tools::Command app) {
                                 .shows_default();
                             add_panel_size(command, options.size);
                             command.add_flag("--quick", options.is_quick,
-                                             "Fewer samples and repetitions, to see what comes");
+                                             "Use fewer samples and repetitions, for a quick look");
                             add_device(command, options.device);
                         });
 }

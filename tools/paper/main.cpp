@@ -30,6 +30,7 @@ void set_up(geodisk::tools::Command app) {
 } // namespace
 
 int main(int argc, char** argv) {
-    return geodisk::tools::run_program(
-        "geodisk_paper", "Measures what the paper's tables and figures show", set_up, argc, argv);
+    return geodisk::tools::run_program("geodisk_paper",
+                                       "Measure the results of the paper's tables and figures",
+                                       set_up, argc, argv);
 }

@@ -34,7 +34,7 @@ void add_common_options(tools::Command command, CommonOptions& options) {
             [&options](const std::string& text) {
                 options.seed = tools::parse_seed("--seed", text);
             },
-            "S", "Of the first repetition; the next ones count up")
+            "S", "Seed of the first repetition; later ones count up")
         .shows_default("1");
     command.add_option("--repeats", options.repeats, "K", "Repetitions of each row, 1 to 1000")
         .takes_range(1, 1000)

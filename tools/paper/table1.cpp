@@ -181,21 +181,22 @@ void run(const Options& options) {
 } // namespace
 
 void add_table1(tools::Command app) {
-    add_figure<Options>(
-        app, "table1", "Table 1: recursive calls of CheckStatus by N/T", 5, run,
-        [](tools::Command command, Options& options) {
-            command
-                .add_option("MESH", options.mesh, "",
-                            "Mesh: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
-                .required();
-            command
-                .add_option("-n,--count", options.count, "N", "Samples to aim at (the paper's N)")
-                .shows_default();
-            add_list(command, options.pool_ratios, "--pool-ratios",
-                     "Candidates per expected sample, 1 to 10000");
-            add_list(command, options.ratios, "--ratios", "Samples per active candidate (N/T)");
-            add_device(command, options.device);
-        });
+    add_figure<Options>(app, "table1", "Table 1: recursive calls of CheckStatus by N/T", 5, run,
+                        [](tools::Command command, Options& options) {
+                            command
+                                .add_option("MESH", options.mesh, "",
+                                            "Mesh: *.obj, *.ply or builtin:NAME[:RESOLUTION]")
+                                .required();
+                            command
+                                .add_option("-n,--count", options.count, "N",
+                                            "Target number of samples (the paper's N)")
+                                .shows_default();
+                            add_list(command, options.pool_ratios, "--pool-ratios",
+                                     "Candidates per expected sample, 1 to 10000");
+                            add_list(command, options.ratios, "--ratios",
+                                     "Samples per active candidate (N/T)");
+                            add_device(command, options.device);
+                        });
 }
 
 } // namespace geodisk::paper

@@ -21,7 +21,7 @@ namespace geodisk {
 /// An accepted candidate.
 struct Sample {
     std::uint32_t face; ///< Index of its triangle in the caller's mesh.
-    float weights[3];   ///< Of the triangle's corners in order; they sum to exactly 1.
+    float weights[3];   ///< Weights of the triangle's corners in order; they sum to exactly 1.
 };
 
 /// Parts of a run on the device.

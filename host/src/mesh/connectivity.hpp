@@ -20,7 +20,7 @@ constexpr bool takes_part(const std::array<std::uint32_t, 3>& face) {
 /// Connectivity of a half-edge while the mesh is being connected. Connecting accesses memory in the
 /// order of vertices, which may be random, so this is separate from the large HalfEdge.
 struct Link {
-    std::uint32_t origin; ///< As in HalfEdge, like `around`.
+    std::uint32_t origin; ///< Same as in HalfEdge, like `around`.
     std::uint32_t around;
     std::uint32_t angle; ///< pack_corner_angle(), and HalfEdge::fan_angles once its fan is
                          ///< measured.
