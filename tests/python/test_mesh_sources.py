@@ -159,7 +159,7 @@ def test_columns_of_triangles(tmp_path):
     ]:
         with pytest.raises(kind, match=text):
             geodisk.Mesh(path, columns=asked)
-    with pytest.raises(geodisk.MeshRejected, match="does not tell the mesh of a face"):
+    with pytest.raises(geodisk.MeshRejected, match="does not have the mesh of a face"):
         geodisk.Mesh(CASES / "sphere.stl", columns=["mesh"])
     with pytest.raises(TypeError, match="give columns and mesh_format to it"):
         geodisk.sample(mesh, columns=["mesh"], min_distance=1)

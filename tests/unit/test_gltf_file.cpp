@@ -145,7 +145,7 @@ TEST_CASE("glTF faces know their node, mesh and primitive") {
     parts.nodes = "";
     const MeshFile bare = mesh_of(parts);
     check_parts("a.gltf", bare, {"mesh", "primitive"});
-    check_fails(ExitCode::bad_input, "a.gltf: does not tell the node of a face",
+    check_fails(ExitCode::bad_input, "a.gltf: does not have the node of a face",
                 [&] { check_parts("a.gltf", bare, {"node"}); });
 }
 

@@ -49,7 +49,7 @@ void check_bare_corners(const Path& path, const PolygonMesh& polygons) {
         if (vertex >= bound) {
             fail_input(path, "vertex index " + polygons.names.vertex_number(vertex) +
                                  " is out of range: without coordinates, a mesh of " +
-                                 std::to_string(bound) + " corners has at most so many vertices");
+                                 std::to_string(bound) + " corners has at most this many vertices");
         }
     }
 }

@@ -68,8 +68,8 @@ void check_parts(const std::string& path, const MeshFile& mesh,
                 return column.value(part).has_value();
             });
         if (!is_known) {
-            fail_input(path, "does not tell the " + name +
-                                 " of a face, which --columns asks for; glTF files do");
+            fail_input(path, "does not have the " + name +
+                                 " of a face, as --columns requests; use a glTF file");
         }
     }
 }

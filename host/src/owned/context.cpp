@@ -126,7 +126,7 @@ Result<Done> Context::Impl::choose_extensions(const ContextOptions& options) {
             return statistics.error();
         if (!*statistics)
             return Error{Status::device_lacks, report.name + " does not offer " + kNeeded +
-                                                   ", by which a driver tells of its kernels"};
+                                                   ", which reports statistics of kernels"};
         extensions.pipeline_statistics = true;
     }
     return Done{};

@@ -71,7 +71,7 @@ std::string batch_summary(const BatchOptions& options, const BatchResult& result
         << grouped(result.skipped) << " skipped\n";
     if (totals.warned > 0) {
         out << "              " << grouped(totals.warned)
-            << " with warnings, which the log tells\n";
+            << " with warnings, see the log\n";
     }
     if (totals.done > 0) {
         out << "samples       " << grouped(totals.samples) << '\n'
