@@ -8,7 +8,7 @@
 
 #include "../lib/prelude.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 
 GEODISK_BUFFER(kBindOrders, , uint, orders);
 GEODISK_ROWS(kBindPool, pool);

@@ -18,7 +18,7 @@
 #include "../lib/half_edge.glsl"
 #include "../lib/cells.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 
 GEODISK_WORDS(kBindCells, cells);

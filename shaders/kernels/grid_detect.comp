@@ -13,7 +13,7 @@
 #include "../lib/grid.glsl"
 #include "../lib/point_words.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 // Lengths of curves instead of straight distances, in three dimensions.
 layout(constant_id = kSpecCurved) const bool kCurved = false;
 

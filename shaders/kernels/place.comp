@@ -11,7 +11,7 @@
 #include "../lib/radii.glsl"
 #include "../lib/parts.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 0) in; // kSpecLocalSize
 
 GEODISK_BUFFER(kBindSamples, readonly, uvec4, samples);
 GEODISK_BUFFER(kBindVertices, readonly, float, vertices);

@@ -10,7 +10,7 @@
 
 #include "../lib/prelude.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 layout(constant_id = kSpecCountCalls) const bool kCountCalls = false;
 
 GEODISK_BUFFER(kBindStates, coherent, uint, states);

@@ -6,7 +6,7 @@
 
 #include "../lib/prelude.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 
 GEODISK_BUFFER(kBindStates, , uint, states);
 GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);

@@ -8,7 +8,7 @@
 #include "../lib/prelude.glsl"
 #include "../lib/rounding.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 0) in; // kSpecLocalSize
 
 GEODISK_BUFFER(kBindSums, , uvec4, vectors);
 

@@ -5,7 +5,7 @@
 #ifndef GEODISK_COUNT_UNITS_GLSL
 #define GEODISK_COUNT_UNITS_GLSL
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 0) in; // kSpecLocalSize
 
 GEODISK_BUFFER(kBindStarts, writeonly, uint, starts);
 

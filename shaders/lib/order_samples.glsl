@@ -4,7 +4,7 @@
 #ifndef GEODISK_ORDER_SAMPLES_GLSL
 #define GEODISK_ORDER_SAMPLES_GLSL
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = 0) in; // kSpecLocalSize
 
 GEODISK_ROWS(kBindAccepted, accepted);
 GEODISK_CONTROL;

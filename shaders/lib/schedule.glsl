@@ -3,7 +3,7 @@
 #ifndef GEODISK_SCHEDULE_GLSL
 #define GEODISK_SCHEDULE_GLSL
 
-layout(constant_id = kSpecLocalSize) const uint kSlotLocalSize = 64u;
+layout(constant_id = kSpecSlotLocalSize) const uint kSlotLocalSize = 64u;
 
 GEODISK_BUFFER(kBindList, , uint, list);
 

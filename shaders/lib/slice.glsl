@@ -10,7 +10,9 @@
 #ifndef GEODISK_SLICE_GLSL
 #define GEODISK_SLICE_GLSL
 
-layout(constant_id = kSpecPoolBlock) const uint kPoolBlock = 1u; // a power of two
+layout(constant_id = kSpecPoolBlock) const uint kLanesOfBlock = 1u; // a power of two
+layout(constant_id = kSpecLanesApart) const bool kLanesApart = false;
+const uint kPoolBlock = kLanesApart ? 1u : kLanesOfBlock;
 
 uint first_row(uint lane) {
     return (lane & ~(kPoolBlock - 1u)) * push.lane_rows + (lane & (kPoolBlock - 1u));

@@ -195,7 +195,7 @@ GEODISK_CONST uint kKeptRows = 2u;
 GEODISK_CONST uint kTrimRows = kKeptRows * kKeptPerEdge * kKeptEdges;
 
 // Specialization constants.
-GEODISK_CONST uint kSpecLocalSize = 0u;
+GEODISK_CONST uint kSpecLocalSize = 0u; // of kernels over candidates and samples
 GEODISK_CONST uint kSpecNativeRounding = 1u;
 GEODISK_CONST uint kSpecPoolBlock = 2u;
 GEODISK_CONST uint kSpecCountedLanes = 3u;
@@ -207,6 +207,8 @@ GEODISK_CONST uint kSpecEventHeap = 8u; // vertex events wait in a heap, else in
 GEODISK_CONST uint kSpecSeveral = 9u; // several surfaces, each with its own seed, density and stages
 GEODISK_CONST uint kSpecTrims = 10u;  // disks with very many windows trim them
 GEODISK_CONST uint kSpecManyRows = 11u; // faces have several rows of cells
+GEODISK_CONST uint kSpecSlotLocalSize = 12u; // of kernels over slots and lanes
+GEODISK_CONST uint kSpecLanesApart = 13u; // pool blocks of one lane
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.
 GEODISK_CONST uint kWideLanes = 128u;

@@ -134,15 +134,11 @@ TEST_SUITE("layout") {
 
     TEST_CASE("no kernel binds more than eight storage buffers") {
         for (std::size_t k = 0; k < kKernels; ++k) {
-            const KernelInfo& info = kernel_info(static_cast<Kernel>(k));
-            CAPTURE(info.name);
+            CAPTURE(kernel_info(static_cast<Kernel>(k)).name);
             for (const bool texels : {false, true}) {
-                const auto storage_buffers = std::count_if(
-                    info.bindings.begin(), info.bindings.end(), [&](const Binding& b) {
-                        return has_binding(b.access, texels) &&
-                               descriptor_type(b.access, texels) ==
-                                   VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-                    });
+                const auto storage_buffers =
+                    std::ranges::count(interface_of(static_cast<Kernel>(k), texels).bindings,
+                                       VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, &KernelBinding::type);
                 CHECK(storage_buffers >= 1);
                 CHECK(storage_buffers <= 8);
             }

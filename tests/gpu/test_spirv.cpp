@@ -40,12 +40,10 @@ void for_each_variant(Visit&& visit) {
     }
 }
 
-std::vector<DeclaredBinding> bindings_in_table(const KernelInfo& info, bool texels) {
+std::vector<DeclaredBinding> bindings_read(std::span<const std::uint32_t> spirv) {
     std::vector<DeclaredBinding> bindings;
-    for (const Binding& binding : info.bindings) {
-        if (has_binding(binding.access, texels)) {
-            bindings.push_back({0, binding.number, descriptor_type(binding.access, texels)});
-        }
+    for (const KernelBinding& binding : read_interface(spirv).bindings) {
+        bindings.push_back({0, binding.number, binding.type});
     }
     return bindings;
 }
@@ -82,11 +80,30 @@ TEST_SUITE("spirv") {
         CHECK(loose_operations(spoilt).size() == loose_operations(spirv).size() + 1);
     }
 
-    TEST_CASE("kernels declare the descriptors that the table gives them") {
-        for_each_variant(
-            [](const KernelInfo& info, std::span<const std::uint32_t> spirv, bool texels) {
-                CHECK(declared_bindings(spirv) == bindings_in_table(info, texels));
-            });
+    TEST_CASE("kernels declare the descriptors that the library reads from them") {
+        for_each_variant([](const KernelInfo&, std::span<const std::uint32_t> spirv, bool) {
+            CHECK(declared_bindings(spirv) == bindings_read(spirv));
+        });
+    }
+
+    TEST_CASE("kernels have the switches that they are compiled with") {
+        const auto has = [](Kernel kernel, std::uint32_t constant) {
+            CHECK(interface_of(kernel, true).has_constant(constant) ==
+                  interface_of(kernel, false).has_constant(constant));
+            return interface_of(kernel, false).has_constant(constant);
+        };
+        CHECK(has(Kernel::detect, gpu::kSpecManyRows));
+        CHECK(has(Kernel::detect, gpu::kSpecLanesApart));
+        CHECK(has(Kernel::draw, gpu::kSpecAdaptive));
+        CHECK(has(Kernel::grid_detect, gpu::kSpecDimension));
+        CHECK(has(Kernel::resolve, gpu::kSpecSlotLocalSize));
+        CHECK_FALSE(has(Kernel::resolve, gpu::kSpecLocalSize));
+        CHECK_FALSE(has(Kernel::count, gpu::kSpecTrims));
+        KernelVariant variant;
+        variant.trims = variant.adaptive = true;
+        CHECK(variant.of(Kernel::detect) == variant);
+        CHECK(variant.of(Kernel::count).adaptive);
+        CHECK_FALSE(variant.of(Kernel::count).trims);
     }
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -163,10 +165,10 @@ std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
 /// Whether some kernel reads this buffer as texels, by whatever binding.
 bool read_as_texels(std::size_t buffer) {
     for (std::size_t k = 0; k < kKernels; ++k) {
-        for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
+        for (const KernelBinding& binding : interface_of(static_cast<Kernel>(k), true).bindings) {
             for (std::size_t role = 0; role < 2 * kSetRoles; ++role) {
                 const bool all_single = role >= kSetRoles;
-                if (binding.access != Access::storage &&
+                if (binding.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
                     bound_as(static_cast<SetRole>(role % kSetRoles), binding.number, all_single) ==
                         buffer) {
                     return true;
@@ -421,6 +423,14 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     return Done{};
 }
 
+/// Returns what a kernel binds; nothing if the job has no use for it.
+std::span<const KernelBinding> Job::Impl::bindings_of(std::size_t kernel) const {
+    if (!has(kernel)) {
+        return {};
+    }
+    return sampler->pipelines.interface_of(static_cast<Kernel>(kernel)).bindings;
+}
+
 /// Binds what has changed, or all.
 Result<Done> Job::Impl::bind(const Workspace& ranges, bool all) {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
@@ -444,12 +454,16 @@ Result<Done> Job::Impl::allocate_sets() {
     const DeviceTable& vk = sampler->vk;
     const VkDevice device = sampler->device.device;
     constexpr std::uint32_t kSets = kSetRoles * kKernels;
-    // Kernels bind at most eight buffers in any of these ways, and one as their own texels.
-    const std::array<VkDescriptorPoolSize, 3> sizes{{
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSets},
-        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 8 * kSets},
-        {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, kSets},
-    }};
+    std::map<VkDescriptorType, std::uint32_t> descriptors;
+    for (std::size_t k = 0; k < kKernels; ++k) {
+        for (const KernelBinding& binding : bindings_of(k)) {
+            descriptors[binding.type] += kSetRoles;
+        }
+    }
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const auto& [type, count] : descriptors) {
+        sizes.push_back({type, count});
+    }
     if (descriptor_pool != VK_NULL_HANDLE) {
         vk.vkDestroyDescriptorPool(device, std::exchange(descriptor_pool, VK_NULL_HANDLE),
                                    sampler->device.host_allocator);
@@ -525,22 +539,19 @@ Result<Done> Job::Impl::replace_buffer(std::size_t buffer, const BufferRange& ra
 void Job::Impl::write_buffer(std::size_t buffer) const {
     const VkDescriptorBufferInfo info{workspace[buffer].buffer, workspace[buffer].offset,
                                       workspace[buffer].size};
-    const auto write = [&](SetRole role, std::size_t kernel, const Binding& binding) {
+    const auto write = [&](SetRole role, std::size_t kernel, const KernelBinding& binding) {
         VkWriteDescriptorSet set{};
         set.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         set.dstSet = sets[static_cast<std::size_t>(role)][kernel];
         set.dstBinding = binding.number;
         set.descriptorCount = 1;
-        set.descriptorType = descriptor_type(binding.access, sampler->reads_texels());
+        set.descriptorType = binding.type;
         set.pBufferInfo = &info;
         set.pTexelBufferView = &views[buffer];
         sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &set, 0, nullptr);
     };
     for (std::size_t k = 0; k < kKernels; ++k) {
-        for (const Binding& binding : kernel_info(static_cast<Kernel>(k)).bindings) {
-            if (!has(k) || !has_binding(binding.access, sampler->reads_texels())) {
-                continue;
-            }
+        for (const KernelBinding& binding : bindings_of(k)) {
             for (std::size_t role = 0; role < kSetRoles; ++role) {
                 if (bound_as(static_cast<SetRole>(role), binding.number, push.all_single != 0) ==
                     buffer) {

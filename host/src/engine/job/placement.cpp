@@ -118,7 +118,7 @@ Result<Done> Placement::Impl::allocate_set() {
 }
 
 void Placement::Impl::bind(const Job::Impl& job, const CallersRanges& ranges) const {
-    for (const Binding& binding : kernel_info(Kernel::place).bindings) {
+    for (const KernelBinding& binding : sampler->pipelines.interface_of(Kernel::place).bindings) {
         const auto* const callers =
             std::find_if(ranges.begin(), ranges.end(),
                          [&](const NamedRange& own) { return own.binding == binding.number; });

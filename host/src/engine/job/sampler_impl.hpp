@@ -120,6 +120,7 @@ struct Job::Impl {
     /// Sets it out for a domain in a workspace. Of buffers that are as they were, and kernels of
     /// the same kind of domain, nothing is written anew.
     Result<Done> set_out(const Domain& of, const RunPlan& new_plan, const Workspace& ranges);
+    std::span<const KernelBinding> bindings_of(std::size_t kernel) const;
     Result<Done> allocate_sets();
     Result<Done> bind(const Workspace& ranges, bool all);
     Result<VkBufferView> create_view(std::size_t buffer, const BufferRange& range) const;

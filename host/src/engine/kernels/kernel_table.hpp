@@ -1,7 +1,6 @@
-// The compiled kernels: SPIR-V words and the buffers each binds.
+// The compiled kernels: their SPIR-V, what they serve and what they can be specialized for.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <compare>
 #include <cstddef>
@@ -12,40 +11,22 @@
 #include <vulkan/vulkan_core.h>
 
 #include "bindings.h"
+#include "constants.h"
+#include "engine/kernels/kernel_interface.hpp"
 
 namespace geodisk {
 
+/// The kernels that shaders/CMakeLists.txt lists.
 enum class Kernel : std::uint32_t {
-    count,
-    sum_blocks,
-    scan_sums,
-    scan_blocks,
-    bin,
-    draw,
-    begin_chunk,
-    select,
-    detect,
-    resolve,
-    count_calls,
-    rewind,
-    resume,
-    count_orders,
-    order_count,
-    order_place,
-    order_write,
-    place,
-    self_test,
-    box_count,
-    box_bin,
-    box_draw,
-    box_select,
-    space_count,
-    space_bin,
-    space_draw,
-    space_select,
-    grid_detect,
+#define GEODISK_KERNEL(name, domain, spirv, texels_spirv) name,
+#include "kernel_list.inc"
+#undef GEODISK_KERNEL
 };
-inline constexpr std::size_t kKernels = 28;
+#define GEODISK_KERNEL(name, domain, spirv, texels_spirv) +1
+inline constexpr std::size_t kKernels =
+#include "kernel_list.inc"
+    ;
+#undef GEODISK_KERNEL
 
 /// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
 enum class DomainKind : std::uint8_t {
@@ -62,50 +43,41 @@ constexpr std::size_t index_of(DomainKind kind) {
     return static_cast<std::size_t>(std::countr_zero(static_cast<std::uint8_t>(kind)));
 }
 
+// The switches of a job's kernels: name, specialization constant.
+// clang-format off
+#define GEODISK_KERNEL_SWITCHES(X)                                                                 \
+    X(curved, kSpecCurved)          /* Lengths of curves instead of straight lines in space. */    \
+    X(adaptive, kSpecAdaptive)      /* Radii that vary over a surface. */                          \
+    X(several, kSpecSeveral)        /* Surfaces with seeds and stages of their own. */             \
+    X(many_rows, kSpecManyRows)     /* Faces have several rows of cells. */                        \
+    X(event_heap, kSpecEventHeap)   /* Vertex events of a disk wait in a heap, else in a ring. */  \
+    X(trims, kSpecTrims)            /* Disks that make very many windows trim them. */             \
+    X(lanes_apart, kSpecLanesApart) /* Pool blocks of one lane, whatever Tuning::pool_block is. */
+// clang-format on
+
 /// What the kernels of a job are specialized for, besides what all jobs of a device share.
 struct KernelVariant {
     DomainKind domain = DomainKind::surface;
     std::uint32_t dimension = 0; ///< Of a grid.
-    bool curved = false;         ///< Lengths of curves instead of straight lines in space.
-    bool adaptive = false;       ///< Radii that vary over a surface.
-    bool several = false;        ///< Surfaces with seeds and stages of their own.
-    bool many_rows = false;      ///< Faces have several rows of cells.
-    bool event_heap = false;     ///< Vertex events of a disk wait in a heap, else in a ring.
-    bool trims = false;          ///< Disks that make very many windows trim them.
-    bool lanes_apart = false;    ///< Pool blocks of one lane, whatever Tuning::pool_block is.
+#define GEODISK_SWITCH(name, constant) bool name = false;
+    GEODISK_KERNEL_SWITCHES(GEODISK_SWITCH)
+#undef GEODISK_SWITCH
 
     friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;
 
-    /// As much of it as bears on a kernel: how windows and candidates are gone through, on detect
-    /// alone.
-    KernelVariant of(Kernel kernel) const noexcept;
+    /// Returns as much of it as a kernel has specialization constants for.
+    KernelVariant of(Kernel kernel) const;
 };
 
-/// Those of all domains that there may be.
+/// Returns every variant that a job or a placement may need.
 std::vector<KernelVariant> all_kernel_variants();
-
-/// How a kernel reaches a buffer, see shaders/lib/buffers.glsl.
-enum class Access : std::uint8_t {
-    storage, ///< As a storage buffer.
-    read,    ///< Only reads it: as a texel buffer in the variant that reads texels.
-    /// Reads through a second binding, in the variant that reads texels alone:
-    read_own,    ///< what the invocation wrote;
-    read_before, ///< what nobody has written yet.
-};
-
-struct Binding {
-    std::uint32_t number;
-    Access access;
-};
 
 struct KernelInfo {
     const char* name;
+    DomainKind domain;
     std::span<const std::uint32_t> spirv; ///< Reads from storage buffers.
-    std::span<const Binding> bindings;    ///< Ascending; at most eight storage buffers.
-    bool per_slot; ///< Knows the work-group size of slots and lanes, else that of candidates.
-    DomainKind domain = DomainKind::any;
     /// Reads from texel buffers, where that is faster on llvmpipe; else empty.
-    std::span<const std::uint32_t> texels_spirv = {};
+    std::span<const std::uint32_t> texels_spirv;
 
     std::span<const std::uint32_t> words(bool texels) const {
         return texels && !texels_spirv.empty() ? texels_spirv : spirv;
@@ -123,16 +95,8 @@ DomainKernels kernels_of(DomainKind domain) noexcept;
 
 const KernelInfo& kernel_info(Kernel kernel) noexcept;
 
-/// Whether a variant has a binding.
-constexpr bool has_binding(Access access, bool texels) noexcept {
-    return texels || access == Access::storage || access == Access::read;
-}
-
-constexpr VkDescriptorType descriptor_type(Access access, bool texels) noexcept {
-    return !texels || access == Access::storage ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-           : access == Access::read_own         ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
-                                                : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-}
+/// Returns the interface of KernelInfo::words. The first call reads those of all kernels.
+const KernelInterface& interface_of(Kernel kernel, bool texels);
 
 /// The texels of the buffer with this number: words, or rows of four.
 constexpr VkFormat texel_format(std::uint32_t buffer) noexcept {

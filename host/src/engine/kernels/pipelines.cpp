@@ -1,6 +1,7 @@
 #include "engine/kernels/pipelines.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -92,11 +93,8 @@ Result<VkPipeline> Pipelines::pipeline_of(Kernel kernel, const KernelVariant& va
 
 Result<Done> Pipelines::create_layout(std::size_t kernel) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (const Binding& binding : kernel_info(static_cast<Kernel>(kernel)).bindings) {
-        if (has_binding(binding.access, reads_texels())) {
-            bindings.push_back({binding.number, descriptor_type(binding.access, reads_texels()), 1,
-                                VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-        }
+    for (const KernelBinding& binding : interface_of(static_cast<Kernel>(kernel)).bindings) {
+        bindings.push_back({binding.number, binding.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
@@ -127,6 +125,23 @@ Result<Done> Pipelines::create_layout(std::size_t kernel) {
     return Done{};
 }
 
+/// All there are: a driver ignores those that a kernel does not have.
+std::vector<Pipelines::Specialization>
+Pipelines::specializations(const KernelVariant& variant) const {
+    const Tuning& tuning = choices_.tuning;
+    return {{gpu::kSpecLocalSize, tuning.local_size},
+            {gpu::kSpecSlotLocalSize, tuning.slot_local_size},
+            {gpu::kSpecNativeRounding, choices_.native_rounding ? VK_TRUE : VK_FALSE},
+            {gpu::kSpecPoolBlock, tuning.pool_block},
+            {gpu::kSpecCountedLanes, choices_.counted_lanes},
+            {gpu::kSpecCountCalls, choices_.count_calls ? VK_TRUE : VK_FALSE},
+            {gpu::kSpecDimension, variant.dimension},
+#define GEODISK_SWITCH(name, constant) {gpu::constant, variant.name ? VK_TRUE : VK_FALSE},
+            GEODISK_KERNEL_SWITCHES(GEODISK_SWITCH)
+#undef GEODISK_SWITCH
+    };
+}
+
 Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& variant) const {
     const KernelInfo& info = kernel_info(kernel);
     VkShaderModuleCreateInfo module_info{};
@@ -140,37 +155,17 @@ Result<VkPipeline> Pipelines::compile(Kernel kernel, const KernelVariant& varian
     if (result != VK_SUCCESS) {
         return vk_error("vkCreateShaderModule", result);
     }
-    constexpr std::uint32_t kWord = sizeof(std::uint32_t);
-    const Tuning& tuning = choices_.tuning;
-    const std::array<std::uint32_t, 12> constants{info.per_slot ? tuning.slot_local_size
-                                                                : tuning.local_size,
-                                                  choices_.native_rounding ? VK_TRUE : VK_FALSE,
-                                                  variant.lanes_apart ? 1 : tuning.pool_block,
-                                                  choices_.counted_lanes,
-                                                  choices_.count_calls ? VK_TRUE : VK_FALSE,
-                                                  variant.dimension,
-                                                  variant.curved ? VK_TRUE : VK_FALSE,
-                                                  variant.adaptive ? VK_TRUE : VK_FALSE,
-                                                  variant.event_heap ? VK_TRUE : VK_FALSE,
-                                                  variant.several ? VK_TRUE : VK_FALSE,
-                                                  variant.trims ? VK_TRUE : VK_FALSE,
-                                                  variant.many_rows ? VK_TRUE : VK_FALSE};
-    const std::array<VkSpecializationMapEntry, 12> entries{{
-        {gpu::kSpecLocalSize, 0, kWord},
-        {gpu::kSpecNativeRounding, kWord, kWord},
-        {gpu::kSpecPoolBlock, 2 * kWord, kWord},
-        {gpu::kSpecCountedLanes, 3 * kWord, kWord},
-        {gpu::kSpecCountCalls, 4 * kWord, kWord},
-        {gpu::kSpecDimension, 5 * kWord, kWord},
-        {gpu::kSpecCurved, 6 * kWord, kWord},
-        {gpu::kSpecAdaptive, 7 * kWord, kWord},
-        {gpu::kSpecEventHeap, 8 * kWord, kWord},
-        {gpu::kSpecSeveral, 9 * kWord, kWord},
-        {gpu::kSpecTrims, 10 * kWord, kWord},
-        {gpu::kSpecManyRows, 11 * kWord, kWord},
-    }};
-    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()),
-                                              entries.data(), sizeof constants, constants.data()};
+    const std::vector<Specialization> constants = specializations(variant);
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < constants.size(); ++i) {
+        entries.push_back({constants[i].constant,
+                           static_cast<std::uint32_t>(i * sizeof(Specialization) +
+                                                      offsetof(Specialization, value)),
+                           sizeof constants[i].value});
+    }
+    const VkSpecializationInfo specialization{
+        static_cast<std::uint32_t>(entries.size()), entries.data(),
+        constants.size() * sizeof(Specialization), constants.data()};
     VkComputePipelineCreateInfo pipeline_info{};
     pipeline_info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     if (device_.pipeline_statistics) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <geodisk/sampler.hpp>
 
@@ -41,6 +42,10 @@ class Pipelines {
     Result<const KernelPipelines*> of(const KernelVariant& variant);
     const KernelPipelines& common() const { return common_; }
 
+    /// Returns what a kernel binds on this device.
+    const KernelInterface& interface_of(Kernel kernel) const {
+        return geodisk::interface_of(kernel, reads_texels());
+    }
     VkDescriptorSetLayout set_layout(std::size_t kernel) const { return set_layouts_[kernel]; }
     VkPipelineLayout layout(std::size_t kernel) const { return layouts_[kernel]; }
     /// The device may be using them for ever: destroy none.
@@ -51,6 +56,10 @@ class Pipelines {
     bool is_used(Kernel kernel) const {
         return kernel != Kernel::count_calls || choices_.count_calls;
     }
+    struct Specialization {
+        std::uint32_t constant, value;
+    };
+    std::vector<Specialization> specializations(const KernelVariant& variant) const;
     Result<Done> create_layout(std::size_t kernel);
     Result<VkPipeline> compile(Kernel kernel, const KernelVariant& variant) const;
     /// Compiled unless it was before.
