@@ -3,7 +3,7 @@
 // Counts the candidates in each cell, for faces with several cells. The count of a cell goes to the
 // entry after its own. After the scan, and after `draw` has advanced each entry, the candidates of a
 // cell start at its own entry.
-// reads: faces, keys, radii, starts   writes: cells   spec: rounding, adaptive
+// reads: faces, fans (keys, radii), starts   writes: cells   spec: rounding, adaptive
 
 #include "../lib/prelude.glsl"
 #include "../lib/face_cell.glsl"

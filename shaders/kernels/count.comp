@@ -1,10 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Counts the candidates of each face.
-// reads: faces, keys, radii   writes: starts (counts), cells (counts of faces of one cell)
+// reads: faces, fans (keys, radii)   writes: starts (counts), cells (counts of faces of one cell)
 // spec: local size, rounding, adaptive
 
 #include "../lib/prelude.glsl"
+#include "../lib/job.glsl"
 #include "../lib/candidate.glsl"
 #include "../lib/half_edge.glsl"
 #include "../lib/cells.glsl"
@@ -20,7 +21,7 @@ float mean_count(uint face) {
 
 void counted(uint face, uint number) {
     uint word = load_cells(face);
-    if (push.all_single == 0u && single_cell(word)) {
+    if (job.all_single == 0u && single_cell(word)) {
         atomicAdd(cells[(word & kFirstCellMask) + 1u], number);
     }
 }

@@ -5,6 +5,7 @@
 // reads: orders   writes: control
 
 #include "../lib/prelude.glsl"
+#include "../lib/job.glsl"
 
 layout(local_size_x = kWideLanes) in;
 
@@ -19,7 +20,7 @@ void main() {
     }
     barrier();
     uint begin = own_group() * kSelectBlock;
-    uint end = min(begin + kSelectBlock, min(control.drawn, push.capacity));
+    uint end = min(begin + kSelectBlock, min(control.drawn, job.capacity));
     uint below = 0u;
     for (uint place = begin + gl_LocalInvocationID.x; place < end; place += kWideLanes) {
         below += word_at(orders, place) < push.end_order ? 1u : 0u;

@@ -5,13 +5,15 @@
 // so that a large disk holds up no small ones. It stops after push.step_budget steps and goes on in
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
-// reads: faces, fans, radii, cells, states, weights, orders   writes: pool, slots, control
+// reads: faces, fans, radii, cells, weights, orders   writes: pool, slots, control
 // spec: local size, rounding, pool block, counted lanes, adaptive, event heap, trims, many rows
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
 
+#define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"
+#include "../lib/job.glsl"
 #include "../lib/rounding.glsl"
 #include "../lib/weights.glsl"
 #include "../lib/radii.glsl"
@@ -22,14 +24,10 @@ layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 
 GEODISK_WORDS(kBindCells, cells);
-GEODISK_WORDS(kBindStates, states);
 GEODISK_WORDS(kBindWeights, weights);
 GEODISK_WORDS(kBindOrders, orders);
 GEODISK_OWN_ROWS(kBindPool, kBindPoolTexels, pool);
 GEODISK_CONTROL;
-
-// A copy that stays in registers; reading push constants in a branch is a gather on lavapipe.
-Push P;
 
 #include "../lib/slice.glsl"
 #include "../lib/lane.glsl"
@@ -77,7 +75,7 @@ void block_conflicts() {
     uvec4 own = sample_of(lane.slot);
     uint end = min(lane.cursor + kBlocksPerStep, lane.active_conflicts);
     for (; lane.cursor < end; ++lane.cursor) {
-        uint at = active_entry(P.list_capacity, lane.cursor);
+        uint at = active_entry(push.list_capacity, lane.cursor);
         uint place = own_row_at(pool, list_first + (at >> 2))[at & 3u];
         block(own, place);
     }
@@ -101,7 +99,7 @@ void take_slot() {
 
 // And the windows kept, which lie behind it.
 void clear_table() {
-    uint rows = P.table_capacity + (kTrims ? kTrimRows : 0u);
+    uint rows = push.table_capacity + (kTrims ? kTrimRows : 0u);
     uint end = min(lane.cursor + kClearPerStep, rows);
     for (; lane.cursor < end; ++lane.cursor) {
         pool[vertex_row(lane.cursor)] = uvec4(0u);
@@ -114,13 +112,13 @@ void clear_table() {
 
 // Half-edge and angles of a corner of the fans.
 uvec2 fan_corner(uint i) {
-    uvec4 row = row_at(fans, P.vertices + (i >> 1));
+    uvec4 row = row_at(fans, job.vertices + (i >> 1));
     return (i & 1u) == 0u ? row.xy : row.zw;
 }
 
 uint corner_angles(uint h) {
-    uint corners = 3u * P.faces;
-    return row_at(fans, P.vertices + ((corners + 1u) >> 1) + (h >> 2))[h & 3u];
+    uint corners = 3u * job.faces;
+    return row_at(fans, job.vertices + ((corners + 1u) >> 1) + (h >> 2))[h & 3u];
 }
 
 // Whether a shortest path that came in through corner entered_by may go on into `corner`: it must
@@ -350,7 +348,7 @@ void work_on(uint index) {
     load_lane(index);
     load_candidate();
     load_face();
-    for (uint i = 0u; i < P.step_budget && overflow == 0u; ++i) {
+    for (uint i = 0u; i < push.step_budget && overflow == 0u; ++i) {
         step();
         ++own_disks.steps;
         if (lane.phase == kPhaseIdle && !slots_left()) {
@@ -386,11 +384,10 @@ void count_trips() {
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    P = push;
-    first_weight1 = words_of_states(P.capacity);
+    keep_constants();
     trips = 0u;
     own_disks = kNoDisks;
-    if (index < P.lanes && atomic_load(control.incomplete) > 0u &&
+    if (index < push.lanes && atomic_load(control.incomplete) > 0u &&
         atomic_load(control.overflow) == 0u) {
         work_on(index);
     }

@@ -1,15 +1,15 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Draws the candidates, sorted by cell in larger faces, and begins the chunk.
-// reads: faces, keys, radii, starts   writes: states, weights, orders, cells, control
+// reads: faces, fans (keys, radii), starts   writes: weights, orders, cells, control
 // spec: rounding, adaptive
 
 #include "../lib/prelude.glsl"
+#include "../lib/job.glsl"
 #include "../lib/face_cell.glsl"
 #include "../lib/each_drawn.glsl"
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
-GEODISK_BUFFER(kBindStates, writeonly, uint, states);
 GEODISK_BUFFER(kBindWeights, writeonly, uint, weights);
 GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 
@@ -21,12 +21,12 @@ void visit(Unit unit, uint number) {
     uint place = number;
     if (!single_cell(word)) {
         place = atomicAdd(cells[cell_of(c, word) + 1u], 1u);
-    } else if (push.all_single == 0u &&
+    } else if (job.all_single == 0u &&
                number + 1u == word_at(starts, (unit.owner + 1u) * push.stages)) {
         cells[(word & kFirstCellMask) + 1u] = number + 1u;
     }
-    states[words_of_states(push.capacity) + place] = c.weight1;
-    weights[place] = c.weight2;
+    weights[place] = c.weight1;
+    weights[job.capacity + place] = c.weight2;
     orders[place] = c.order;
 }
 

@@ -4,10 +4,12 @@
 // candidates in it (paper DetectCollision, section 5.9). One invocation per slot; resumable. It visits
 // the cells of the grid within reach of the disk, one row along the first axis at a time, in trips of
 // bounded length, push.step_budget of them per dispatch.
-// reads: axes, cells, states, points, orders   writes: pool, slots, control
+// reads: axes, cells, points, orders   writes: pool, slots, control
 // spec: local size, rounding, pool block, dimension, curved
 
+#define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"
+#include "../lib/job.glsl"
 #include "../lib/tolerances.glsl"
 #include "../lib/curve.glsl"
 #include "../lib/grid.glsl"
@@ -18,7 +20,6 @@ layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 layout(constant_id = kSpecCurved) const bool kCurved = false;
 
 GEODISK_WORDS(kBindCells, cells);
-GEODISK_WORDS(kBindStates, states);
 GEODISK_WORDS(kBindPoints, points);
 GEODISK_WORDS(kBindOrders, orders);
 GEODISK_BUFFER(kBindPool, , uvec4, pool);
@@ -57,7 +58,7 @@ vec3 normal_at(PointWords words) {
 
 void load_own(uint slot) {
     PointWords words = own_place == kNoPlace ? words_of_settled(slot, kCurved ? 6u : kDimension)
-                                             : PointWords(own_place, P.capacity);
+                                             : PointWords(own_place, job.capacity);
     for (uint i = 0u; i < kDimension; ++i) {
         grid[i] = load_axis(i);
         own[i] = word_at(points, words.first + i * words.stride);
@@ -120,13 +121,13 @@ void next_cells() {
     for (uint k = kDimension - 1u; k > 0u; --k) {
         uint digit = (turn >> (kDigitBits * k)) & kDigitMask;
         sum = plus_square(sum, gap_to(k, digit));
-        beyond = beyond == 0u && sum >= P.limit ? k : beyond;
+        beyond = beyond == 0u && sum >= job.limit ? k : beyond;
         head += cell_at(k, digit) * grid[k].stride;
     }
     uint first = kGridDigits;
     uint last = 0u;
     for (uint digit = 0u; digit < kGridDigits; ++digit) {
-        bool is_due = digit >= (turn & kDigitMask) && plus_square(sum, gap_to(0u, digit)) < P.limit;
+        bool is_due = digit >= (turn & kDigitMask) && plus_square(sum, gap_to(0u, digit)) < job.limit;
         first = is_due ? min(first, digit) : first;
         last = is_due ? digit : last;
     }
@@ -137,7 +138,7 @@ void next_cells() {
     uint cell = cell_at(0u, first);
     head = head_in_table(head + cell);
     // Neither wraps around the box nor around the table.
-    uint count = min(last - first + 1u, min(grid[0].cells - cell, P.cells - head));
+    uint count = min(last - first + 1u, min(grid[0].cells - cell, job.cells - head));
     scan_place = word_at(cells, head);
     scan_end = word_at(cells, head + count);
     first += count;
@@ -156,7 +157,7 @@ float along_axis(uint i, uint steps) {
 float square_to(uint place) {
     float sum = 0.0;
     for (uint i = 0u; i < kDimension; ++i) {
-        uint other = word_at(points, i * P.capacity + place);
+        uint other = word_at(points, i * job.capacity + place);
         uint ahead = other - own[i];
         uint back = own[i] - other;
         uint steps = grid[i].is_periodic ? min(ahead, back) : (other < own[i] ? back : ahead);
@@ -169,7 +170,7 @@ float square_to(uint place) {
 vec3 way_to(uint place) {
     vec3 way = vec3(0.0);
     for (uint i = 0u; i < 3u; ++i) {
-        uint other = word_at(points, i * P.capacity + place);
+        uint other = word_at(points, i * job.capacity + place);
         float along = along_axis(i, other < own[i] ? own[i] - other : other - own[i]);
         way[i] = other < own[i] ? -along : along;
     }
@@ -179,12 +180,12 @@ vec3 way_to(uint place) {
 bool conflicts_with(uint place) {
     float square = square_to(place);
     if (!kCurved) {
-        return square < P.limit;
+        return square < job.limit;
     }
     // No curve is shorter than the straight line.
-    return square < P.limit &&
+    return square < job.limit &&
            is_short_curve(way_to(place), square, own_normal,
-                          normal_at(PointWords(place, P.capacity)), P.limit);
+                          normal_at(PointWords(place, job.capacity)), job.limit);
 }
 
 void trip() {
@@ -215,7 +216,7 @@ bool block_conflicts(uint slot) {
     uint cursor = slots[slot].cursor;
     uint end = min(cursor + kListPerDispatch, active_conflicts);
     for (; cursor < end; ++cursor) {
-        uint at = active_entry(P.list_capacity, cursor);
+        uint at = active_entry(push.list_capacity, cursor);
         uint place = pool[list_first + (at >> 2)][at & 3u];
         block(own, place);
     }
@@ -242,7 +243,7 @@ void find_conflicts(uint slot) {
     overflow = 0u;
     list_first = list_row(slot);
     load_own(slot);
-    for (uint i = 0u; i < P.step_budget && running(); ++i) {
+    for (uint i = 0u; i < push.step_budget && running(); ++i) {
         trip();
         ++own_disks.steps;
     }
@@ -265,7 +266,7 @@ void find_conflicts(uint slot) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    P = push;
+    keep_constants();
     own_disks = kNoDisks;
     if (slot < control.slots_used && atomic_load(control.overflow) == 0u &&
         slots[slot].phase == kSlotReady) {

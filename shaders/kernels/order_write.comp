@@ -4,6 +4,7 @@
 // reads: accepted, buckets   writes: samples, control   spec: local size
 
 #include "../lib/prelude.glsl"
+#include "../lib/job.glsl"
 #include "../lib/order_samples.glsl"
 #include "../lib/dart_order.glsl"
 
@@ -40,6 +41,6 @@ void main() {
     }
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
-        atomicMax(control.ready, min(group_ready, push.stop_count));
+        atomicMax(control.ready, min(group_ready, job.stop_count));
     }
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Writes the samples that are in order to the caller's buffer, with position, normal and radius, and
 // their number to the arguments of an indirect draw. One invocation per sample.
-// reads: samples, control, fans (radii), keys (parts), vertices, indices   writes: placed, arguments
+// reads: samples, control, fans (radii, parts), vertices, indices   writes: placed, arguments
 // spec: local size, rounding, adaptive, several
 
 #define GEODISK_OWN_PUSH PlacePush

@@ -6,14 +6,13 @@
 // one that blocks it, continues with that one. Blocks only decrease and rejections only increase, so
 // every order of events gives the same result. A sample of an earlier chunk is already accepted: nothing
 // blocks it, and it only rejects. One invocation per slot; resumable, since lists may be long.
-// reads: pool lists   writes: states, orders, accepted, control, slots   spec: local size, pool block
+// reads: pool lists   writes: orders, accepted, control, slots   spec: local size, pool block
 
 #include "../lib/prelude.glsl"
 
 layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
 layout(constant_id = kSpecCountCalls) const bool kCountCalls = false;
 
-GEODISK_BUFFER(kBindStates, coherent, uint, states);
 GEODISK_BUFFER(kBindOrders, coherent, uint, orders);
 GEODISK_ROWS(kBindPool, pool);
 GEODISK_BUFFER(kBindAccepted, writeonly, uvec4, accepted);
@@ -71,7 +70,7 @@ void tell(uint other, bool is_rejected) {
 // Accepts or rejects a candidate. It may be rejected several times.
 void end_undecided(uint place) {
     uint bit = state_bit(place);
-    bool is_first = (atomicAnd(states[undecided_word(place)], ~bit) & bit) != 0u;
+    bool is_first = (atomicAnd(orders[undecided_word(place)], ~bit) & bit) != 0u;
     fewer += is_first ? 1u : 0u;
 }
 
@@ -90,7 +89,7 @@ void meet(uvec4 own, uint place, bool is_rejected) {
     }
 }
 
-void end_active(uint place) { atomicAnd(states[active_word(place)], ~state_bit(place)); }
+void end_active(uint place) { atomicAnd(orders[active_word(place)], ~state_bit(place)); }
 
 void finish(uint slot, bool is_rejected) {
     uint place = slots[slot].place;

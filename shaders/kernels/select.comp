@@ -1,10 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Selects the next batch on a surface.
-// reads: weights, starts, samples   writes: states, orders, list, control, slots
+// reads: weights, starts, samples   writes: orders, list, control, slots
 // spec: slot local size
 
 #include "../lib/prelude.glsl"
+#include "../lib/job.glsl"
 #include "../lib/units.glsl"
 #include "../lib/weights.glsl"
 
@@ -17,7 +18,7 @@ void settle_point(uint slot, uvec4 record) {}
 #include "../lib/select_idle.glsl"
 
 uvec4 sample_at(uint place, uint order) {
-    float weight1 = weight_of(word_before(states, words_of_states(push.capacity) + place));
-    float weight2 = weight_of(word_at(weights, place));
+    float weight1 = weight_of(word_at(weights, place));
+    float weight2 = weight_of(word_at(weights, job.capacity + place));
     return uvec4(order, find_unit(place).owner, floatBitsToUint(weight1), floatBitsToUint(weight2));
 }

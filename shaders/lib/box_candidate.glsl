@@ -4,6 +4,7 @@
 #ifndef GEODISK_BOX_CANDIDATE_GLSL
 #define GEODISK_BOX_CANDIDATE_GLSL
 
+#include "job.glsl"
 #include "grid.glsl"
 #include "poisson.glsl"
 #include "rng.glsl"
@@ -28,7 +29,7 @@ DrawCell load_draw_cell(uint cell) {
         c.first[i] = at[i] * row.y;
         c.width[i] = at[i] + 1u == row.x ? row.z : row.y;
     }
-    c.seed = philox(uvec2(push.seed_low, push.seed_high), uvec4(at[0], at[1], at[2], kCellSeed)).xy;
+    c.seed = philox(uvec2(job.seed_low, job.seed_high), uvec4(at[0], at[1], at[2], kCellSeed)).xy;
     if (kDimension > 3u) {
         c.seed = philox(c.seed, uvec4(at[3], at[4], at[5], kCellSeed)).xy;
     }

@@ -65,7 +65,15 @@
         }                                                                                          \
     }
 
+// The push block. Kernels of long loops keep a copy of it and of the constants of the job, which stays in
+// registers: lavapipe gathers, lane by lane, what is read of either in a branch.
+#ifdef GEODISK_KEEPS_CONSTANTS
+#define GEODISK_PUSH(type)                                                                         \
+    layout(push_constant, std430) uniform push_block { type push_given; };                         \
+    type push
+#else
 #define GEODISK_PUSH(type)                                                                         \
     layout(push_constant, std430) uniform push_block { type push; }
+#endif
 
 #endif

@@ -3,17 +3,18 @@
 #ifndef GEODISK_CANDIDATE_GLSL
 #define GEODISK_CANDIDATE_GLSL
 
+#include "job.glsl"
 #include "face_candidate.glsl"
 #include "parts.glsl"
 #include "radii.glsl"
 
 uint key_of(uint face) {
-    return kSeveral || push.has_keys != 0u ? word_at(keys, face) : face;
+    return kSeveral || job.has_keys != 0u ? key_word(face) : face;
 }
 
 // Returns the seed of a face. The seed of the job changes those of all surfaces.
 uvec2 seed_of(uint face) {
-    uvec2 seed = uvec2(push.seed_low, push.seed_high);
+    uvec2 seed = uvec2(job.seed_low, job.seed_high);
     if (kSeveral) {
         uint part = part_of(face);
         seed ^= uvec2(part_word(part, 0u), part_word(part, 1u));

@@ -5,13 +5,15 @@
 #ifndef GEODISK_COUNT_UNITS_GLSL
 #define GEODISK_COUNT_UNITS_GLSL
 
+#include "job.glsl"
+
 layout(local_size_x_id = 0) in; // kSpecLocalSize
 
 GEODISK_BUFFER(kBindStarts, writeonly, uint, starts);
 
 void main() {
     uint cell = own_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (cell >= push.faces) {
+    if (cell >= job.faces) {
         return;
     }
     float mean = mean_count(cell);

@@ -1,4 +1,4 @@
-// Sets the states of drawn candidates. Needs `states` and each_drawn.glsl.
+// Sets the states of drawn candidates. Needs `orders` and each_drawn.glsl.
 #ifndef GEODISK_DRAW_STATES_GLSL
 #define GEODISK_DRAW_STATES_GLSL
 
@@ -10,8 +10,8 @@ void draw_states() {
     uvec2 numbers = own_numbers();
     for (uint first = numbers.x + 32u * gl_LocalInvocationID.x; first < numbers.y;
          first += 32u * kWideLanes) {
-        states[undecided_word(first)] = lowest_bits(numbers.y - first);
-        states[active_word(first)] = 0u;
+        orders[undecided_word(first)] = lowest_bits(numbers.y - first);
+        orders[active_word(first)] = 0u;
     }
 }
 

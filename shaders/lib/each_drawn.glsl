@@ -3,6 +3,7 @@
 #ifndef GEODISK_EACH_DRAWN_GLSL
 #define GEODISK_EACH_DRAWN_GLSL
 
+#include "job.glsl"
 #include "units.glsl"
 
 layout(local_size_x = kWideLanes) in;
@@ -13,7 +14,7 @@ void visit(Unit unit, uint number);
 uvec2 own_numbers() {
     uint count = drawn_count();
     uint begin = own_group() * kDrawBlock;
-    uint end = count > push.capacity ? 0u : count;
+    uint end = count > job.capacity ? 0u : count;
     return uvec2(begin, min(begin + kDrawBlock, end));
 }
 

@@ -4,6 +4,7 @@
 #ifndef GEODISK_GRID_GLSL
 #define GEODISK_GRID_GLSL
 
+#include "job.glsl"
 #include "dimension.glsl"
 
 GEODISK_ROWS(kBindAxes, axes);
@@ -31,6 +32,6 @@ uint cell_on(Axis axis, uint coordinate, out uint inside) {
     return cell;
 }
 
-uint head_in_table(uint head) { return head & (push.cells - 1u); }
+uint head_in_table(uint head) { return head & (job.cells - 1u); }
 
 #endif

@@ -3,12 +3,12 @@
 #ifndef GEODISK_GRID_DRAW_GLSL
 #define GEODISK_GRID_DRAW_GLSL
 
+#include "job.glsl"
 #include "each_drawn.glsl"
 #include "grid_head.glsl"
 #include "point_words.glsl"
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
-GEODISK_BUFFER(kBindStates, writeonly, uint, states);
 GEODISK_BUFFER(kBindPoints, writeonly, uint, points);
 GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 
@@ -20,7 +20,7 @@ void visit(Unit unit, uint number) {
     uint place = atomicAdd(cells[head_of(point) + 1u], 1u);
     orders[place] = record.x;
     for (uint i = 0u; i < words_per_point(); ++i) {
-        points[i * push.capacity + place] = point[i];
+        points[i * job.capacity + place] = point[i];
     }
     points[number_word(place, words_per_point())] = number;
 }

@@ -3,6 +3,8 @@
 #ifndef GEODISK_HALF_EDGE_GLSL
 #define GEODISK_HALF_EDGE_GLSL
 
+#include "job.glsl"
+
 GEODISK_ROWS(kBindFaces, faces);
 
 struct Edge {
@@ -14,7 +16,7 @@ struct Edge {
 };
 
 // Returns the lengths of a face's edges, and its cell word.
-uvec4 load_lengths(uint face) { return row_at(faces, kFaceRows * push.faces + face); }
+uvec4 load_lengths(uint face) { return row_at(faces, kFaceRows * job.faces + face); }
 uint load_cells(uint face) { return load_lengths(face).w; }
 
 Edge load_edge(uint face, uint corner, uvec4 lengths) {

@@ -23,9 +23,9 @@ uint own_row(uint at) { return slice + at * kPoolBlock; }
 // `precise`.
 void load_lane(uint index) {
     slice = first_row(index);
-    first_event = kLaneRows + kWindowRows * P.window_capacity;
-    first_vertex = first_event + P.window_capacity;
-    first_kept = first_vertex + P.table_capacity;
+    first_event = kLaneRows + kWindowRows * push.window_capacity;
+    first_vertex = first_event + push.window_capacity;
+    first_kept = first_vertex + push.table_capacity;
     first_remembered = first_kept + kTrimRows;
     overflow = 0u;
     uvec4 a = own_row_at(pool, own_row(0u));

@@ -10,11 +10,11 @@ uint list_first; // first row of this slot's list
 // chance.
 void list_conflict(inout uint idle_count, inout uint active_count, uint place, bool is_active,
                    bool is_listed) {
-    if (idle_count + active_count >= P.list_capacity) {
+    if (idle_count + active_count >= push.list_capacity) {
         overflow |= is_listed ? kOverflowConflicts : 0u;
         return;
     }
-    uint at = is_active ? active_entry(P.list_capacity, active_count) : idle_count;
+    uint at = is_active ? active_entry(push.list_capacity, active_count) : idle_count;
     pool[list_first + (at >> 2)][at & 3u] = place;
     active_count += is_listed && is_active ? 1u : 0u;
     idle_count += is_listed && !is_active ? 1u : 0u;

@@ -3,6 +3,8 @@
 #ifndef GEODISK_OPERATION_GLSL
 #define GEODISK_OPERATION_GLSL
 
+#include "job.glsl"
+
 // The face, seen from half_edge.
 Edge edge;
 Edge right;         // starts where edge ends
@@ -16,15 +18,15 @@ vec4 radii;         // of the face
 
 // Returns the distance below which a candidate with this radius conflicts.
 float limit_with(float radius) {
-    precise float limit = (own_radius + radius) + (P.limit - 1.0);
+    precise float limit = (own_radius + radius) + (job.limit - 1.0);
     return limit;
 }
 
 // Returns the distance beyond which no path through the face leads to a conflict.
-float reach() { return kAdaptive ? limit_with(radii.w) : P.limit; }
+float reach() { return kAdaptive ? limit_with(radii.w) : job.limit; }
 
 // Returns the distance beyond which no candidate in the face conflicts.
-float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : P.limit; }
+float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : job.limit; }
 
 // Loads member by member: for a struct that is assigned as a whole, by an index from its own members,
 // glslang 12 looks for `precise` without end. It does not look into functions.
@@ -40,7 +42,7 @@ void load_face() {
     load_into(right, face, next_corner(corner), lengths);
     load_into(left, face, previous_corner(corner), lengths);
     apex = apex_of(edge, left);
-    cell_word = P.all_single != 0u ? kSingleCell << kFaceCornerShift | face * P.stages : lengths.w;
+    cell_word = job.all_single != 0u ? kSingleCell << kFaceCornerShift | face * push.stages : lengths.w;
     if (kAdaptive) {
         radii = face_radii(face);
     }

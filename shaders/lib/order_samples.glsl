@@ -4,6 +4,8 @@
 #ifndef GEODISK_ORDER_SAMPLES_GLSL
 #define GEODISK_ORDER_SAMPLES_GLSL
 
+#include "job.glsl"
+
 layout(local_size_x_id = 0) in; // kSpecLocalSize
 
 GEODISK_ROWS(kBindAccepted, accepted);
@@ -16,7 +18,7 @@ uint unordered_count() { return control.accepted - control.ordered; }
 uvec4 unordered(uint index) { return row_at(accepted, control.ordered + index); }
 
 // Returns the range of an order. Ranges start one entry later, like cells, see bin.comp.
-uint bucket_of(uint order) { return min(order >> push.bucket_shift, push.buckets - 1u); }
-uint bucket_entries() { return push.buckets + 2u; }
+uint bucket_of(uint order) { return min(order >> push.bucket_shift, job.buckets - 1u); }
+uint bucket_entries() { return job.buckets + 2u; }
 
 #endif

@@ -2,15 +2,16 @@
 #ifndef GEODISK_PARTS_GLSL
 #define GEODISK_PARTS_GLSL
 
+#include "job.glsl"
+#include "keys.glsl"
+
 layout(constant_id = kSpecSeveral) const bool kSeveral = false;
 
-GEODISK_WORDS(kBindKeys, keys);
-
-uint part_of(uint face) { return word_at(keys, push.faces + face); }
+uint part_of(uint face) { return key_word(job.faces + face); }
 
 // Returns a word of PartRec.
 uint part_word(uint part, uint word) {
-    return word_at(keys, 2u * push.faces + kPartWords * part + word);
+    return key_word(2u * job.faces + kPartWords * part + word);
 }
 
 #endif

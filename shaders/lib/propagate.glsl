@@ -8,12 +8,13 @@
 #ifndef GEODISK_PROPAGATE_GLSL
 #define GEODISK_PROPAGATE_GLSL
 
+#include "job.glsl"
 #include "operation.glsl"
 
 // Returns true if `distance` plus a straight path beats the window's own distance to a point, at this
 // squared distance from its source, by more than the margin.
 bool beats(float distance, float way, float own_square) {
-    precise float rest = ((distance + way) - lane.sigma) + P.margin;
+    precise float rest = ((distance + way) - lane.sigma) + job.margin;
     precise float square = rest * rest;
     return rest < 0.0 || square < own_square;
 }
@@ -24,7 +25,7 @@ const uint kUnknownSteps = 0xffffu;
 
 uint steps_up(float distance) {
     precise float steps = distance * 32768.0;
-    return distance < P.limit ? uint(steps) + 1u : kUnknownSteps;
+    return distance < job.limit ? uint(steps) + 1u : kUnknownSteps;
 }
 
 float from_steps(uint steps) {
@@ -70,8 +71,8 @@ Meeting meet_apex(float sx, vec2 lit) {
     precise float apex_dy = apex.y + lane.y;
     precise float crossing = sx + apex_dx * ratio(lane.y, apex_dy);
     precise float distance = lane.sigma + root(squared(apex_dx, apex_dy));
-    precise float slack_low = lit.x - P.slack;
-    precise float slack_high = lit.y + P.slack;
+    precise float slack_low = lit.x - job.slack;
+    precise float slack_high = lit.y + job.slack;
     m.crossing = crossing;
     m.distance = distance;
     m.sees_apex = crossing >= slack_low && crossing <= slack_high;
@@ -85,11 +86,11 @@ Meeting meet_apex(float sx, vec2 lit) {
 // One angle, one split: after a shorter window through the same angle, only the child on this window's
 // own side matters. If both rays cross at the same position within rounding, the sides are ambiguous.
 void split_once(inout Meeting m, VertexRow row) {
-    if ((P.path_rules & kRuleSplitsOnce) != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
+    if ((job.path_rules & kRuleSplitsOnce) != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
         row.through == lane.half_edge) {
-        precise float beaten_from = row.distance + P.margin;
-        precise float left_of = row.crossing - P.slack;
-        precise float right_of = row.crossing + P.slack;
+        precise float beaten_from = row.distance + job.margin;
+        precise float left_of = row.crossing - job.slack;
+        precise float right_of = row.crossing + job.slack;
         if (m.distance > beaten_from) {
             m.to_right = m.crossing >= left_of;
             m.to_left = m.crossing <= right_of;
@@ -239,7 +240,7 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
 // faces are straight. A window with a long chain remembers one face, where its chain was last a power of
 // two, and so finds every cycle (Brent 1980).
 bool turns_back() {
-    return kTrims && (P.path_rules & kRuleStraightFaces) != 0u && lane.phase == kPhaseCross &&
+    return kTrims && (job.path_rules & kRuleStraightFaces) != 0u && lane.phase == kPhaseCross &&
            lane.half_edge / 3u == lane.remembered / 3u;
 }
 

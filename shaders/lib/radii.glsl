@@ -4,14 +4,15 @@
 #ifndef GEODISK_RADII_GLSL
 #define GEODISK_RADII_GLSL
 
-layout(constant_id = kSpecAdaptive) const bool kAdaptive = false;
+#include "fans.glsl"
+#include "job.glsl"
 
-GEODISK_ROWS(kBindFans, fans);
+layout(constant_id = kSpecAdaptive) const bool kAdaptive = false;
 
 // Returns a row of RadiiRec; they come after vertices, corners and angles.
 vec4 radii_row(uint face, uint row) {
-    uint corners = 3u * push.faces;
-    uint first = push.vertices + ((corners + 1u) >> 1) + ((corners + 3u) >> 2);
+    uint corners = 3u * job.faces;
+    uint first = job.vertices + ((corners + 1u) >> 1) + ((corners + 3u) >> 2);
     return uintBitsToFloat(row_at(fans, first + kRadiiRows * face + row));
 }
 

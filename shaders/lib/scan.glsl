@@ -3,10 +3,10 @@
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 
+#include "job.glsl"
 #include "strip.glsl"
 
 uint own_place;
-uint first_weight1; // of all candidates, among `states`
 
 bool scanning() { return lane.scan_place < lane.scan_end || lane.scan_row != lane.scan_row_end; }
 
@@ -40,7 +40,7 @@ void begin_scan(float sx, float sy) {
     uint row0 = cell_at(low_y, grid.rows, grid.per_unit);
     uint row1 = cell_at(high_y, grid.rows, grid.per_unit);
     // If all faces have one cell, each has an entry per stage.
-    uint entries = P.all_single != 0u ? P.stages : 1u;
+    uint entries = job.all_single != 0u ? push.stages : 1u;
     lane.scan_columns = (cell_at(high_x, grid.columns, grid.per_unit) - column + 1u) * entries;
     lane.scan_stride = grid.columns * entries;
     lane.scan_row = grid.first + row0 * grid.columns + column;
@@ -121,9 +121,9 @@ void scan_some() {
     float sx = entry_x();
     float sy = inside ? lane.y : -lane.y;
     vec2 lit = entry_interval();
-    precise float low = (lit.x - P.slack) - sx;
-    precise float high = (lit.y + P.slack) - sx;
-    precise float rest = P.limit - lane.sigma;
+    precise float low = (lit.x - job.slack) - sx;
+    precise float high = (lit.y + job.slack) - sx;
+    precise float rest = job.limit - lane.sigma;
     precise float rest2 = rest * rest;
     Row row0 = load_row(0u);
     Row row1 = load_row(1u);
@@ -158,8 +158,8 @@ void scan_some() {
             continue;
         }
         ++lane.tested;
-        float weight1 = weight_of(word_at(states, first_weight1 + place));
-        float weight2 = weight_of(word_at(weights, place));
+        float weight1 = weight_of(word_at(weights, place));
+        float weight2 = weight_of(word_at(weights, job.capacity + place));
         vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
         precise float dx = q.x - sx;
         precise float dy = q.y - sy;

@@ -3,6 +3,8 @@
 #ifndef GEODISK_SCHEDULE_GLSL
 #define GEODISK_SCHEDULE_GLSL
 
+#include "job.glsl"
+
 layout(constant_id = kSpecSlotLocalSize) const uint kSlotLocalSize = 64u;
 
 GEODISK_BUFFER(kBindList, , uint, list);
@@ -13,7 +15,7 @@ const float kListFill = 0.75;
 uint groups_of_slots(uint count) { return (count + kSlotLocalSize - 1u) / kSlotLocalSize; }
 
 // Returns the number of ranges of orders in the list.
-uint list_ranges() { return (push.idle_capacity + kListRange - 1u) / kListRange; }
+uint list_ranges() { return (job.idle_capacity + kListRange - 1u) / kListRange; }
 // Returns where a range begins in the list: its count, then its places.
 uint list_head(uint range) { return range * (kListRange + 1u); }
 
@@ -113,7 +115,7 @@ void prepare_select() {
 
 // Prepares the next step, if there is one and there is room for its samples.
 void go_on() {
-    bool is_enough = control.accepted >= push.stop_count || control.drawn == 0u;
+    bool is_enough = control.accepted >= job.stop_count || control.drawn == 0u;
     bool settled = control.next_sample < control.settled;
     if (is_enough || (!settled && control.first_order >= push.end_order)) {
         control.done = 1u;
@@ -190,7 +192,7 @@ void begin_chunk(uint drawn) {
     control.abi = kAbi;
     control.drawn = drawn;
     control.next_ordered = control.accepted;
-    if (drawn > push.capacity) {
+    if (drawn > job.capacity) {
         atomicOr(control.overflow, kOverflowCandidates);
         return;
     }

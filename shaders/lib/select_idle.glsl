@@ -9,7 +9,6 @@
 
 layout(local_size_x = kSelectLanes) in;
 
-GEODISK_WORDS_BEFORE(kBindStates, kBindStatesTexels, states);
 GEODISK_WORDS_BEFORE(kBindOrders, kBindOrdersTexels, orders);
 GEODISK_BUFFER(kBindSamples, readonly, uvec4, samples);
 GEODISK_CONTROL;
@@ -44,7 +43,7 @@ void select_settled(uint begin) {
 // Returns true if the candidate is idle. While a batch is selected, only candidates of that batch are
 // active.
 bool is_idle(uint place) {
-    return (word_before(states, undecided_word(place)) & state_bit(place)) != 0u;
+    return (word_before(orders, undecided_word(place)) & state_bit(place)) != 0u;
 }
 
 void list_one(uint place, uint order, uint range) {
@@ -65,7 +64,7 @@ void list_idle(uint begin) {
     uint width = control.list_width;
     uint inverse = inverse_of(width);
     for (uint first = begin + 32u * gl_LocalInvocationID.x; first < end; first += 32u * kSelectLanes) {
-        uint idle = word_before(states, undecided_word(first));
+        uint idle = word_before(orders, undecided_word(first));
         uint listed = 0u;
         while (idle != 0u) {
             uint bit = uint(findLSB(idle));
@@ -129,7 +128,7 @@ void give_slots() {
         uint order = group_orders[i];
         if (slot < push.slots) {
             fill_slot(slot, place, sample_at(place, order));
-            atomicOr(states[active_word(place)], state_bit(place));
+            atomicOr(orders[active_word(place)], state_bit(place));
             orders[place] = slot;
         } else {
             atomicMin(control.first_left, order);

@@ -3,6 +3,7 @@
 #ifndef GEODISK_SPACE_CANDIDATE_GLSL
 #define GEODISK_SPACE_CANDIDATE_GLSL
 
+#include "job.glsl"
 #include "curve.glsl"
 #include "face_candidate.glsl"
 #include "dimension.glsl"
@@ -13,7 +14,7 @@
 GEODISK_ROWS(kBindFaces, corners);
 
 uint key_of(uint face) { return row_at(corners, kSpaceRows * face + 1u).w; }
-uvec2 seed_of(uint face) { return uvec2(push.seed_low, push.seed_high); }
+uvec2 seed_of(uint face) { return uvec2(job.seed_low, job.seed_high); }
 uint stages_of(uint face) { return kAllStages; }
 
 layout(constant_id = kSpecCurved) const bool kCurved = false;

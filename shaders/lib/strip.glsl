@@ -1,4 +1,4 @@
-// A strip: up to 32 candidates adjacent in memory, as bits. Needs `states`.
+// A strip: up to 32 candidates adjacent in memory, as bits. Needs `orders`.
 #ifndef GEODISK_STRIP_GLSL
 #define GEODISK_STRIP_GLSL
 
@@ -17,11 +17,11 @@ Strip load_strip(uint first, uint end) {
     uint from = first < end ? first : 0u;
     uint word = undecided_word(from);
     uint skipped = from & 31u;
-    uint undecided = word_at(states, word) >> skipped;
-    uint actives = word_at(states, word + 1u) >> skipped;
+    uint undecided = word_at(orders, word) >> skipped;
+    uint actives = word_at(orders, word + 1u) >> skipped;
     // In two steps, since shifts by 32 are undefined.
-    uint rest = word_at(states, word + 2u) << (31u - skipped);
-    uint actives_rest = word_at(states, word + 3u) << (31u - skipped);
+    uint rest = word_at(orders, word + 2u) << (31u - skipped);
+    uint actives_rest = word_at(orders, word + 3u) << (31u - skipped);
     uint within = lowest_bits(first < end ? end - first : 0u);
     return Strip(first, (undecided | rest << 1) & within, actives | actives_rest << 1);
 }

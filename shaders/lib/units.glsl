@@ -3,12 +3,13 @@
 #ifndef GEODISK_UNITS_GLSL
 #define GEODISK_UNITS_GLSL
 
+#include "job.glsl"
 #include "quotient.glsl"
 #include "unit.glsl"
 
 GEODISK_WORDS(kBindStarts, starts);
 
-uint unit_count() { return push.faces * push.stages; }
+uint unit_count() { return job.faces * push.stages; }
 uint drawn_count() { return word_at(starts, unit_count()); }
 
 // Returns the unit of the candidate with this number, from `low` up to, not including, `high`.

@@ -19,13 +19,13 @@ struct VertexRow {
 
 // The table is at most half full, so not finding a place is rare; a larger table then helps.
 VertexRow find_vertex(uint vertex) {
-    uint mask = P.table_capacity - 1u;
+    uint mask = push.table_capacity - 1u;
     uint at = (vertex * 2654435769u) >> 7 & mask;
-    uint place = P.table_capacity;
+    uint place = push.table_capacity;
     uvec4 row = uvec4(0u);
     bool found = false;
     // A bound that is not constant prevents unrolling a loop that mostly ends at once.
-    uint most = min(kMostProbes, P.table_capacity);
+    uint most = min(kMostProbes, push.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
         row = own_row_at(pool, vertex_row(at));
         bool empty = (row.x & kTagMask) != vertex_tag() || (row.y & kTagMask) != distance_tag();
@@ -42,7 +42,7 @@ VertexRow find_vertex(uint vertex) {
 
 // Stores a vertex; `row` is from find_vertex.
 void note_vertex(VertexRow row, uint vertex, float distance, uint through, float crossing) {
-    if (row.at == P.table_capacity || (!row.found && 2u * lane.vertices >= P.table_capacity)) {
+    if (row.at == push.table_capacity || (!row.found && 2u * lane.vertices >= push.table_capacity)) {
         overflow |= kOverflowVertices;
         return;
     }

@@ -21,7 +21,7 @@ uint windows_waiting() { return lane.windows + (holds_window() ? 1u : 0u); }
 
 uint window_at(uint window) { return kLaneRows + kWindowRows * window; }
 uint event_row(uint event) {
-    return own_row(first_event + (event & (P.window_capacity - 1u)));
+    return own_row(first_event + (event & (push.window_capacity - 1u)));
 }
 
 // Returns the row of what a window remembers, in the component of its number modulo 4, if there is one.
@@ -33,7 +33,7 @@ uint free_window() {
     uint place = again ? lane.free_place : lane.windows;
     if (again) {
         lane.free_place = own_row_at(pool, own_row(window_at(place))).x;
-    } else if (place < P.window_capacity) {
+    } else if (place < push.window_capacity) {
         ++lane.windows;
     }
     return place;
@@ -52,7 +52,7 @@ bool is_nearer(uvec4 a, uvec4 b) {
 
 // Pushes an event. In the heap, the children of i are 2 i + 1 and 2 i + 2.
 void put_event(uvec4 row) {
-    if (lane.event_tail - lane.event_head >= P.window_capacity) {
+    if (lane.event_tail - lane.event_head >= push.window_capacity) {
         overflow |= kOverflowWindows;
         return;
     }
@@ -80,7 +80,7 @@ void push_event(uvec4 row) {
 
 void push_window(float distance, uvec4 row0, uvec4 row1, uint remembered) {
     uint place = free_window();
-    if (place >= P.window_capacity) {
+    if (place >= push.window_capacity) {
         overflow |= kOverflowWindows;
         return;
     }

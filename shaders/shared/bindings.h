@@ -1,5 +1,5 @@
 // Binding numbers, one per buffer and the same in every kernel, all in set 0. A kernel declares only the
-// buffers it uses, at most eight storage buffers.
+// buffers it uses, at most seven of them storage buffers.
 #ifndef GEODISK_SHARED_BINDINGS_H
 #define GEODISK_SHARED_BINDINGS_H
 
@@ -14,46 +14,44 @@ GEODISK_CONST uint kBindFaces = 0u;      // three rows of HalfEdgeRec per face; 
                                          // second the key
 GEODISK_CONST uint kBindFans = 1u;       // a FanRec per vertex; then the fans' corners, pairs of half-edge
                                          // and angles; then the angles by half-edge; if radii vary, a
-                                         // RadiiRec per face
+                                         // RadiiRec per face; from job.first_key_row on a key per face, if
+                                         // the caller gives keys, always for several surfaces; then for
+                                         // several surfaces the surface of each face, and a PartRec per
+                                         // surface
 GEODISK_CONST uint kBindAxes = kBindFans; // for grids in space: two rows of AxisRec per axis
-GEODISK_CONST uint kBindKeys = 2u;       // a key per face, if the caller gives keys, always for several
-                                         // surfaces; then for several surfaces the surface of each face,
-                                         // and a PartRec per surface
-GEODISK_CONST uint kBindCells = 3u;      // place where the candidates of each cell start, and one past the
+GEODISK_CONST uint kBindCells = 2u;      // place where the candidates of each cell start, and one past the
                                          // last; kBindStarts serves for a mesh with one cell per face
-GEODISK_CONST uint kBindStates = 4u;     // two bits of state per candidate, by place; on surfaces then a
-                                         // word each, the weight of its face's second corner
-GEODISK_CONST uint kBindWeights = 5u;    // likewise the weight of the third corner, in units of 2^-24
+GEODISK_CONST uint kBindWeights = 3u;    // a word per candidate, by place: the weight of its face's second
+                                         // corner, in units of 2^-24; then that of the third
 GEODISK_CONST uint kBindPoints = kBindWeights; // coordinates of the candidates, by place, axis after axis;
                                                // for lengths of curves, then those of the normals; then the
                                                // number each was drawn by
-                                         // axis after axis; where lengths of curves are taken, then
-                                         // those of the normals; then the number it was drawn by
-GEODISK_CONST uint kBindOrders = 6u;     // a word per candidate, by place: its stage in the chunk and its
-                                         // priority, or the slot of an active one
-GEODISK_CONST uint kBindStarts = 7u;     // number of candidates drawn before each face or box cell, stage
+GEODISK_CONST uint kBindOrders = 4u;     // a word per candidate, by place: its stage in the chunk and its
+                                         // priority, or the slot of an active one; then two bits of state
+                                         // per candidate
+GEODISK_CONST uint kBindStarts = 5u;     // number of candidates drawn before each face or box cell, stage
                                          // by stage; then the total
-GEODISK_CONST uint kBindPool = 8u;       // a slice per lane: LaneRec, windows, events, vertex table;
+GEODISK_CONST uint kBindPool = 6u;       // a slice per lane: LaneRec, windows, events, vertex table;
                                          // then a list of conflicts per slot
-GEODISK_CONST uint kBindControl = 9u;    // ControlRec, then SlotRec per slot of an active candidate
-GEODISK_CONST uint kBindList = 10u;      // candidates that come next: a count per range of orders, then
+GEODISK_CONST uint kBindControl = 7u;    // ControlRec, then SlotRec per slot of an active candidate
+GEODISK_CONST uint kBindList = 8u;       // candidates that come next: a count per range of orders, then
                                          // kListRange places
-GEODISK_CONST uint kBindSums = 11u;      // block sums of the scans
-GEODISK_CONST uint kBindSamples = 12u;   // SampleRec per accepted candidate, in dart order
-GEODISK_CONST uint kBindAccepted = 13u;  // SampleRec per accepted candidate, in order of acceptance
-GEODISK_CONST uint kBindBuckets = 14u;   // while samples are sorted: where each range of orders starts;
+GEODISK_CONST uint kBindSums = 9u;       // block sums of the scans
+GEODISK_CONST uint kBindSamples = 10u;   // SampleRec per accepted candidate, in dart order
+GEODISK_CONST uint kBindAccepted = 11u;  // SampleRec per accepted candidate, in order of acceptance
+GEODISK_CONST uint kBindBuckets = 12u;   // while samples are sorted: where each range of orders starts;
                                          // then the samples by range
+GEODISK_CONST uint kBindConstants = 13u; // JobRec, a uniform buffer
 // The same buffers as texel buffers, see lib/buffers.glsl.
-GEODISK_CONST uint kBindPoolTexels = 15u;
-GEODISK_CONST uint kBindStatesTexels = 16u;
-GEODISK_CONST uint kBindOrdersTexels = 17u;
-GEODISK_CONST uint kBindCellsTexels = 18u;
+GEODISK_CONST uint kBindPoolTexels = 14u;
+GEODISK_CONST uint kBindOrdersTexels = 15u;
+GEODISK_CONST uint kBindCellsTexels = 16u;
 // Buffers of the caller.
-GEODISK_CONST uint kBindVertices = 19u;  // floats
-GEODISK_CONST uint kBindIndices = 20u;   // three of 16 or 32 bits per face
-GEODISK_CONST uint kBindPlaced = 21u;    // PlacedRec per sample
-GEODISK_CONST uint kBindArguments = 22u; // arguments of an indirect draw: four words
-GEODISK_CONST uint kBindCount = 23u;
+GEODISK_CONST uint kBindVertices = 17u;  // floats
+GEODISK_CONST uint kBindIndices = 18u;   // three of 16 or 32 bits per face
+GEODISK_CONST uint kBindPlaced = 19u;    // PlacedRec per sample
+GEODISK_CONST uint kBindArguments = 20u; // arguments of an indirect draw: four words
+GEODISK_CONST uint kBindCount = 21u;
 
 GEODISK_END_SHARED
 

@@ -1,5 +1,5 @@
-// The push block, one for all kernels: what does not change during a run, and the layout of a pool
-// slice, which does when a slice overflows.
+// What a kernel is told besides the contents of its buffers: the constants of a job, which lie in a
+// uniform buffer, and the push block of a dispatch.
 #ifndef GEODISK_SHARED_PUSH_H
 #define GEODISK_SHARED_PUSH_H
 
@@ -7,7 +7,8 @@
 
 GEODISK_BEGIN_SHARED
 
-struct Push {
+// Written where the candidates of a chunk are drawn, before all that reads it.
+struct JobRec {
     uint capacity;        // candidates that the buffers hold
     uint faces;           // or cells that a box is drawn by
     uint vertices;
@@ -19,6 +20,17 @@ struct Push {
     float margin;         // by how much a window must be beaten before it is dropped
     float slack;          // by how much an interval is widened for hits
     uint path_rules;      // kRule* bits that hold of shortest paths
+    uint has_keys;        // 1 where faces are drawn by keys of the caller
+    uint first_key_row;   // of the fans: where the keys begin
+    uint all_single;      // 1 where all faces are of one cell, whose table is then that of starts
+    uint stop_count;      // enough samples, of all chunks
+    uint idle_capacity;   // places that the list of idle candidates holds
+    uint buckets;         // ranges of orders by which samples are put in order
+};
+
+// One for all kernels but `place`: the plan, which changes when a slice overflows, the chunk, and the
+// part of a pass.
+struct Push {
     uint slots;           // most candidates active at a time
     uint lanes;           // invocations that compute their disks
     uint window_capacity; // windows one lane can hold, and events; a power of two
@@ -27,27 +39,20 @@ struct Push {
     uint lane_rows;       // rows of four words per lane
     uint first_list_row;  // of the pool: the slices come before
     uint step_budget;     // steps of detect per dispatch
-    uint scan_count;      // scans: words to scan
     uint sample_capacity; // samples the buffer holds
+    uint list_groups;     // most work groups of a select that goes through all candidates
     uint first_stage;     // of the chunk
     uint stages;          // of the chunk
     float intensity;      // candidates that one stage expects per unit of area
-    uint has_keys;        // 1 where faces are drawn by keys of the caller
-    uint all_single;      // 1 where all faces are of one cell, whose table is then that of starts
     uint end_order;       // candidates of this order and higher ones do not take part
-    uint stop_count;      // enough samples, of all chunks
-    uint idle_capacity;   // places that the list of idle candidates holds
-    uint buckets;         // ranges of orders by which samples are put in order
     uint bucket_shift;    // an order's range lies above so many bits
+    uint scan_count;      // scans: words to scan
     uint first_group;     // the work groups of a pass that earlier dispatches of it had
-    uint list_groups;     // most work groups of a select that goes through all candidates
 };
 
 // That of `place`, which needs what a caller says of its own buffers. Strides and offsets are in words.
 struct PlacePush {
     uint most;          // samples that the caller has room for
-    uint faces;
-    uint vertices;      // of the meshes of the job
     uint last_vertex;   // of the caller's
     uint stride;        // from vertex to vertex
     uint position;      // where a vertex has its position
@@ -64,7 +69,9 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(Push) == 128 && offsetof(Push, list_groups) == 124);
+static_assert(sizeof(JobRec) == 64 && offsetof(JobRec, buckets) == 60);
+// Vulkan promises 128 bytes; a caller's kernels or later ones may want some.
+static_assert(sizeof(Push) <= 96);
 }
 #endif
 

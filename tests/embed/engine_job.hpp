@@ -21,7 +21,7 @@
 
 namespace geodisk::test {
 
-inline constexpr BufferRole kUploaded[] = {BufferRole::faces, BufferRole::fans, BufferRole::keys};
+inline constexpr BufferRole kUploaded[] = {BufferRole::faces, BufferRole::fans};
 
 struct Task {
     PreparedMesh mesh;

@@ -157,9 +157,9 @@ TEST_SUITE("recording") {
             const Stages stages = stages_of(knot.mesh, knot.params);
             REQUIRE(stages.pool_stages() == 4);
             const auto bytes = static_cast<double>(
-                job.workspace()[static_cast<std::size_t>(BufferRole::states)].size);
-            CHECK(bytes >= 4 * stages.expected(0));
-            CHECK(bytes < 2 * 4 * stages.expected(0));
+                job.workspace()[static_cast<std::size_t>(BufferRole::weights)].size);
+            CHECK(bytes >= 8 * stages.expected(0));
+            CHECK(bytes < 2 * 8 * stages.expected(0));
             job.run();
             CHECK(workshop.damage() == 0);
         }

@@ -108,7 +108,8 @@ std::vector<gpu::SlotRec> slots_of(const DeviceRun& run) {
 }
 
 std::vector<PlaceState> states_of(const DeviceRun& run, std::size_t count) {
-    const auto words = run.read<std::uint32_t>(BufferRole::states, (count + 31) / 32 * 2);
+    const auto words = run.read<std::uint32_t>(BufferRole::orders, (count + 31) / 32 * 2,
+                                               std::size_t{4} * run.constants().capacity);
     std::vector<PlaceState> states(count);
     for (std::size_t place = 0; place < count; ++place) {
         const std::uint32_t bit = 1u << place % 32;

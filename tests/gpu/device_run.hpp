@@ -61,6 +61,7 @@ class DeviceRun {
     const RunPlan& plan() const { return job_->plan(); }
     Job& job() { return *job_; }
     const gpu::Push& push() const { return Job::Impl::of(*job_).push; }
+    const gpu::JobRec& constants() const { return Job::Impl::of(*job_).constants; }
     const Sampler& sampler() const { return sampler_; }
 
     /// The first `count` records of a buffer, after `skip` bytes.

@@ -170,7 +170,7 @@ std::vector<std::uint32_t> compare_pool(const DeviceRun& run, const Twin& twin) 
     const std::vector<std::uint32_t>& starts = twin.pool.starts;
     CHECK(run.read<std::uint32_t>(BufferRole::cells, starts.size()) == starts);
     const std::size_t dimension = twin.box.extents.size();
-    const std::size_t capacity = run.push().capacity;
+    const std::size_t capacity = run.constants().capacity;
     const auto points = run.read<std::uint32_t>(BufferRole::weights, capacity * dimension);
     const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
     const auto states = states_of(run, count);
@@ -240,7 +240,7 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     plan.sample_capacity = 4096;
     plan.stages = ref::stages_in(box).pool_stages();
     DeviceRun run(box, plan, options);
-    Twin twin(box, run.push().capacity);
+    Twin twin(box, run.constants().capacity);
     run.begin();
     const auto by_place = compare_pool(run, twin);
     for (std::uint32_t first = 0; decide_batch(run); first = run.control().first_order) {

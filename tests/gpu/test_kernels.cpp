@@ -124,12 +124,12 @@ std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& 
     const std::uint32_t count = twin.pool.size();
     REQUIRE(run.control().drawn == count);
     const auto states = states_of(run, count);
-    const auto weights1 =
-        run.read<std::uint32_t>(BufferRole::states, count, state_words(run.push().capacity) * 4);
-    const auto weights2 = run.read<std::uint32_t>(BufferRole::weights, count);
+    const auto weights1 = run.read<std::uint32_t>(BufferRole::weights, count);
+    const auto weights2 = run.read<std::uint32_t>(BufferRole::weights, count,
+                                                  std::size_t{4} * run.constants().capacity);
     const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
     const std::vector<std::uint32_t>& starts = twin.pool.bins.starts;
-    if (run.push().all_single == 0) {
+    if (run.constants().all_single == 0) {
         CHECK(run.read<std::uint32_t>(BufferRole::cells, starts.size()) == starts);
     }
     std::vector<std::uint32_t> ranks(count);

@@ -94,6 +94,7 @@ struct DeviceLimits {
     std::uint64_t max_memory_allocation_size = 0;
     std::uint64_t min_storage_buffer_offset_alignment = 0;
     std::uint64_t min_texel_buffer_offset_alignment = 0;
+    std::uint64_t min_uniform_buffer_offset_alignment = 0;
     std::uint64_t max_texel_buffer_elements = 0;
     std::uint64_t non_coherent_atom_size = 0;
     std::uint32_t max_memory_allocation_count = 0;

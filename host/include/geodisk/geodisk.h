@@ -534,15 +534,15 @@ GEODISK_C_API geodisk_status geodisk_job_create(const geodisk_device *device,
 
 /* Buffers of a job, 0 to GEODISK_BUFFERS - 1. Callers need to know these: */
 enum {
-    GEODISK_POOL_BUFFER = 8,
-    GEODISK_CONTROL_BUFFER = 9,
-    GEODISK_SAMPLES_BUFFER = 12, /* One geodisk_sample_record per sample. */
-    GEODISK_ACCEPTED_BUFFER = 13,
-    GEODISK_BUFFERS = 15
+    GEODISK_POOL_BUFFER = 6,
+    GEODISK_CONTROL_BUFFER = 7,
+    GEODISK_SAMPLES_BUFFER = 10, /* One geodisk_sample_record per sample. */
+    GEODISK_ACCEPTED_BUFFER = 11,
+    GEODISK_BUFFERS = 14
 };
 
-/* VkBufferUsageFlags of each buffer: storage, both texel buffers, both transfers, indirect. */
-#define GEODISK_BUFFER_USAGE 0x12fu
+/* VkBufferUsageFlags of each buffer: storage, uniform, both texel buffers, both transfers, indirect. */
+#define GEODISK_BUFFER_USAGE 0x13fu
 
 /* Sizes of a buffer of a job. */
 typedef struct geodisk_buffer_need {
@@ -557,7 +557,7 @@ typedef struct geodisk_buffer_need {
 GEODISK_C_API geodisk_status geodisk_job_need(geodisk_job *job, uint32_t buffer,
                                               geodisk_buffer_need *need, geodisk_error *error);
 
-/* A range of a VkBuffer, aligned for storage and texel buffers. */
+/* A range of a VkBuffer, aligned for storage, texel and uniform buffers. */
 typedef struct geodisk_buffer_range {
     uint64_t buffer;
     uint64_t offset;

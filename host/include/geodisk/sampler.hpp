@@ -102,9 +102,7 @@ struct SamplerOptions {
 enum class BufferRole : std::uint32_t {
     faces,
     fans,
-    keys,
     cells,
-    states,
     weights,
     orders,
     starts,
@@ -115,19 +113,21 @@ enum class BufferRole : std::uint32_t {
     samples,
     accepted,
     buckets,
+    constants,
     // Other names of these buffers for distances through space.
     corners = faces, ///< Corners of a surface.
     axes = fans,     ///< Axes of the grid.
     points = weights,
 };
 /// Number of roles.
-inline constexpr std::size_t kBufferRoles = 15;
+inline constexpr std::size_t kBufferRoles = 14;
 
 /// Returns the first name of a role, for messages.
 GEODISK_API const char* to_string(BufferRole role) noexcept;
 
-/// A range of a caller's buffer, bound as storage and texel buffer. `offset` is a multiple of the
-/// device's minStorageBufferOffsetAlignment and minTexelBufferOffsetAlignment.
+/// A range of a caller's buffer, bound as storage, texel or uniform buffer. `offset` is a multiple
+/// of the device's minStorageBufferOffsetAlignment, minTexelBufferOffsetAlignment and
+/// minUniformBufferOffsetAlignment.
 struct BufferRange {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
@@ -141,9 +141,10 @@ struct BufferRange {
 using Workspace = std::array<BufferRange, kBufferRoles>;
 /// Usage of the buffers of a Workspace.
 inline constexpr VkBufferUsageFlags kWorkspaceUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-    VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 
 /// Minimum bytes of each buffer. Leave out buffers that need none.
 struct WorkspaceNeeds {

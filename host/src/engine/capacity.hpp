@@ -17,8 +17,7 @@ std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept
 /// Returns the number of stages that fit this many candidates; at least one.
 std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept;
 
-/// Returns the words of states in the states buffer, before the weights of candidates on surfaces;
-/// see lib/states.glsl.
+/// Returns the words of states in the orders buffer, behind the orders; see lib/states.glsl.
 std::uint64_t state_words(std::uint32_t candidates) noexcept;
 
 /// Returns the number of ranges of orders by which samples are sorted, a power of two.

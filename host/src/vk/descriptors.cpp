@@ -31,14 +31,15 @@ Result<Done> allocate_descriptor_sets(const DeviceRefs& device, const DeviceTabl
                                 : vk_error("vkAllocateDescriptorSets", result);
 }
 
-void write_storage_buffer(const DeviceRefs& device, const DeviceTable& vk, VkDescriptorSet set,
-                          std::uint32_t binding, const VkDescriptorBufferInfo& range) {
+void write_buffer(const DeviceRefs& device, const DeviceTable& vk, VkDescriptorSet set,
+                  std::uint32_t binding, VkDescriptorType type,
+                  const VkDescriptorBufferInfo& range) {
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;
     write.dstBinding = binding;
     write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    write.descriptorType = type;
     write.pBufferInfo = &range;
     vk.vkUpdateDescriptorSets(device.device, 1, &write, 0, nullptr);
 }

@@ -24,8 +24,9 @@ Result<Done> allocate_descriptor_sets(const DeviceRefs& device, const DeviceTabl
                                       std::span<const VkDescriptorSetLayout> layouts,
                                       std::span<VkDescriptorSet> sets);
 
-/// Binds a range as a storage buffer.
-void write_storage_buffer(const DeviceRefs& device, const DeviceTable& vk, VkDescriptorSet set,
-                          std::uint32_t binding, const VkDescriptorBufferInfo& range);
+/// Binds a range as a buffer of this type, storage or uniform.
+void write_buffer(const DeviceRefs& device, const DeviceTable& vk, VkDescriptorSet set,
+                  std::uint32_t binding, VkDescriptorType type,
+                  const VkDescriptorBufferInfo& range);
 
 } // namespace geodisk

@@ -40,6 +40,7 @@ void read_properties(const VkPhysicalDeviceProperties& properties, DeviceReport&
     to.max_storage_buffer_range = from.maxStorageBufferRange;
     to.min_storage_buffer_offset_alignment = from.minStorageBufferOffsetAlignment;
     to.min_texel_buffer_offset_alignment = from.minTexelBufferOffsetAlignment;
+    to.min_uniform_buffer_offset_alignment = from.minUniformBufferOffsetAlignment;
     to.max_texel_buffer_elements = from.maxTexelBufferElements;
     to.non_coherent_atom_size = from.nonCoherentAtomSize;
     to.max_memory_allocation_count = from.maxMemoryAllocationCount;

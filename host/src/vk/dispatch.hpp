@@ -68,6 +68,7 @@
     X(vkCmdDispatchIndirect)              \
     X(vkCmdFillBuffer)                    \
     X(vkCmdCopyBuffer)                    \
+    X(vkCmdUpdateBuffer)                  \
     X(vkCmdPipelineBarrier)               \
                                           \
     X(vkCreateFence)                      \

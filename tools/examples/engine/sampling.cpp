@@ -14,8 +14,7 @@ constexpr geodisk::SyncScope kCopy{VK_PIPELINE_STAGE_TRANSFER_BIT,
                                    VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
 constexpr geodisk::SyncScope kHost{VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT};
 
-constexpr geodisk::BufferRole kRoles[] = {geodisk::BufferRole::faces, geodisk::BufferRole::fans,
-                                          geodisk::BufferRole::keys};
+constexpr geodisk::BufferRole kRoles[] = {geodisk::BufferRole::faces, geodisk::BufferRole::fans};
 
 } // namespace
 

@@ -110,8 +110,8 @@ const char* GridDomain::name_of(BufferRole role) const {
                                         : to_string(role);
 }
 
-void GridDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
-    push.limit = grid(push.capacity, plan.error_bound).limit2;
+void GridDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
+    job.limit = grid(job.capacity, plan.error_bound).limit2;
 }
 
 std::size_t GridDomain::upload_size(BufferRole role) const {

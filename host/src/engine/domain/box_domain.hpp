@@ -20,7 +20,7 @@ class GridDomain : public Domain::Impl {
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
     const char* name_of(BufferRole role) const override;
-    void set_push(gpu::Push& push, const RunPlan& plan) const override;
+    void set_constants(gpu::JobRec& job, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
                               std::span<std::byte> out) const override;

@@ -26,7 +26,6 @@ float direction(double cosine_or_sine) {
     return scaled(cosine_or_sine, 1);
 }
 
-constexpr std::size_t kRowBytes = 16;
 constexpr std::uint64_t kTooMany = std::uint64_t{1} << 31;
 
 struct Grid {
@@ -178,11 +177,11 @@ std::size_t radii_bytes(PlacedSurfaces surfaces) {
 }
 
 std::size_t key_bytes(PlacedSurfaces surfaces) {
-    if (surfaces.size() > 1) {
-        return std::size_t{2} * face_count(surfaces) * sizeof(std::uint32_t) +
-               surfaces.size() * sizeof(gpu::PartRec);
-    }
-    return std::max<std::size_t>(surfaces[0].params.face_keys.size_bytes(), sizeof(std::uint32_t));
+    const std::size_t bytes = surfaces.size() > 1
+                                  ? std::size_t{2} * face_count(surfaces) * sizeof(std::uint32_t) +
+                                        surfaces.size() * sizeof(gpu::PartRec)
+                                  : surfaces[0].params.face_keys.size_bytes();
+    return (bytes + kRowBytes - 1) / kRowBytes * kRowBytes;
 }
 
 void write_half_edges(PlacedSurfaces surfaces, std::span<std::byte> out) {
@@ -269,15 +268,13 @@ Result<Done> write_radii(PlacedSurfaces surfaces, std::span<std::byte> out) {
 }
 
 void write_keys(PlacedSurfaces surfaces, std::span<std::byte> out) {
+    std::ranges::fill(out, std::byte{0}); // Where the last row ends early.
     if (surfaces.size() > 1) {
         write_parts(surfaces, out);
         return;
     }
-    const auto keys = surfaces[0].params.face_keys;
-    std::memset(out.data(), 0, out.size());
-    if (!keys.empty()) {
-        std::memcpy(out.data(), keys.data(), keys.size_bytes());
-    }
+    const auto keys = std::as_bytes(surfaces[0].params.face_keys);
+    std::ranges::copy(keys, out.begin());
 }
 
 } // namespace geodisk

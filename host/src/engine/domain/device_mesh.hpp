@@ -20,12 +20,15 @@ Result<std::uint32_t> count_cells(PlacedSurfaces surfaces);
 /// `unit`.
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit);
 
+/// Bytes of a row of the buffers.
+inline constexpr std::size_t kRowBytes = 16;
+
 // Return the bytes that the functions below write.
 std::size_t half_edge_bytes(PlacedSurfaces surfaces);
 std::size_t length_bytes(PlacedSurfaces surfaces);
 std::size_t fan_bytes(PlacedSurfaces surfaces);
 std::size_t radii_bytes(PlacedSurfaces surfaces); ///< 0 if radii do not vary.
-std::size_t key_bytes(PlacedSurfaces surfaces);   ///< At least one word.
+std::size_t key_bytes(PlacedSurfaces surfaces);   ///< Whole rows; 0 without keys.
 
 void write_half_edges(PlacedSurfaces surfaces, std::span<std::byte> out);
 void write_lengths(PlacedSurfaces surfaces, bool one_cell_each, std::span<std::byte> out);

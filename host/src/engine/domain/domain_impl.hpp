@@ -70,8 +70,8 @@ struct Domain::Impl {
     virtual std::string beside_candidates() const = 0;
     /// Returns the name of a buffer as the domain uses it.
     virtual const char* name_of(BufferRole role) const { return to_string(role); }
-    /// Sets the fields of the push block that depend on neither the plan nor the stages.
-    virtual void set_push(gpu::Push& push, const RunPlan& plan) const = 0;
+    /// Sets the constants that depend on neither the plan nor the stages.
+    virtual void set_constants(gpu::JobRec& job, const RunPlan& plan) const = 0;
     /// Returns the bytes to upload to a buffer; 0 for others.
     virtual std::size_t upload_size(BufferRole role) const = 0;
     /// Returns how many of them, from the first on, depend on `meshes` alone.

@@ -173,8 +173,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
 }
 
 std::uint64_t SurfaceDomain::most_candidates(const DeviceLimits& limits, std::uint32_t) const {
-    // States are the largest buffer: a weight each, and two bits.
-    return (limits.max_storage_buffer_range - 16) / 17 * 4;
+    return limits.max_storage_buffer_range / (2 * sizeof(std::uint32_t)); // Two weights each.
 }
 
 void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
@@ -234,30 +233,31 @@ std::uint64_t SurfaceDomain::cells(std::uint32_t, double) const {
 
 void SurfaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                               const RunPlan&) const {
-    for (const BufferRole role : {BufferRole::faces, BufferRole::fans, BufferRole::keys}) {
+    for (const BufferRole role : {BufferRole::faces, BufferRole::fans}) {
         needs.bytes[static_cast<std::size_t>(role)] = upload_size(role);
     }
-    needs.bytes[gpu::kBindStates] += std::uint64_t{candidates} * 4;
-    needs.bytes[gpu::kBindWeights] = std::uint64_t{candidates} * 4;
+    needs.bytes[gpu::kBindWeights] = std::uint64_t{candidates} * 8;
 }
 
 std::string SurfaceDomain::beside_candidates() const {
     return " and " + std::to_string(units) + " faces";
 }
 
-void SurfaceDomain::set_push(gpu::Push& push, const RunPlan& plan) const {
+void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     const Tolerances tolerances = error.tolerances(plan.error_bound);
-    push.limit = tolerances.limit;
-    push.margin = tolerances.margin;
-    push.slack = tolerances.slack;
-    push.has_keys = surfaces_[0].params.face_keys.empty() ? 0 : 1;
-    push.all_single = cells_ == 0 ? 1 : 0;
-    push.vertices = vertex_count(surfaces_);
-    push.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
+    job.limit = tolerances.limit;
+    job.margin = tolerances.margin;
+    job.slack = tolerances.slack;
+    job.has_keys = surfaces_[0].params.face_keys.empty() ? 0 : 1;
+    job.first_key_row =
+        static_cast<std::uint32_t>((fan_bytes(surfaces_) + radii_bytes(surfaces_)) / kRowBytes);
+    job.all_single = cells_ == 0 ? 1 : 0;
+    job.vertices = vertex_count(surfaces_);
+    job.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
     for (const PlacedSurface& surface : surfaces_) {
         const MeshStatistics& mesh = surface.mesh->statistics();
-        push.path_rules &= (mesh.nonmanifold_edges == 0 ? ~0u : ~gpu::kRuleSplitsOnce) &
-                           (mesh.diagonal > 0 ? ~0u : ~gpu::kRuleStraightFaces);
+        job.path_rules &= (mesh.nonmanifold_edges == 0 ? ~0u : ~gpu::kRuleSplitsOnce) &
+                          (mesh.diagonal > 0 ? ~0u : ~gpu::kRuleStraightFaces);
     }
 }
 
@@ -266,9 +266,7 @@ std::size_t SurfaceDomain::upload_size(BufferRole role) const {
     case BufferRole::faces:
         return half_edge_bytes(surfaces_) + length_bytes(surfaces_);
     case BufferRole::fans:
-        return fan_bytes(surfaces_) + radii_bytes(surfaces_);
-    case BufferRole::keys:
-        return key_bytes(surfaces_);
+        return fan_bytes(surfaces_) + radii_bytes(surfaces_) + key_bytes(surfaces_);
     default:
         return 0;
     }
@@ -289,22 +287,19 @@ Result<Done> SurfaceDomain::write_upload(const RunPlan&, BufferRole role, std::s
                                          std::span<std::byte> out) const {
     const std::size_t of_mesh = from == 0 ? mesh_bytes(role) : 0;
     const auto rest = out.subspan(of_mesh);
-    switch (role) {
-    case BufferRole::faces:
+    if (role == BufferRole::faces) {
         if (of_mesh > 0) {
             write_half_edges(surfaces_, out.first(of_mesh));
         }
         write_lengths(surfaces_, cells_ == 0, rest);
         return Done{};
-    case BufferRole::fans:
-        if (of_mesh > 0) {
-            write_fans(surfaces_, out.first(of_mesh));
-        }
-        return rest.empty() ? Result<Done>(Done{}) : write_radii(surfaces_, rest);
-    default:
-        write_keys(surfaces_, out);
-        return Done{};
     }
+    if (of_mesh > 0) {
+        write_fans(surfaces_, out.first(of_mesh));
+    }
+    const std::size_t of_radii = radii_bytes(surfaces_);
+    write_keys(surfaces_, rest.subspan(of_radii));
+    return of_radii == 0 ? Result<Done>(Done{}) : write_radii(surfaces_, rest.first(of_radii));
 }
 
 } // namespace geodisk

@@ -28,7 +28,7 @@ class SurfaceDomain : public Domain::Impl {
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
     std::string beside_candidates() const override;
-    void set_push(gpu::Push& push, const RunPlan& plan) const override;
+    void set_constants(gpu::JobRec& job, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
     std::size_t mesh_bytes(BufferRole role) const override;
     Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,

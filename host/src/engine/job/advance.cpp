@@ -31,11 +31,11 @@ Result<std::uint32_t> larger_capacity(const gpu::ControlRec& control, std::uint3
 }
 
 /// Overflows that no memory helps against.
-Result<Done> check_overflow(const gpu::ControlRec& control, const gpu::Push& push) {
+Result<Done> check_overflow(const gpu::ControlRec& control, std::uint32_t capacity) {
     if ((control.overflow & gpu::kOverflowCandidates) != 0) {
         return Error{Status::internal, "a stage has " + std::to_string(control.drawn) +
                                            " candidates, and there is room for " +
-                                           std::to_string(push.capacity)};
+                                           std::to_string(capacity)};
     }
     if ((control.overflow & gpu::kOverflowEndless) != 0) {
         const std::uint32_t face = control.endless_face - 1;
@@ -62,7 +62,7 @@ const char* to_string(Next next) noexcept {
 }
 
 std::uint32_t Job::Impl::stages_left(const gpu::ControlRec& control) const {
-    if (control.accepted >= push.stop_count) {
+    if (control.accepted >= constants.stop_count) {
         return 0;
     }
     if (stages.throws != 0) {
@@ -91,7 +91,7 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
     if (control.abi != gpu::kAbi) {
         return Error{Status::internal, "the control record is not one of this library's"};
     }
-    if (auto checked = check_overflow(control, push); !checked) {
+    if (auto checked = check_overflow(control, constants.capacity); !checked) {
         return checked.error();
     }
     if ((control.overflow & gpu::kOverflowSamples) != 0) {
@@ -126,7 +126,7 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
                      "no candidate was drawn: the buffers hold no mesh; upload what "
                      "Sampler::write_upload gives before the first commands of the job"};
     }
-    if (control.ready < std::min(control.accepted, push.stop_count)) {
+    if (control.ready < std::min(control.accepted, constants.stop_count)) {
         advice.next = Next::finish;
         return advice;
     }

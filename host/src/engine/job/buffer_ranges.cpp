@@ -12,8 +12,9 @@ Error range_error(Status status, const std::string& name, const std::string& wha
 } // namespace
 
 VkDeviceSize range_alignment(const DeviceLimits& limits) {
-    return std::max<VkDeviceSize>(
-        {limits.min_storage_buffer_offset_alignment, limits.min_texel_buffer_offset_alignment, 1});
+    return std::max<VkDeviceSize>({limits.min_storage_buffer_offset_alignment,
+                                   limits.min_texel_buffer_offset_alignment,
+                                   limits.min_uniform_buffer_offset_alignment, 1});
 }
 
 VkDeviceSize RangeCutter::cut(VkDeviceSize bytes) {

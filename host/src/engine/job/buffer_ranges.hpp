@@ -11,7 +11,7 @@
 
 namespace geodisk {
 
-/// Returns the alignment of offsets of ranges that are bound as storage and texel buffers.
+/// Returns the alignment of offsets of ranges that are bound as storage, texel or uniform buffers.
 VkDeviceSize range_alignment(const DeviceLimits& limits);
 
 /// Cuts one buffer into ranges, from its start.

@@ -134,8 +134,6 @@ std::uint32_t buffer_of(std::uint32_t binding) {
     switch (binding) {
     case gpu::kBindPoolTexels:
         return gpu::kBindPool;
-    case gpu::kBindStatesTexels:
-        return gpu::kBindStates;
     case gpu::kBindOrdersTexels:
         return gpu::kBindOrders;
     case gpu::kBindCellsTexels:
@@ -225,7 +223,6 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
     push.step_budget = std::min(plan.step_budget, most_steps);
     push.sample_capacity = plan.sample_capacity;
-    push.idle_capacity = plan.idle_capacity;
     push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, kMostGroups);
 }
 
@@ -296,11 +293,11 @@ void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
     push.end_order = count << gpu::kPriorityBits;
     push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(push.end_order - 1u)) -
-                        static_cast<std::uint32_t>(std::countr_zero(push.buckets));
+                        static_cast<std::uint32_t>(std::countr_zero(constants.buckets));
 }
 
 std::array<VkDeviceSize, 3> Job::sample_bytes(std::uint32_t capacity) const noexcept {
-    return geodisk::sample_bytes(capacity, impl_->push.buckets);
+    return geodisk::sample_bytes(capacity, impl_->constants.buckets);
 }
 
 Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples,
@@ -366,8 +363,8 @@ void Job::set_seed(std::uint64_t seed) noexcept {
 }
 
 void Job::Impl::set_seed(std::uint64_t seed) {
-    push.seed_low = static_cast<std::uint32_t>(seed);
-    push.seed_high = static_cast<std::uint32_t>(seed >> 32);
+    constants.seed_low = static_cast<std::uint32_t>(seed);
+    constants.seed_high = static_cast<std::uint32_t>(seed >> 32);
 }
 
 Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan,
@@ -388,7 +385,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     }
     number = next_number();
     const bool has_sets = sets_for == variant.domain;
-    const bool had_single = push.all_single != 0;
+    const bool had_single = constants.all_single != 0;
     most_slots = new_plan.slots;
     most_lanes = new_plan.lanes;
     most_steps = of.most_steps(sampler->report, variant);
@@ -398,16 +395,19 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     error = of.error;
     dispatches = 0;
     push = {};
-    push.capacity = capacity_for(of.stages, new_plan.stages);
-    push.buckets = bucket_count(push.capacity);
-    push.faces = static_cast<std::uint32_t>(of.units);
-    push.cells = static_cast<std::uint32_t>(of.cells(push.capacity, new_plan.error_bound));
+    constants = {};
+    constants.capacity = capacity_for(of.stages, new_plan.stages);
+    constants.buckets = bucket_count(constants.capacity);
+    constants.faces = static_cast<std::uint32_t>(of.units);
+    constants.cells =
+        static_cast<std::uint32_t>(of.cells(constants.capacity, new_plan.error_bound));
     set_seed(of.seed);
-    push.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
-    of.set_push(push, new_plan);
+    constants.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
+    constants.idle_capacity = new_plan.idle_capacity;
+    of.set_constants(constants, new_plan);
     apply_plan(new_plan);
     begin_first_stages();
-    const bool is_bound = has_sets && had_single == (push.all_single != 0);
+    const bool is_bound = has_sets && had_single == (constants.all_single != 0);
     if (!is_bound) {
         sets_for.reset(); // Until all is bound.
     }
@@ -553,8 +553,8 @@ void Job::Impl::write_buffer(std::size_t buffer) const {
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const KernelBinding& binding : bindings_of(k)) {
             for (std::size_t role = 0; role < kSetRoles; ++role) {
-                if (bound_as(static_cast<SetRole>(role), binding.number, push.all_single != 0) ==
-                    buffer) {
+                if (bound_as(static_cast<SetRole>(role), binding.number,
+                             constants.all_single != 0) == buffer) {
                     write(static_cast<SetRole>(role), k, binding);
                 }
             }

@@ -26,7 +26,7 @@ constexpr std::size_t kPlace = static_cast<std::size_t>(Kernel::place);
 constexpr std::uint32_t kPositionBytes = 3 * sizeof(float);
 constexpr VkDeviceSize kArgumentBytes = sizeof(VkDrawIndirectCommand);
 // Buffers of the job that the kernel reads.
-constexpr std::uint32_t kRead[] = {gpu::kBindFans, gpu::kBindKeys, gpu::kBindControl,
+constexpr std::uint32_t kRead[] = {gpu::kBindFans, gpu::kBindControl, gpu::kBindConstants,
                                    gpu::kBindSamples};
 
 struct NamedRange {
@@ -109,9 +109,10 @@ struct Placement::Impl {
 };
 
 Result<Done> Placement::Impl::allocate_set() {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8};
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 7}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}}};
     const VkDescriptorSetLayout layout = sampler->pipelines.set_layout(kPlace);
-    auto created = create_descriptor_pool(sampler->device, sampler->vk, {&size, 1}, 1, pool);
+    auto created = create_descriptor_pool(sampler->device, sampler->vk, sizes, 1, pool);
     return created ? allocate_descriptor_sets(sampler->device, sampler->vk, pool, {&layout, 1},
                                               {&set, 1})
                    : created;
@@ -124,8 +125,8 @@ void Placement::Impl::bind(const Job::Impl& job, const CallersRanges& ranges) co
                          [&](const NamedRange& own) { return own.binding == binding.number; });
         const BufferRange& range =
             callers != ranges.end() ? callers->range : job.workspace[binding.number];
-        write_storage_buffer(sampler->device, sampler->vk, set, binding.number,
-                             {range.buffer, range.offset, range.size});
+        write_buffer(sampler->device, sampler->vk, set, binding.number, binding.type,
+                     {range.buffer, range.offset, range.size});
     }
 }
 
@@ -136,7 +137,7 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
         const Domain::Impl& of = Domain::Impl::of(domain);
         const Job::Impl& own = Job::Impl::of(job);
         if (of.kernels.domain != DomainKind::surface || own.variant.domain != DomainKind::surface ||
-            of.units != own.push.faces) {
+            of.units != own.constants.faces) {
             return invalid("only samples of a surface by geodesic distance can be placed, by the "
                            "job's own domain");
         }
@@ -144,10 +145,10 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
             return checked.error();
         }
         const bool is_one = !of.kernels.several;
-        const std::uint64_t faces = own.push.faces;
+        const std::uint64_t faces = own.constants.faces;
         const CallersRanges ranges{
             {{gpu::kBindVertices, "vertices", source.vertices,
-              vertex_bytes(source, is_one ? own.push.vertices : 0)},
+              vertex_bytes(source, is_one ? own.constants.vertices : 0)},
              // Rounded up to whole words.
              {gpu::kBindIndices, "indices", source.indices,
               (faces * 3 * source.index_bytes + 3) / 4 * 4},
@@ -174,8 +175,6 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
         const bool has_normals = source.normal != PlacementSource::kNoNormals;
         const VkDeviceSize first = vertex_bytes(source, 1);
         made->push.most = own.plan.sample_capacity;
-        made->push.faces = own.push.faces;
-        made->push.vertices = own.push.vertices;
         made->push.last_vertex = static_cast<std::uint32_t>(std::min<VkDeviceSize>(
             (source.vertices.size - first) / source.stride, gpu::kVertexMask));
         made->push.stride = source.stride / 4;

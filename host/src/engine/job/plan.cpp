@@ -13,6 +13,7 @@
 #include "engine/job/buffer_ranges.hpp"
 #include "engine/job/plan.hpp"
 #include "engine/job/sampler_impl.hpp"
+#include "push.h"
 #include "records.h"
 #include "support/guard.hpp"
 
@@ -108,7 +109,7 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
                          std::uint32_t candidates, const DeviceReport& report) {
     const std::uint64_t limit = report.limits.max_storage_buffer_range;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans || i == gpu::kBindKeys;
+        const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans;
         if (needs.bytes[i] > limit) {
             return Error{
                 Status::job_too_large,
@@ -135,8 +136,8 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
 
 const char* to_string(BufferRole role) noexcept {
     constexpr const char* kNames[kBufferRoles] = {
-        "faces", "fans",    "keys", "cells", "states",  "weights",  "orders", "starts",
-        "pool",  "control", "list", "sums",  "samples", "accepted", "buckets"};
+        "faces",   "fans", "cells", "weights", "orders",   "starts",  "pool",
+        "control", "list", "sums",  "samples", "accepted", "buckets", "constants"};
     return kNames[static_cast<std::size_t>(role)];
 }
 
@@ -290,8 +291,7 @@ Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
     const std::uint64_t ranges = (plan.idle_capacity + gpu::kListRange - 1) / gpu::kListRange;
     WorkspaceNeeds needs;
     needs.bytes[gpu::kBindCells] = cells != 0 ? (cells + 2) * 4 : 0;
-    needs.bytes[gpu::kBindStates] = state_words(candidates) * 4;
-    needs.bytes[gpu::kBindOrders] = std::uint64_t{candidates} * 4;
+    needs.bytes[gpu::kBindOrders] = (candidates + state_words(candidates)) * 4;
     needs.bytes[gpu::kBindStarts] = starts * 4;
     needs.bytes[gpu::kBindPool] = plan.pool_bytes();
     needs.bytes[gpu::kBindControl] =
@@ -299,6 +299,7 @@ Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
     needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
     needs.bytes[gpu::kBindSums] =
         blocks_of(std::max({starts, cells + 2, std::uint64_t{buckets} + 2})) * 4;
+    needs.bytes[gpu::kBindConstants] = sizeof(gpu::JobRec);
     const auto samples = sample_bytes(plan.sample_capacity, buckets);
     needs.bytes[gpu::kBindSamples] = samples[0];
     needs.bytes[gpu::kBindAccepted] = samples[1];

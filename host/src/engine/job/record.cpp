@@ -46,11 +46,11 @@ class Recorder {
     }
 
     void pass_over_faces(Kernel kernel) {
-        pass(kernel, job_.push.faces, sampler_.choices.tuning.local_size, job_.push);
+        pass(kernel, job_.constants.faces, sampler_.choices.tuning.local_size, job_.push);
     }
 
     void pass_over_candidates(Kernel kernel, std::uint32_t per_group, const gpu::Push& push) {
-        pass(kernel, push.capacity, per_group, push);
+        pass(kernel, job_.constants.capacity, per_group, push);
     }
 
     void pass_over_samples(Kernel kernel) {
@@ -114,6 +114,17 @@ class Recorder {
         const BufferRange& control = range(BufferRole::control);
         const VkBufferCopy copy{control.offset + from, control.offset + to, 4};
         sampler_.vk.vkCmdCopyBuffer(commands_, control.buffer, control.buffer, 1, &copy);
+    }
+
+    /// Writes the constants of the job.
+    void write_constants() {
+        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) {
+            const BufferRange& target = range(BufferRole::constants);
+            transfer([&] {
+                sampler_.vk.vkCmdUpdateBuffer(commands_, target.buffer, target.offset,
+                                              sizeof job_.constants, &job_.constants);
+            });
+        });
     }
 
     /// What is recorded from now on belongs to this stage.
@@ -238,8 +249,9 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     Recorder recorder(commands, job, job.begun, budget);
     const gpu::Push& push = job.push;
     const DomainKernels own = kernels_of(job.variant.domain);
-    const bool has_cells = push.all_single == 0;
+    const bool has_cells = job.constants.all_single == 0;
     recorder.stage(Stage::count);
+    recorder.write_constants();
     recorder.change_control([&] {
         if (push.first_stage == 0) {
             recorder.fill_below(sizeof(gpu::ControlRec));
@@ -252,13 +264,13 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     });
     recorder.clear(BufferRole::pool,
                    push.first_stage == 0 ? VkDeviceSize{push.first_list_row} * 16 : 0);
-    recorder.clear(BufferRole::cells, has_cells ? (VkDeviceSize{push.cells} + 2) * 4 : 0);
+    recorder.clear(BufferRole::cells, has_cells ? (VkDeviceSize{job.constants.cells} + 2) * 4 : 0);
     recorder.pass_over_faces(own.count);
-    recorder.scan(push.faces * push.stages + 1, SetRole::start_scan);
+    recorder.scan(job.constants.faces * push.stages + 1, SetRole::start_scan);
     if (has_cells) {
         recorder.stage(Stage::bin);
         recorder.pass_over_candidates(own.bin, gpu::kDrawBlock, push);
-        recorder.scan(push.cells + 2, SetRole::cell_scan);
+        recorder.scan(job.constants.cells + 2, SetRole::cell_scan);
     }
     recorder.stage(Stage::draw);
     recorder.pass_over_candidates(own.draw, gpu::kDrawBlock, push);
@@ -268,13 +280,12 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
 
 bool record_finish(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     Recorder recorder(commands, job, job.finished, budget);
-    const gpu::Push& push = job.push;
     recorder.stage(Stage::gather);
     recorder.change_control(
         [&] { recorder.fill(offsetof(gpu::ControlRec, first_open), 4, gpu::kNoOrder); });
-    recorder.clear(BufferRole::buckets, (VkDeviceSize{push.buckets} + 2) * 4);
+    recorder.clear(BufferRole::buckets, (VkDeviceSize{job.constants.buckets} + 2) * 4);
     recorder.pass_over_samples(Kernel::order_count);
-    recorder.scan(push.buckets + 2, SetRole::bucket_scan);
+    recorder.scan(job.constants.buckets + 2, SetRole::bucket_scan);
     recorder.pass_over_samples(Kernel::order_place);
     recorder.pass_over_samples(Kernel::order_write);
     recorder.change_control([&] {

@@ -88,6 +88,7 @@ struct Job::Impl {
     double samples_per_measure = 0;
     ErrorModel error;
     RunPlan plan;
+    gpu::JobRec constants{}; ///< On the device once record_begin() is recorded.
     gpu::Push push{};
     Cursor begun, finished;       ///< Of record_begin and record_finish.
     std::uint32_t generation = 0; ///< See ControlRec.

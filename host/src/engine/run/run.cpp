@@ -350,7 +350,7 @@ std::uint32_t Run::record_rounds(VkCommandBuffer commands) {
     const RunPlan& plan = job_->plan();
     std::uint64_t rounds = rounds_.items() / items_of_round(plan);
     const double disks = kDisksPerSample * of_.samples;
-    if (disks * std::max(of_.disk_steps(plan, job().push.capacity), 1.0) <= kFewSteps) {
+    if (disks * std::max(of_.disk_steps(plan, job().constants.capacity), 1.0) <= kFewSteps) {
         rounds =
             std::max(rounds, kRoundsBeside + 2 * static_cast<std::uint64_t>(disks) / plan.slots);
     }

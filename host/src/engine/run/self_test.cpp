@@ -93,8 +93,8 @@ Result<Done> Runner::Impl::check_rounding() {
         vk.vkDestroyDescriptorPool(device, pool, allocator);
         return allocated;
     }
-    write_storage_buffer(sampler_impl.device, vk, set, gpu::kBindSums,
-                         {results->handle(), 0, results->size()});
+    write_buffer(sampler_impl.device, vk, set, gpu::kBindSums, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                 {results->handle(), 0, results->size()});
     gpu::Push push{};
     push.scan_count = kVectors;
     const auto record = [&](VkCommandBuffer commands) {
