@@ -459,7 +459,7 @@ TEST_CASE("calls of a job that come too early, or make no sense, are refused") {
     is_wrong("job is NULL", [&](auto* e) { return geodisk_job_set_seed(nullptr, 1, e); });
 
     auto need = sized<geodisk_buffer_need>();
-    is_wrong("there are 15", [&](auto* e) { return geodisk_job_need(job, 15, &need, e); });
+    is_wrong("there are 14", [&](auto* e) { return geodisk_job_need(job, 14, &need, e); });
     is_wrong("need is NULL", [&](auto* e) { return geodisk_job_need(job, 0, nullptr, e); });
     std::vector<std::byte> bytes(8);
     is_wrong("data is NULL", [&](auto* e) { return geodisk_job_upload(job, 0, nullptr, 0, e); });

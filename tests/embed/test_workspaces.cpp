@@ -42,9 +42,9 @@ TEST_SUITE("workspaces") {
             const EngineJob good(workshop, sampler, cube);
             const WorkspaceNeeds needs =
                 expect(sampler.workspace_needs(cube.domain(), good.plan()));
-            const char* names[] = {"faces",   "fans",   "keys",    "cells",    "states",
-                                   "weights", "orders", "starts",  "pool",     "control",
-                                   "list",    "sums",   "samples", "accepted", "buckets"};
+            const char* names[] = {"faces",   "fans",     "cells",   "weights",  "orders",
+                                   "starts",  "pool",     "control", "list",     "sums",
+                                   "samples", "accepted", "buckets", "constants"};
             for (std::size_t i = 0; i < kBufferRoles; ++i) {
                 CAPTURE(names[i]);
                 const auto check = [&](const BufferRange& range, Status status, const char* part) {

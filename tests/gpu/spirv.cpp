@@ -37,6 +37,7 @@ constexpr std::uint32_t kDecorationDescriptorSet = 34;
 constexpr std::uint32_t kDecorationOffset = 35;
 constexpr std::uint32_t kDecorationNoContraction = 42;
 constexpr std::uint32_t kStorageUniformConstant = 0;
+constexpr std::uint32_t kStorageUniform = 2;
 constexpr std::uint32_t kStorageBuffer = 12;
 constexpr std::uint32_t kDimBuffer = 5;
 constexpr std::uint32_t kImageSampled = 1;
@@ -120,6 +121,9 @@ VkDescriptorType descriptor_type(const Declarations& all, std::uint32_t pointer,
                                  std::uint32_t storage_class) {
     if (storage_class == kStorageBuffer) {
         return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+    if (storage_class == kStorageUniform) {
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     }
     const auto found = all.types.find(all.pointees.at(pointer));
     return storage_class == kStorageUniformConstant && found != all.types.end()
