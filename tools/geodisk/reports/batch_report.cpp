@@ -70,8 +70,7 @@ std::string batch_summary(const BatchOptions& options, const BatchResult& result
     out << ": " << grouped(totals.done) << " ok, " << grouped(totals.failed) << " failed, "
         << grouped(result.skipped) << " skipped\n";
     if (totals.warned > 0) {
-        out << "              " << grouped(totals.warned)
-            << " with warnings, see the log\n";
+        out << "              " << grouped(totals.warned) << " with warnings, see the log\n";
     }
     if (totals.done > 0) {
         out << "samples       " << grouped(totals.samples) << '\n'
