@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/count_calls.hpp"
+#include "baselines/count_calls.hpp"
 #include "kernels/resolve.hpp"
 
 namespace geodisk::ref {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "baselines/call_histogram.hpp"
 #include "baselines/disk_query.hpp"
-#include "geodisk/call_histogram.hpp"
 
 namespace geodisk::ref {
 

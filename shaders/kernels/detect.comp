@@ -20,7 +20,7 @@
 #include "../lib/half_edge.glsl"
 #include "../lib/cells.glsl"
 
-layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
+layout(local_size_x_id = 4) in; // kSpecSlotLocalSize
 layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 
 GEODISK_WORDS(kBindCells, cells);

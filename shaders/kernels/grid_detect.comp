@@ -15,7 +15,7 @@
 #include "../lib/grid.glsl"
 #include "../lib/point_words.glsl"
 
-layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
+layout(local_size_x_id = 4) in; // kSpecSlotLocalSize
 // Lengths of curves instead of straight distances, in three dimensions.
 layout(constant_id = kSpecCurved) const bool kCurved = false;
 
@@ -227,7 +227,6 @@ bool block_conflicts(uint slot) {
 void complete(uint slot) {
     slots[slot].phase = kSlotListed;
     slots[slot].cursor = 0u;
-    slots[slot].calls = 0u;
     complete_one();
 }
 
@@ -238,7 +237,7 @@ void find_conflicts(uint slot) {
     turn = slots[slot].turn;
     scan_place = slots[slot].scan_place;
     scan_end = slots[slot].scan_end;
-    tested = slots[slot].calls;
+    tested = slots[slot].tested;
     rows_visited = slots[slot].rows_visited;
     overflow = 0u;
     list_first = list_row(slot);
@@ -253,7 +252,7 @@ void find_conflicts(uint slot) {
     slots[slot].turn = turn;
     slots[slot].scan_place = scan_place;
     slots[slot].scan_end = scan_end;
-    slots[slot].calls = tested;
+    slots[slot].tested = tested;
     slots[slot].rows_visited = rows_visited;
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);

@@ -10,8 +10,7 @@
 
 #include "../lib/prelude.glsl"
 
-layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
-layout(constant_id = kSpecCountCalls) const bool kCountCalls = false;
+layout(local_size_x_id = 4) in; // kSpecSlotLocalSize
 
 GEODISK_BUFFER(kBindOrders, coherent, uint, orders);
 GEODISK_ROWS(kBindPool, pool);
@@ -100,9 +99,7 @@ void finish(uint slot, bool is_rejected) {
     }
     end_undecided(place);
     end_active(place);
-    if (!kCountCalls) {
-        orders[place] = slots[slot].order;
-    }
+    orders[place] = slots[slot].order;
     if (!is_rejected) {
         // A batch begins only if there is room.
         accepted[atomicAdd(control.accepted, 1u)] = sample_of(slot);
@@ -188,11 +185,6 @@ void main() {
     bool is_last = decided > 0u && atomicAdd(control.undecided, 0u - decided) == decided;
     memoryBarrierBuffer();
     if (is_last) {
-        if (kCountCalls && control.mode != kSelectSettled) {
-            control.groups_x = 0u;
-            control.count_x = groups_of_slots(control.slots_used);
-        } else {
-            end_batch();
-        }
+        end_batch();
     }
 }

@@ -6,7 +6,7 @@
 
 #include "../lib/prelude.glsl"
 
-layout(local_size_x_id = 12) in; // kSpecSlotLocalSize
+layout(local_size_x_id = 4) in; // kSpecSlotLocalSize
 
 GEODISK_BUFFER(kBindOrders, , uint, orders);
 GEODISK_CONTROL;

@@ -77,7 +77,6 @@ void set_out_select(uint groups) {
     control.select_z = 1u;
     control.detect_x = 0u;
     control.groups_x = 0u;
-    control.count_x = 0u;
 }
 
 // Prepares select for the batch after first_order.
@@ -157,7 +156,6 @@ void begin_batch() {
     control.next_slot = 0u;
     control.incomplete = used;
     control.undecided = used;
-    control.uncounted = used;
     control.next_ordered = control.accepted;
     control.iterations += 1u;
     control.groups_x = groups_of_slots(used);
@@ -166,8 +164,6 @@ void begin_batch() {
     control.detect_x = groups_of_slots(min(used, push.lanes));
     control.detect_y = 1u;
     control.detect_z = 1u;
-    control.count_y = 1u;
-    control.count_z = 1u;
 }
 
 // Continues after select: with a batch from the list that it has filled, or the batch that it has put

@@ -85,9 +85,6 @@ GEODISK_CONST uint kClaimed = 0x40000000u;        // an invocation is deciding i
 GEODISK_CONST uint kBlocksMask = 0x3fffffffu;
 // Set in its cursor if the rest of its list is left to the next dispatch.
 GEODISK_CONST uint kSuspended = 0x80000000u;
-// Set in its calls once they are known.
-GEODISK_CONST uint kCallsKnown = 0x80000000u;
-GEODISK_CONST uint kMostCalls = 0x3fffffffu;
 
 // Phases of a lane.
 GEODISK_CONST uint kPhaseIdle = 0u;     // has no slot
@@ -103,8 +100,6 @@ GEODISK_CONST uint kPhaseComplete = 7u;
 GEODISK_CONST uint kSlotReady = 0u;     // waits for its disk
 GEODISK_CONST uint kSlotListed = 1u;    // the disk is complete, and the active ones in it have blocks
 GEODISK_CONST uint kSlotDecided = 2u;
-GEODISK_CONST uint kSlotCounting = 3u;  // its calls are being counted
-GEODISK_CONST uint kSlotCounted = 4u;   // they are in the histogram
 
 // Place of a sample of an earlier chunk, whose disk only rejects.
 GEODISK_CONST uint kNoPlace = 0xffffffffu;
@@ -166,8 +161,6 @@ GEODISK_CONST uint kPeriodicAxis = 0x80000000u;
 GEODISK_CONST uint kScanPerGridTrip = 16u;
 GEODISK_CONST uint kIterationsPerGridTrip =
     1u + 3u * kMostAxes + kGridDigits + kScanPerGridTrip * (1u + kMostAxes);
-// Bins of the histogram: candidates with 1, 2, ... calls of the paper's CheckStatus, and more in the last.
-GEODISK_CONST uint kCallBins = 10u;
 
 // A disk of v vertices restarts to trim once it has pushed kUntrimmedWindows + v (kUntrimmedEach +
 // 2^-kUntrimmedShift v) windows and events, for v up to kUntrimmedVertices. Disks of real meshes mostly
@@ -199,7 +192,6 @@ GEODISK_CONST uint kSpecLocalSize = 0u; // of kernels over candidates and sample
 GEODISK_CONST uint kSpecNativeRounding = 1u;
 GEODISK_CONST uint kSpecPoolBlock = 2u;
 GEODISK_CONST uint kSpecCountedLanes = 3u;
-GEODISK_CONST uint kSpecCountCalls = 4u;
 GEODISK_CONST uint kSpecDimension = 5u;
 GEODISK_CONST uint kSpecCurved = 6u;
 GEODISK_CONST uint kSpecAdaptive = 7u; // radii vary
@@ -207,8 +199,8 @@ GEODISK_CONST uint kSpecEventHeap = 8u; // vertex events wait in a heap, else in
 GEODISK_CONST uint kSpecSeveral = 9u; // several surfaces, each with its own seed, density and stages
 GEODISK_CONST uint kSpecTrims = 10u;  // disks with very many windows trim them
 GEODISK_CONST uint kSpecManyRows = 11u; // faces have several rows of cells
-GEODISK_CONST uint kSpecSlotLocalSize = 12u; // of kernels over slots and lanes
-GEODISK_CONST uint kSpecLanesApart = 13u; // pool blocks of one lane
+GEODISK_CONST uint kSpecSlotLocalSize = 4u; // of kernels over slots and lanes
+GEODISK_CONST uint kSpecLanesApart = 12u; // pool blocks of one lane
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.
 GEODISK_CONST uint kWideLanes = 128u;

@@ -56,9 +56,8 @@ struct AxisRec {
 struct SlotRec {
     uint place; uint phase; uint idle_conflicts; uint active_conflicts;
     uint order; uint face; uint weight1; uint weight2;
-    uint blocks; uint cursor; uint longest_chain; uint calls;
-    // For distances through space: which cells are next, and the candidates left in the last. While calls
-    // are counted: the slots that were counted last, and that come next so far.
+    uint blocks; uint cursor; uint longest_chain; uint tested;
+    // For distances through space: which cells are next, and the candidates left in the last.
     uint turn; uint scan_place; uint scan_end; uint rows_visited;
 };
 
@@ -98,7 +97,6 @@ struct ControlRec {
     uint select_x; uint select_y; uint select_z; // 0 while a batch is undecided
     uint detect_x; uint detect_y; uint detect_z; // 0 once the disks of a batch are complete
     uint groups_x; uint groups_y; uint groups_z;
-    uint count_x; uint count_y; uint count_z;    // size of count_calls, once a batch is decided
     uint abi;
     uint generation;       // number of the begin or rewind that the run continued from
     uint drawn;            // candidates drawn in the chunk
@@ -121,7 +119,6 @@ struct ControlRec {
     uint next_slot;        // first slot that no lane has taken yet
     uint incomplete;       // slots whose disk is not complete
     uint undecided;        // slots neither accepted nor rejected
-    uint uncounted;        // slots whose calls are not known yet, where these are counted
     uint overflow;         // kOverflow* bits
     uint endless_face;     // with kOverflowEndless: 1 plus a face of a candidate whose disk it is
     uint done;             // 1 once no idle candidate is left, or stop_count accepted
@@ -147,9 +144,6 @@ struct ControlRec {
     uint trips_high;
     uint lane_trips_low;   // trips if every lane did as many as the busiest of its subgroup
     uint lane_trips_high;
-    uint call_bins[kCallBins]; // candidates by their calls of CheckStatus, where these are counted
-    uint calls_low;        // all calls, 64 bits
-    uint calls_high;
 };
 
 GEODISK_END_SHARED
@@ -165,7 +159,7 @@ static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 176 && offsetof(LaneRec, held_b0) == 172);
-static_assert(sizeof(ControlRec) == 288 && offsetof(ControlRec, calls_high) == 284);
+static_assert(sizeof(ControlRec) == 224 && offsetof(ControlRec, lane_trips_high) == 220);
 } // namespace geodisk::gpu
 #endif
 

@@ -37,7 +37,7 @@ expect 'geodisk sam' sample
 expect 'geodisk s' sample spectrum shapes
 expect 'geodisk bun' FILES
 expect 'geodisk --v' --version
-expect 'geodisk sample --co' --count --coordinates --count-calls --columns
+expect 'geodisk sample --co' --count --coordinates --columns
 expect 'geodisk sample bunny.obj -d 1 --pool' --pool-ratio
 expect 'geodisk sample --format ' ply csv xyz obj pcd npz gltf glb
 expect 'geodisk sample --format g' gltf glb
@@ -50,7 +50,7 @@ expect 'geodisk sample builtin:tor' torus-knot
 expect 'geodisk verify bunny.obj ' FILES
 expect 'geodisk batch scans -o ' FOLDERS
 expect 'geodisk render --style v' voronoi
-expect 'geodisk bunny.obj --cou' --count --count-calls
+expect 'geodisk bunny.obj --cou' --count
 expect 'geodisk bunny.obj --format ' ply csv xyz obj pcd npz gltf glb
 expect 'geodisk sample -n 9 -- --co' FILES
 
@@ -79,7 +79,7 @@ for line wanted (
     'geodisk sam' 'geodisk sample'
     'geodisk sample --format np' 'geodisk sample --format npz'
     'geodisk sample builtin:torus' 'geodisk sample builtin:torus-knot'
-    'geodisk sample --count-' '--count-calls'
+    'geodisk sample --coo' '--coordinates'
     'geodisk sample mes' 'geodisk sample mesh.ply'
 ); do
     zpty -n -w shell "$line"$'\t'

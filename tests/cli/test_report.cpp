@@ -34,18 +34,6 @@ void check_mesh(const Json& mesh) {
     CHECK(mesh["area"].get<double>() == doctest::Approx(6));
 }
 
-void check_calls(const Json& report) {
-    const Json& calls = report["check_calls"];
-    REQUIRE(calls["candidates"].size() == 10);
-    CHECK(calls["candidates"][0] > 0);
-    std::uint64_t active = 0;
-    for (const Json& candidates : calls["candidates"]) {
-        active += candidates.get<std::uint64_t>();
-    }
-    CHECK(active == report["disks"]);
-    CHECK(calls["mean"] > 1.0);
-}
-
 bool is_plain(const std::string& text) {
     return std::all_of(text.begin(), text.end(),
                        [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
@@ -86,7 +74,6 @@ TEST_CASE("the report has every documented key") {
         INFO(key);
         CHECK(report[key].is_number_unsigned());
     }
-    CHECK(report["check_calls"].is_null());
     for (const char* const key : {"min_distance", "radius", "rho", "guard", "pool_ratio"}) {
         INFO(key);
         CHECK(report[key].is_number_float());
@@ -195,26 +182,6 @@ TEST_CASE("a count that parts cannot give, and parts without samples, are warnin
     };
     CHECK(kinds("2") == "components count_missed bare_parts ");
     CHECK(kinds("400") == "components ");
-}
-
-TEST_CASE("calls are counted where asked for, without effect on the samples") {
-    const TemporaryFolder folder;
-    const auto sample = [&](const char* output, std::vector<std::string> more) {
-        std::vector<std::string> arguments{"sample", "builtin:cube", "-o", output, "-n", "300"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const Outcome outcome = run(folder, arguments);
-        REQUIRE(outcome.status == 0);
-        return outcome.out;
-    };
-    CHECK_FALSE(contains(sample("a.ply", {"--json", "a.json"}), "CheckStatus"));
-    const std::string summary = sample("b.ply", {"--json", "b.json", "--count-calls"});
-    CHECK(contains(summary, "of CheckStatus per disk; 1: "));
-    CHECK(bytes_of(folder / "a.ply") == bytes_of(folder / "b.ply"));
-
-    const Json plain = Json::parse(bytes_of(folder / "a.json"));
-    const Json report = Json::parse(bytes_of(folder / "b.json"));
-    CHECK(plain["check_calls"].is_null());
-    check_calls(report);
 }
 
 TEST_CASE("the report takes the place of the summary on standard output") {

@@ -185,7 +185,6 @@ TEST_SUITE("pace") {
         RunnerOptions options;
         Runner fast = expect(Runner::create(context.device(), context.queue(), options));
         options.submission_seconds = 1e-9;
-        options.sampler.count_calls = true;
         Runner slow = expect(Runner::create(context.device(), context.queue(), options));
         const SampleSet set = expect(slow.sample_and_wait(mesh, params));
         CHECK(points_of(set) == points_of(expect(fast.sample_and_wait(mesh, params))));

@@ -11,7 +11,6 @@
 #include "engine/capacity.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
-#include "kernels/count_calls.hpp"
 #include "kernels/detect.hpp"
 #include "kernels/pool.hpp"
 #include "kernels/resolve.hpp"
@@ -157,36 +156,9 @@ std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& 
     return ranks;
 }
 
-/// The calls of CheckStatus of one batch, and with them `all` so far. `slots[i]` is where batch[i]
-/// was; `above` has ranks.
-void compare_calls(const DeviceRun& run, const Twin& twin, const std::vector<std::uint32_t>& batch,
-                   const std::vector<gpu::SlotRec>& slots,
-                   std::vector<std::vector<std::uint32_t>> above, CallHistogram& all) {
-    std::vector<std::uint8_t> accepted;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-        accepted.push_back(twin.states[batch[i]] == ref::kAccepted ? 1 : 0);
-        for (std::uint32_t& rank : above[i]) {
-            rank = static_cast<std::uint32_t>(std::lower_bound(batch.begin(), batch.end(), rank) -
-                                              batch.begin());
-        }
-    }
-    const std::vector<std::uint32_t> want = ref::count_calls(above, accepted);
-    ref::add_calls(all, want);
-    std::uint32_t wrong = 0;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-        wrong += slots[i].calls != (want[i] | gpu::kCallsKnown);
-    }
-    CHECK(wrong == 0);
-    const gpu::ControlRec control = run.control();
-    CHECK(std::equal(all.candidates.begin(), all.candidates.end(), control.call_bins));
-    CHECK((std::uint64_t{control.calls_high} << 32 | control.calls_low) == all.calls);
-}
-
-/// What the disks of one batch found and took, from `first_order` on; and its calls, unless they
-/// are null.
+/// What the disks of one batch found and took, from `first_order` on.
 void compare_batch(const DeviceRun& run, Twin& twin, std::uint32_t first_order,
-                   const std::vector<std::uint32_t>& by_place, Totals& totals,
-                   CallHistogram* calls) {
+                   const std::vector<std::uint32_t>& by_place, Totals& totals) {
     const gpu::ControlRec control = run.control();
     // A batch may be shorter than there are slots, but never skips a rank.
     const auto batch = twin.idle(first_order, control.first_order);
@@ -197,7 +169,6 @@ void compare_batch(const DeviceRun& run, Twin& twin, std::uint32_t first_order,
     }
     std::vector<std::vector<std::uint32_t>> conflicts(batch.size());
     std::vector<std::vector<std::uint32_t>> above(batch.size());
-    std::vector<gpu::SlotRec> own(batch.size());
     std::uint32_t wrong = 0;
     for (std::size_t i = 0; i < batch.size(); ++i) {
         const gpu::SampleRec want = twin.sample(batch[i]);
@@ -205,7 +176,6 @@ void compare_batch(const DeviceRun& run, Twin& twin, std::uint32_t first_order,
             return same(record_of(slot), want) && by_place[slot.place] == batch[i];
         });
         REQUIRE(found != slots.end());
-        own[i] = *found;
         const ref::DiskCount disk = twin.disk(batch[i], conflicts[i], above[i]);
         totals.add(disk);
         const auto index = static_cast<std::size_t>(found - slots.begin());
@@ -215,9 +185,6 @@ void compare_batch(const DeviceRun& run, Twin& twin, std::uint32_t first_order,
     CHECK(wrong == 0);
     ref::resolve_batch(batch, conflicts, twin.states);
     totals.compare(control);
-    if (calls != nullptr) {
-        compare_calls(run, twin, batch, own, std::move(above), *calls);
-    }
 }
 
 /// Adds the samples of the stages to those before.
@@ -273,10 +240,10 @@ void step_through_samples(DeviceRun& run, Twin& twin, const std::vector<gpu::Sam
 
 /// The rounds of some stages, once the samples before them have rejected.
 void step_through_candidates(DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
-                             Totals& totals, CallHistogram* calls) {
+                             Totals& totals) {
     std::uint32_t first_order = 0;
     while (decide_batch(run)) {
-        compare_batch(run, twin, first_order, by_place, totals, calls);
+        compare_batch(run, twin, first_order, by_place, totals);
         CHECK(wrong_states(run, twin.states, by_place) == 0);
         first_order = run.control().first_order;
     }
@@ -290,23 +257,17 @@ void step_through_candidates(DeviceRun& run, Twin& twin, const std::vector<std::
     CHECK(wrong == 0);
 }
 
-SamplerOptions counting_calls(SamplerOptions options) {
-    options.count_calls = true;
-    return options;
-}
-
 // The kernels as a CPU runs them, as a GPU does, and as a GPU would that rounds natively, as far as
-// this device can. Without calls of CheckStatus being counted, and with.
+// this device can.
 SamplerOptions on_cpu() {
     const DeviceReport& report = shared_context().report();
-    return counting_calls(
-        {{0, 0, 1, 0, reads_of(report).back()}, roundings_of(report).back(), Events::oldest});
+    return {{0, 0, 1, 0, reads_of(report).back()}, roundings_of(report).back(), Events::oldest};
 }
 const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated, Events::nearest};
 SamplerOptions on_native_gpu() {
-    return counting_calls({{0, 64, 32, 0, Reads::storage},
-                           roundings_of(shared_context().report()).back(),
-                           Events::nearest});
+    return {{0, 64, 32, 0, Reads::storage},
+            roundings_of(shared_context().report()).back(),
+            Events::nearest};
 }
 
 /// Capacities so large that no disk overflows.
@@ -334,7 +295,6 @@ void step_through(const PreparedMesh& mesh, const SampleParams& params,
     DeviceRun run(mesh, params, plan, options);
     std::vector<gpu::SampleRec> samples;
     Totals totals;
-    CallHistogram calls;
     for (const Part& part : parts) {
         run.set_stages(part.first, part.count);
         Twin twin(mesh, params, run.plan().error_bound, part.first, part.count);
@@ -344,8 +304,7 @@ void step_through(const PreparedMesh& mesh, const SampleParams& params,
         run.begin();
         const auto by_place = compare_candidates(run, twin);
         step_through_samples(run, twin, samples, by_place, totals);
-        step_through_candidates(run, twin, by_place, totals,
-                                options.count_calls ? &calls : nullptr);
+        step_through_candidates(run, twin, by_place, totals);
         run.finish();
         compare_samples(run, twin, samples);
     }

@@ -53,9 +53,6 @@ const Offsets kControl{GEODISK_OFFSET(ControlRec, select_x),
                        GEODISK_OFFSET(ControlRec, groups_x),
                        GEODISK_OFFSET(ControlRec, groups_y),
                        GEODISK_OFFSET(ControlRec, groups_z),
-                       GEODISK_OFFSET(ControlRec, count_x),
-                       GEODISK_OFFSET(ControlRec, count_y),
-                       GEODISK_OFFSET(ControlRec, count_z),
                        GEODISK_OFFSET(ControlRec, abi),
                        GEODISK_OFFSET(ControlRec, generation),
                        GEODISK_OFFSET(ControlRec, drawn),
@@ -78,7 +75,6 @@ const Offsets kControl{GEODISK_OFFSET(ControlRec, select_x),
                        GEODISK_OFFSET(ControlRec, next_slot),
                        GEODISK_OFFSET(ControlRec, incomplete),
                        GEODISK_OFFSET(ControlRec, undecided),
-                       GEODISK_OFFSET(ControlRec, uncounted),
                        GEODISK_OFFSET(ControlRec, overflow),
                        GEODISK_OFFSET(ControlRec, endless_face),
                        GEODISK_OFFSET(ControlRec, done),
@@ -103,10 +99,7 @@ const Offsets kControl{GEODISK_OFFSET(ControlRec, select_x),
                        GEODISK_OFFSET(ControlRec, trips_low),
                        GEODISK_OFFSET(ControlRec, trips_high),
                        GEODISK_OFFSET(ControlRec, lane_trips_low),
-                       GEODISK_OFFSET(ControlRec, lane_trips_high),
-                       GEODISK_OFFSET(ControlRec, call_bins),
-                       GEODISK_OFFSET(ControlRec, calls_low),
-                       GEODISK_OFFSET(ControlRec, calls_high)};
+                       GEODISK_OFFSET(ControlRec, lane_trips_high)};
 
 } // namespace
 
@@ -133,7 +126,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 30);
+        CHECK(controls == 28);
     }
 
     TEST_CASE("no kernel binds more than seven storage buffers") {

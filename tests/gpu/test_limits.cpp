@@ -168,47 +168,6 @@ TEST_SUITE("limits") {
         CHECK(run.control().undecided == run.control().slots_used);
     }
 
-    TEST_CASE("batches that overflowed and were repeated are counted once") {
-        const PreparedMesh mesh = prepared(builtin("icosphere", 4));
-        const SampleParams params = params_for(mesh, 300);
-        RunPlan small;
-        small.window_capacity = 4;
-        small.list_capacity = 8;
-        small.slots = 64;
-        small.detect_passes = 1;
-        SamplerOptions options;
-        options.count_calls = true;
-        DeviceRun run(mesh, params, small, options);
-        run.begin();
-        gpu::ControlRec control{};
-        std::set<std::uint32_t> active; // In all batches that were decided, by their orders.
-        std::uint32_t regrown = 0;
-        while (control.done == 0) {
-            run.rounds(1);
-            control = run.control();
-            if (control.overflow != 0) {
-                run.grow(control.overflow);
-                ++regrown;
-            }
-            for (const gpu::SlotRec& slot : slots_of(run)) {
-                // One of a higher order found its slot void, and may be rejected before its turn.
-                if (slot.phase == gpu::kSlotCounted && slot.order < control.first_order) {
-                    active.insert(slot.order);
-                }
-            }
-        }
-        CHECK(regrown > 2);
-        std::uint64_t total = 0;
-        for (const std::uint32_t candidates : control.call_bins) {
-            total += candidates;
-        }
-        CHECK(total == active.size());
-        CHECK(control.calls_high == 0);
-        CHECK(control.calls_low > total);
-        CHECK(control.call_bins[0] < control.accepted);
-        CHECK(control.call_bins[1] > 0);
-    }
-
     TEST_CASE("a pool smaller than all lists takes fewer slots and returns the same set") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 4));
         SampleParams params = params_for(mesh, 600);

@@ -277,9 +277,6 @@ TEST_SUITE("invariance") {
             CAPTURE(items);
             CHECK(same(options));
         }
-        RunnerOptions counting;
-        counting.sampler.count_calls = true;
-        CHECK(same(counting));
         RunnerOptions timed;
         timed.time_stages = true;
         CHECK(same(timed));

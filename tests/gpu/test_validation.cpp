@@ -23,7 +23,6 @@ TEST_SUITE("validation") {
             // Slices that overflow bring in the rewind as well.
             RunnerOptions tight;
             tight.sampler.tuning.reads = reads;
-            tight.sampler.count_calls = true;
             tight.plan.window_capacity = 2;
             Runner runner = expect(Runner::create(context.device(), context.queue(), tight));
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));

@@ -3,9 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "baselines/batches.hpp"
+#include "baselines/count_calls.hpp"
 #include "baselines/geodesic_disks.hpp"
-#include "constants.h"
-#include "kernels/count_calls.hpp"
 #include "ref/dart_check.hpp"
 
 using namespace geodisk;
@@ -60,7 +59,7 @@ TEST_CASE("calls: numbers beyond a word's bits stay at the most") {
     const Calls calls = calls_of(above, accepted);
     CHECK(calls[10] == 1024);
     CHECK(calls[29] == 1u << 29);
-    CHECK(calls[39] == gpu::kMostCalls);
+    CHECK(calls[39] == ref::kMostCalls);
 }
 
 TEST_CASE("calls: histogram") {

@@ -75,13 +75,4 @@ DeviceRun Device::measure(const PaperMesh& mesh, SampleParams params, int repeat
     return mean;
 }
 
-SampleSet Device::count_calls(const PaperMesh& mesh, const SampleParams& params,
-                              std::uint32_t slots) {
-    RunnerOptions options;
-    options.plan.slots = slots;
-    options.sampler.count_calls = true;
-    Runner runner = make_runner(options);
-    return run(runner, mesh, params);
-}
-
 } // namespace geodisk::paper

@@ -44,9 +44,6 @@ class Device {
     /// One run to warm up and `repeats` with ascending seeds.
     DeviceRun measure(const PaperMesh& mesh, SampleParams params, int repeats);
 
-    /// A run with `slots` active candidates at a time and their calls of CheckStatus counted.
-    SampleSet count_calls(const PaperMesh& mesh, const SampleParams& params, std::uint32_t slots);
-
   private:
     Runner make_runner(RunnerOptions options = {}) const;
     static SampleSet run(Runner& runner, const PaperMesh& mesh, const SampleParams& params);

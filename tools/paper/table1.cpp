@@ -1,11 +1,10 @@
-// Table 1: how often CheckStatus calls itself (section 5.4), in the reference and on a device.
+// Table 1: how often CheckStatus calls itself (section 5.4), in the sequential reference.
 #include <algorithm>
 #include <array>
 
 #include "baselines/batches.hpp"
 #include "baselines/geodesic_disks.hpp"
 #include "paper/commands.hpp"
-#include "paper/device.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
 #include "paper/pool.hpp"
@@ -18,7 +17,6 @@ namespace {
 struct Options {
     CommonOptions common;
     std::string mesh;
-    std::string device;
     std::string count = "10000";
     NumberList pool_ratios{"", {"20", "5"}};
     NumberList ratios{"", {"5", "10", "20", "40"}};
@@ -87,10 +85,6 @@ struct Measured {
     }
 };
 
-struct Sides {
-    Measured reference, device;
-};
-
 /// A row of the table: its ratios, and the T they make.
 struct Setup {
     double count, ratio, pool_ratio;
@@ -101,10 +95,8 @@ struct Setup {
     }
 };
 
-/// The same candidates on both sides.
-Sides measure(const PaperMesh& mesh, const CommonOptions& common, const Setup& setup,
-              Device& device) {
-    Sides sum;
+Measured measure(const PaperMesh& mesh, const CommonOptions& common, const Setup& setup) {
+    Measured sum;
     for (int i = 0; i < common.repeats; ++i) {
         const Pool pool =
             draw_pool(mesh, params_for(mesh, setup.count, setup.pool_ratio, common.seed_of(i)));
@@ -112,9 +104,7 @@ Sides measure(const PaperMesh& mesh, const CommonOptions& common, const Setup& s
                                  pool.tolerances);
         CallHistogram calls;
         const ref::BatchRun batches = ref::run_batches(query, setup.slots(), &calls);
-        sum.reference.add(calls, batches.ranks.size());
-        const SampleSet set = device.count_calls(mesh, pool.params, setup.slots());
-        sum.device.add(set.report.calls, set.samples.size());
+        sum.add(calls, batches.ranks.size());
     }
     return sum;
 }
@@ -142,7 +132,6 @@ void run(const Options& options) {
     const std::vector<double> pool_ratios = options.pool_ratios.ratios(1, 10000);
     const std::vector<double> ratios = options.ratios.ratios(0.01, 1e9);
     const PaperMesh mesh = load_mesh(options.mesh);
-    Device device(options.device);
 
     Table table(columns());
     bench::LinePlot plot;
@@ -154,10 +143,8 @@ void run(const Options& options) {
         const double ratio = ratios[group];
         for (const double pool_ratio : pool_ratios) {
             const Setup setup{count, ratio, pool_ratio};
-            const Sides sides = measure(mesh, options.common, setup, device);
-            add_measured(table, setup, "reference", sides.reference);
             const std::array<double, 10> percent =
-                add_measured(table, setup, "device", sides.device);
+                add_measured(table, setup, "measured", measure(mesh, options.common, setup));
             // One pool is enough to draw.
             if (pool_ratio == pool_ratios.front()) {
                 add_line(plot, "N/T = " + tools::rounded(ratio, 4), group, false, percent);
@@ -166,14 +153,10 @@ void run(const Options& options) {
         add_printed(table, plot, ratio, group);
     }
     outputs.add_table(
-        table,
-        {"mesh " + mesh.name, "device " + device.name(), "count " + options.count,
-         options.common.text()},
-        "Calls of CheckStatus, percent of active candidates; the device is " +
-            tools::one_line(device.name()),
+        table, {"mesh " + mesh.name, "count " + options.count, options.common.text()},
+        "Calls of CheckStatus, percent of active candidates",
         "The paper does not name |P|/N. The fewer candidates, the fewer of them crowd in the"
-        "\nlast gaps, where most conflicts are. The device ends batches early where too few"
-        "\ncandidates are left in reach, so that its figures are not quite the reference's.");
+        "\nlast gaps, where most conflicts are.");
     outputs.add_plot("", plot);
     outputs.write();
 }
@@ -195,7 +178,6 @@ void add_table1(tools::Command app) {
                                      "Candidates per expected sample, 1 to 10000");
                             add_list(command, options.ratios, "--ratios",
                                      "Samples per active candidate (N/T)");
-                            add_device(command, options.device);
                         });
 }
 

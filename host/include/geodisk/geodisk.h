@@ -383,7 +383,6 @@ typedef struct geodisk_sampler_options {
     uint64_t device_bytes;     /* Maximum bytes of a run on the device; 0 for no limit. */
     double submission_seconds; /* Target length of one submission; 0 for 0.02, or 0.1 on a CPU. */
     double stall_seconds;      /* A longer submission counts as hung; 0 for 120, or 600 on a CPU. */
-    int32_t count_calls;       /* Not 0: count geodisk_report::calls. */
 } geodisk_sampler_options;
 
 /* Compiles the pipelines that all domains share. `options` may be NULL. */
@@ -485,8 +484,6 @@ typedef struct geodisk_report {
     double upload_seconds;
     double sample_seconds;
     double readback_seconds;
-    uint64_t calls[10]; /* Candidates that take 1 to 9, and 10 or more, calls of the paper's
-                         * CheckStatus; all 0 without geodisk_sampler_options::count_calls. */
     uint32_t missing;   /* How many samples of stop_count are missing. */
     uint32_t reserved;
 } geodisk_report;

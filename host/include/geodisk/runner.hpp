@@ -10,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include <geodisk/call_histogram.hpp>
 #include <geodisk/device.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
@@ -68,7 +67,6 @@ struct RunReport {
     std::uint32_t longest_chain = 0;  ///< Maximum of edges crossed by a window of a sample's disk.
     std::uint32_t most_vertices = 0;  ///< Maximum of vertices reached by a disk.
     std::uint32_t most_conflicts = 0; ///< Maximum of conflicts listed by a disk.
-    CallHistogram calls;              ///< Empty without SamplerOptions::count_calls.
     /// Trips of the main loop of detect in all lanes; a trip takes one window or corner. And their
     /// number if every lane took as many as the busiest lane of its subgroup, which all wait for.
     /// 0 without SamplerOptions::count_trips.

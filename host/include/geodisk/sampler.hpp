@@ -94,8 +94,6 @@ struct SamplerOptions {
     /// Counts in gpu::ControlRec how long lanes of detect wait for others of their subgroup; takes
     /// a little time.
     bool count_trips = false;
-    /// Counts RunReport::calls in dispatches of its own. Does not change the samples.
-    bool count_calls = false;
 };
 
 /// Buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
@@ -330,8 +328,7 @@ class GEODISK_API Sampler {
     /// over these, RunPlan::step_budget and lanes those of disks. record_begin() and
     /// record_finish() record at most `dispatches`, including clears, from where the last call
     /// stopped, and return true when everything is recorded. The next call of any kind records the
-    /// rest first. A round is 2 dispatches and RunPlan::detect_passes, and 2 more with
-    /// SamplerOptions::count_calls.
+    /// rest first. A round is 2 dispatches and RunPlan::detect_passes.
     /// @{
 
     /// Draws the candidates of the next stages. Returns true when everything is recorded.

@@ -72,19 +72,16 @@ void LentMemory::free(void* self, const MemoryGrant& grant) {
     own.free_(own.user_, &given);
 }
 
-Result<std::shared_ptr<const Sampler>> Device::sampler(bool count_calls) const {
+Result<std::shared_ptr<const Sampler>> Device::sampler() const {
     const std::lock_guard lock(mutex_);
-    auto& shared = samplers_[count_calls ? 1 : 0];
-    if (!shared) {
-        SamplerOptions options;
-        options.count_calls = count_calls;
-        auto created = Sampler::create(refs_, options);
+    if (!sampler_) {
+        auto created = Sampler::create(refs_);
         if (!created) {
             return std::move(created).error();
         }
-        shared = std::make_shared<const Sampler>(std::move(*created));
+        sampler_ = std::make_shared<const Sampler>(std::move(*created));
     }
-    return shared;
+    return sampler_;
 }
 
 Result<Done> Device::check_validation() const {

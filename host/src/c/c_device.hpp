@@ -48,7 +48,7 @@ class Device {
     const DeviceReport& report() const noexcept { return report_; }
 
     /// Returns the shared sampler; compiles it at the first call.
-    Result<std::shared_ptr<const Sampler>> sampler(bool count_calls) const;
+    Result<std::shared_ptr<const Sampler>> sampler() const;
 
     /// Fails if the validation layer is on and reported messages.
     Result<Done> check_validation() const;
@@ -60,7 +60,7 @@ class Device {
     QueueRef queue_;
     DeviceReport report_;
     mutable std::mutex mutex_;
-    mutable std::shared_ptr<const Sampler> samplers_[2]; ///< Indexed by count_calls.
+    mutable std::shared_ptr<const Sampler> sampler_;
 };
 
 } // namespace geodisk::c

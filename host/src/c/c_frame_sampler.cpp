@@ -69,7 +69,7 @@ geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
         if (!wanted) {
             return wanted.error();
         }
-        auto sampler = device->shared->sampler(false);
+        auto sampler = device->shared->sampler();
         if (!sampler) {
             return sampler.error();
         }

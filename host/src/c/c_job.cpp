@@ -241,7 +241,7 @@ Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,
     job->pool_bytes = options.pool_bytes != 0 ? options.pool_bytes : kPoolBytes;
     job->stages = options.stages;
     job->regrowths = options.regrowths;
-    auto sampler = device.shared->sampler(false);
+    auto sampler = device.shared->sampler();
     if (!sampler) {
         return sampler.error();
     }

@@ -67,7 +67,7 @@ geodisk_status geodisk_sampler_create(const geodisk_device* device,
         if (!wanted) {
             return wanted.error();
         }
-        const auto shared = device->shared->sampler(wanted->count_calls != 0);
+        const auto shared = device->shared->sampler();
         if (!shared) {
             return shared.error();
         }

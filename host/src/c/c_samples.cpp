@@ -234,7 +234,6 @@ geodisk_report report_of(const geodisk_samples& samples) {
     report.upload_seconds = run.seconds.upload;
     report.sample_seconds = run.seconds.sample;
     report.readback_seconds = run.seconds.readback;
-    std::copy(run.calls.candidates.begin(), run.calls.candidates.end(), report.calls);
     const std::uint64_t wanted = Domain::Impl::of(*samples.of->domain).stop_count;
     report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, report.samples));
     return report;

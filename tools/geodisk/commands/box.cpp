@@ -80,7 +80,6 @@ void add_box_command(Command app) {
                           "File to write: *.csv or *.npz; or *.ply, *.pcd, *.glb, *.gltf, *.obj\n"
                           "or *.xyz with 0 for coordinates that the box lacks");
     add_box_options(command, *options);
-    add_calls_option(command, options->method);
     add_run_options(command, options->run);
     add_output_options(command, options->out);
     add_verbose_option(command, options->run.device);

@@ -97,7 +97,6 @@ void add_manual_command(Command app);
 struct KernelsOptions {
     std::string device;
     std::string reads; ///< "" for what suits the device.
-    bool count_calls = false;
 };
 
 /// What `info --kernels` does: prints what the device's driver tells of the kernels that it has

@@ -180,10 +180,6 @@ void add_info_command(Command app) {
                     "Variant of the kernels: auto, storage or texels (default auto)", "Development")
         .offers({"auto", "storage", "texels"})
         .needs(kernels);
-    command
-        .add_flag("--count-calls", options->of_kernels.count_calls,
-                  "Variant of the kernels for sample --count-calls", "Development")
-        .needs(kernels);
     command.has_footer(help_footer(kExamples));
     command.calls([options, json] { // Owns them, as the options refer to them.
         if (json.is_given() && options->out.json.empty()) {

@@ -33,7 +33,6 @@ Reads parsed_reads(const std::string& name) {
 void print_kernels(const KernelsOptions& options, const OutputOptions& out) {
     SamplerOptions sampler_options;
     sampler_options.tuning.reads = parsed_reads(options.reads);
-    sampler_options.count_calls = options.count_calls;
     ContextOptions context_options;
     context_options.device = chosen_device(options.device);
     context_options.pipeline_statistics = true;

@@ -101,7 +101,6 @@ BoxJob parse_job(const BoxOptions& options) {
     box.throws = job.method.throws_for(expected_count(box));
     job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_seconds();
-    job.runner.sampler.count_calls = job.method.counts_calls;
     return job;
 }
 

@@ -69,7 +69,6 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     check_method(options);
     Method method;
     method.throws_darts = options.throws_darts();
-    method.counts_calls = options.count_calls;
     if (!options.pool_ratio.empty()) {
         method.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
     }
@@ -125,13 +124,6 @@ void add_method_options(Command command, MethodOptions& options, const std::stri
                     "candidates leave fewer gaps",
                     kMethodGroup)
         .shows_default(exact_text(kDefaultPoolRatio));
-}
-
-void add_calls_option(Command command, MethodOptions& options) {
-    command.add_flag("--count-calls", options.count_calls,
-                     "Count calls of the paper's CheckStatus; takes a little time\n"
-                     "and does not change the samples",
-                     kMethodGroup);
 }
 
 } // namespace geodisk::tools

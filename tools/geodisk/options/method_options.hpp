@@ -21,7 +21,6 @@ inline bool names_darts(std::string_view method) {
 /// As given on the command line.
 struct MethodOptions {
     std::string method = "pool", pool_ratio, throws;
-    bool count_calls = false;
 
     bool throws_darts() const { return names_darts(method); }
 };
@@ -30,13 +29,9 @@ struct MethodOptions {
 /// in `domain`: "the surface".
 void add_method_options(Command command, MethodOptions& options, const std::string& domain);
 
-/// Adds --count-calls.
-void add_calls_option(Command command, MethodOptions& options);
-
 /// The options, checked.
 struct Method {
     bool throws_darts = false; ///< --method darts.
-    bool counts_calls = false; ///< --count-calls.
     double pool_ratio = kDefaultPoolRatio;
     std::uint32_t throws = 0;     ///< 0 if not given.
     std::uint32_t stop_count = 0; ///< Of --count, where darts stop at it; else 0.

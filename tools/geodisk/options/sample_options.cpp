@@ -91,7 +91,6 @@ SampleJob parse_job(const SampleOptions& options) {
     job.params.stop_count = job.method.stop_count;
     job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_seconds();
-    job.runner.sampler.count_calls = job.method.counts_calls;
     check_metric(options, job);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
@@ -141,7 +140,6 @@ void add_subject_options(Command command, SampleOptions& options) {
 
 void add_job_options(Command command, SampleOptions& options) {
     add_subject_options(command, options);
-    add_calls_option(command, options.method);
     add_device_options(command, options.run.device);
     add_limit_options(command, options.run);
 }

@@ -91,8 +91,7 @@ std::string BoxReport::json(double write_seconds) const {
                      {"rows", run.windows},
                      {"tested", run.tested},
                      {"most_conflicts", run.most_conflicts},
-                     {"regrown", run.regrown},
-                     {"check_calls", calls_json(drawn())}});
+                     {"regrown", run.regrown}});
     document.update(run_json(done_, stage_seconds({}, done_, {{"write", write_seconds}})));
     return text_of(document);
 }

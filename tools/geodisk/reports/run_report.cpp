@@ -6,21 +6,6 @@
 namespace geodisk::tools {
 namespace {
 
-/// "1.12 of CheckStatus per disk; 1: 89.6 %, 2: 8.9 %, 3: 1.5 %", without the empty bins.
-std::string calls_text(const CallHistogram& calls) {
-    std::string text = rounded(calls.mean(), 3) + " of CheckStatus per disk";
-    const char* separator = "; ";
-    for (std::size_t bin = 0; bin < calls.candidates.size(); ++bin) {
-        if (calls.candidates[bin] > 0) {
-            const bool is_last = bin + 1 == calls.candidates.size();
-            text += separator + std::to_string(bin + 1) + (is_last ? " or more: " : ": ") +
-                    rounded(100 * calls.share(bin), 3) + " %";
-            separator = ", ";
-        }
-    }
-    return text;
-}
-
 /// What ended the run.
 const char* stopped_by(const Drawn& drawn) {
     const bool has_all = drawn.samples == drawn.method.stop_count;
@@ -55,13 +40,6 @@ Json drawn_json(const Drawn& drawn) {
             {"samples", drawn.samples}};
 }
 
-Json calls_json(const Drawn& drawn) {
-    const CallHistogram& calls = drawn.run.calls;
-    return drawn.method.counts_calls
-               ? Json{{"candidates", calls.candidates}, {"mean", calls.mean()}}
-               : Json(nullptr);
-}
-
 std::string samples_text(const Drawn& drawn) {
     std::string text = grouped(drawn.samples);
     if (drawn.wanted_count > 0) {
@@ -79,9 +57,6 @@ std::string samples_text(const Drawn& drawn) {
 std::string candidates_text(const Drawn& drawn, std::uint64_t seed) {
     std::string text = drawn.method.throws_darts ? "darts         " : "candidates    ";
     text += grouped(drawn.run.candidates) + ", seed " + std::to_string(seed) + '\n';
-    if (drawn.method.counts_calls) {
-        text += "calls         " + calls_text(drawn.run.calls) + '\n';
-    }
     return text;
 }
 

@@ -27,11 +27,9 @@ struct Drawn {
 
 /// The method with what it was given, what stopped it, and how many candidates and samples.
 Json drawn_json(const Drawn& drawn);
-/// Of 1, 2, ..., 9 calls of the paper's CheckStatus, and of 10 or more. Null where not counted.
-Json calls_json(const Drawn& drawn);
 /// "9,000", or with what was asked for where it is not that.
 std::string samples_text(const Drawn& drawn);
-/// Lines of candidates or darts, the seed, and calls where they are counted.
+/// Lines of candidates or darts, and the seed.
 std::string candidates_text(const Drawn& drawn, std::uint64_t seed);
 /// Name and value of the candidates in the header of a sample file.
 std::pair<std::string, std::string> candidates_entry(const Drawn& drawn);

@@ -121,8 +121,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                      {"tested", run.tested},
                      {"most_waiting", run.most_waiting},
                      {"longest_chain", run.longest_chain},
-                     {"regrown", run.regrown},
-                     {"check_calls", calls_json(drawn())}});
+                     {"regrown", run.regrown}});
     document.update(run_json(result_.done, seconds(after)));
     return document;
 }

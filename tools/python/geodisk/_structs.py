@@ -138,7 +138,6 @@ class SamplerOptions(_Sized):
         ("device_bytes", c_uint64),
         ("submission_seconds", c_double),
         ("stall_seconds", c_double),
-        ("count_calls", c_int32),
     ]
 
 
@@ -170,7 +169,6 @@ class Report(_Sized):
         ("upload_seconds", c_double),
         ("sample_seconds", c_double),
         ("readback_seconds", c_double),
-        ("calls", c_uint64 * 10),
         ("missing", c_uint32),
         ("reserved", c_uint32),
     ]

@@ -332,9 +332,6 @@ void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
         }
         recorder.stage(Stage::resolve);
         recorder.dispatch_indirect(Kernel::resolve, offsetof(gpu::ControlRec, groups_x));
-        for (std::uint32_t pass = 0; pass < impl_->count_passes(); ++pass) {
-            recorder.dispatch_indirect(Kernel::count_calls, offsetof(gpu::ControlRec, count_x));
-        }
     }
 }
 

@@ -60,7 +60,6 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
             (options.rounding == Rounding::automatic && report->rounds_natively);
         choices.counted_lanes =
             options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
-        choices.count_calls = options.count_calls;
         auto impl =
             std::make_unique<Impl>(device, std::move(*report), *table, choices, options.events);
         if (auto created = impl->pipelines.create(); !created) {

@@ -43,8 +43,6 @@ struct Sampler::Impl {
     KernelVariant variant_for(const Domain& domain) const;
     /// Of the two variants of the kernels, which.
     bool reads_texels() const { return choices.tuning.reads == Reads::texels; }
-    /// Dispatches of count_calls per round: as for resolve, the next round goes on.
-    std::uint32_t count_passes() const { return choices.count_calls ? 2 : 0; }
 };
 
 /// Work groups of a dispatch: Vulkan promises no more.

@@ -66,8 +66,7 @@ Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVari
     for (std::size_t k = 0; k < kKernels; ++k) {
         const auto kernel = static_cast<Kernel>(k);
         const KernelInfo& info = kernel_info(kernel);
-        if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain) ||
-            !is_used(kernel)) {
+        if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain)) {
             continue;
         }
         const auto compiled = pipeline_of(kernel, variant.of(kernel));
@@ -134,7 +133,6 @@ Pipelines::specializations(const KernelVariant& variant) const {
             {gpu::kSpecNativeRounding, choices_.native_rounding ? VK_TRUE : VK_FALSE},
             {gpu::kSpecPoolBlock, tuning.pool_block},
             {gpu::kSpecCountedLanes, choices_.counted_lanes},
-            {gpu::kSpecCountCalls, choices_.count_calls ? VK_TRUE : VK_FALSE},
             {gpu::kSpecDimension, variant.dimension},
 #define GEODISK_SWITCH(name, constant) {gpu::constant, variant.name ? VK_TRUE : VK_FALSE},
             GEODISK_KERNEL_SWITCHES(GEODISK_SWITCH)

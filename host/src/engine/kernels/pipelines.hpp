@@ -24,7 +24,6 @@ struct KernelChoices {
     Tuning tuning; ///< All chosen.
     bool native_rounding = false;
     std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
-    bool count_calls = false;
 };
 
 /// Any number of threads may use it at a time.
@@ -53,9 +52,6 @@ class Pipelines {
 
   private:
     bool reads_texels() const { return choices_.tuning.reads == Reads::texels; }
-    bool is_used(Kernel kernel) const {
-        return kernel != Kernel::count_calls || choices_.count_calls;
-    }
     struct Specialization {
         std::uint32_t constant, value;
     };

@@ -15,9 +15,6 @@ void take_counts(const gpu::ControlRec& control, RunReport& report) {
     report.most_conflicts = control.most_conflicts;
     report.trips = wide(control.trips_low, control.trips_high);
     report.lane_trips = wide(control.lane_trips_low, control.lane_trips_high);
-    std::copy(std::begin(control.call_bins), std::end(control.call_bins),
-              report.calls.candidates.begin());
-    report.calls.calls = wide(control.calls_low, control.calls_high);
 }
 
 SampleSet to_set(const Domain::Impl& domain, std::span<const gpu::SampleRec> records,

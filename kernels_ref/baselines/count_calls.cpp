@@ -1,8 +1,7 @@
-#include "kernels/count_calls.hpp"
+#include "baselines/count_calls.hpp"
 
 #include <algorithm>
-
-#include "constants.h"
+#include <cstdint>
 
 namespace geodisk::ref {
 
@@ -11,7 +10,7 @@ std::vector<std::uint32_t> count_calls(std::span<const std::vector<std::uint32_t
     std::vector<std::uint32_t> calls(above.size(), 1);
     for (std::size_t i = 0; i < above.size(); ++i) {
         for (const std::uint32_t other : above[i]) {
-            calls[i] = std::min(calls[i] + calls[other], gpu::kMostCalls);
+            calls[i] = std::min(calls[i] + calls[other], kMostCalls);
             if (accepted[other] != 0) {
                 break;
             }
@@ -22,7 +21,7 @@ std::vector<std::uint32_t> count_calls(std::span<const std::vector<std::uint32_t
 
 void add_calls(CallHistogram& histogram, std::span<const std::uint32_t> calls_each) {
     for (const std::uint32_t calls : calls_each) {
-        ++histogram.candidates[std::min(calls, gpu::kCallBins) - 1];
+        ++histogram.candidates[std::min<std::size_t>(calls, histogram.candidates.size()) - 1];
         histogram.calls += calls;
     }
 }

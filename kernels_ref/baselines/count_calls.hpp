@@ -1,14 +1,16 @@
-// Twin of shaders/kernels/count_calls.comp: counts calls of the paper's CheckStatus (section 5.4,
-// Table 1).
+// Counts calls of the paper's CheckStatus (section 5.4, Table 1).
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "geodisk/call_histogram.hpp"
+#include "baselines/call_histogram.hpp"
 
 namespace geodisk::ref {
+
+/// The calls of one candidate are counted up to this number.
+inline constexpr std::uint32_t kMostCalls = 0x3fffffff;
 
 /// Returns the calls of CheckStatus for each candidate of a decided batch: one for itself, and
 /// those of every conflict above it, until one of them is accepted. A candidate reached twice
