@@ -110,6 +110,10 @@ class Drawing {
             settle_ties(darts, [this](std::uint32_t a, std::uint32_t b) {
                 const FacePoint<Real>& p = pool_.bins.points[a];
                 const FacePoint<Real>& q = pool_.bins.points[b];
+                if (!params_.face_keys.empty()) { // Whatever the numbers of the faces.
+                    return std::tie(p.weight1, p.weight2, p.face) <
+                           std::tie(q.weight1, q.weight2, q.face);
+                }
                 return std::tie(p.face, p.weight1, p.weight2) <
                        std::tie(q.face, q.weight1, q.weight2);
             });

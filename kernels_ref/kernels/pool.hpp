@@ -10,7 +10,8 @@
 
 namespace geodisk::ref {
 
-/// A candidate's rank is its position in dart order: by stage, priority, face and weights.
+/// A candidate's rank is its position in dart order: by stage, priority, face and weights; where
+/// faces have keys by stage, priority and weights.
 template <class Real>
 struct Pool {
     Bins<Real> bins;

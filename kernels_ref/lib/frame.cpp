@@ -119,8 +119,12 @@ Frame frame_without_pool(const PreparedMesh& mesh, double min_distance, double u
 
 } // namespace
 
+double Frame::samples_on(double area) const {
+    return ref::samples_on(area, unit);
+}
+
 float Frame::intensity(std::uint32_t stage) const {
-    return static_cast<float>(stages.per_sample(stage) * samples_on(1, 1));
+    return static_cast<float>(stages.per_sample(stage) * ref::samples_on(1, 1));
 }
 
 double Frame::error_of(std::uint32_t crossings) const {

@@ -33,6 +33,8 @@ struct Frame {
     /// one: a shortest path enters none twice.
     bool straight_faces = false;
 
+    /// Returns the samples expected on an area, in mesh units.
+    double samples_on(double area) const;
     /// Returns the candidates that a stage expects per unit of area.
     float intensity(std::uint32_t stage) const;
     /// Returns a bound on the error of a distance over this many crossings.

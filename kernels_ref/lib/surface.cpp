@@ -11,7 +11,7 @@ namespace geodisk::ref {
 namespace {
 
 /// Whether the candidates of a job have 24 others or fewer in their face, in the mean.
-bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const StageRule& rule) {
+bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const Frame& frame) {
     constexpr double kFew = 24;
     const auto weight_of = [&](std::uint32_t face) {
         const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
@@ -23,7 +23,8 @@ bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const
         sum += weight;
         squares += weight * weight;
     }
-    const double candidates = rule.throws != 0 ? rule.throws : rule.ratio * rule.samples;
+    const std::uint32_t throws = frame.stages.throws;
+    const double candidates = throws != 0 ? throws : frame.stages.ratio * frame.samples_on(sum);
     return squares / sum * (candidates / sum) <= kFew;
 }
 
@@ -43,7 +44,7 @@ template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params,
                        const Frame& frame_of_whole)
     : frame(frame_of_whole), fans(mesh.fans()), corners(mesh.corners()),
-      one_cell_each(has_small_faces(mesh, params, frame.stages)) {
+      one_cell_each(has_small_faces(mesh, params, frame)) {
     place_edges(mesh);
     if (params.radii == nullptr) {
         return;

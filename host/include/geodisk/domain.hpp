@@ -7,6 +7,7 @@
 
 #include <geodisk/box.hpp>
 #include <geodisk/export.hpp>
+#include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
@@ -42,6 +43,16 @@ class GEODISK_API Domain {
     /// Errors: those of pool_size(); `invalid_argument` for more than 2^30 grid cells, naming the
     /// face.
     static Result<Domain> surface(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+    /// Makes the domain of a surface in a frame: its own, or that of a mesh that it is a part of.
+    /// Nothing about the whole is derived from `mesh` then. Darts (`throws`) are counted on `mesh`
+    /// alone.
+    ///
+    /// Errors: those above; `invalid_argument` for a frame of another distance, pool ratio or kind
+    /// of radii, and for one that `mesh` does not fit: with a longer edge, with an edge of more
+    /// faces, or without coordinates.
+    static Result<Domain> surface(const PreparedMesh& mesh, const SampleParams& params,
+                                  const JobFrame& frame) noexcept;
 
     /// Makes the domain of several surfaces by geodesic distance, as one job. Everything they refer
     /// to must outlive the domain and its runs. Each surface gets the samples that it gets alone,

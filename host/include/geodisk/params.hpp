@@ -59,6 +59,9 @@ struct Stages {
     /// the candidates that all first stages expect together. 0 for one surface.
     std::uint32_t most_stages = 0;
     double most_expected = 0;
+    /// For a part of a surface in the frame of the whole: the expected samples of the whole, which
+    /// tell how darts grow. 0 for `samples`.
+    double of_whole = 0;
 
     /// Returns the number of stages of a pool: its ratio over kStageRatio, rounded up, at most
     /// kMostPoolStages.

@@ -15,8 +15,8 @@
 namespace geodisk {
 namespace {
 
-/// Returns a length in units of the working distance. Tiny lengths become zero, so that no product
-/// on the device becomes denormal.
+/// Returns a length in units of the frame. Tiny lengths become zero, so that no product on the
+/// device becomes denormal.
 float scaled(double length, double unit) {
     const double x = length / unit;
     return static_cast<float>(x < 0x1p-40 && x > -0x1p-40 ? 0.0 : x);
@@ -119,8 +119,7 @@ void write_parts(PlacedSurfaces surfaces, std::span<std::byte> out) {
         store(records, i,
               gpu::PartRec{static_cast<std::uint32_t>(params.seed),
                            static_cast<std::uint32_t>(params.seed >> 32),
-                           stage_intensity(*surface.mesh, params, 0),
-                           stages_of(*surface.mesh, params).pool_stages(),
+                           stage_intensity(surface.stages, 0), surface.stages.pool_stages(),
                            static_cast<float>(params.min_distance / 2), surface.first_face, 0, 0});
     }
 }
@@ -130,7 +129,7 @@ void write_parts(PlacedSurfaces surfaces, std::span<std::byte> out) {
 Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
     FaceCrowding crowding;
     for (const PlacedSurface& surface : surfaces) {
-        crowding.add(*surface.mesh, surface.params);
+        crowding.add(*surface.mesh, surface.params, surface.stages);
     }
     if (crowding.is_small()) {
         return 0u;
@@ -138,7 +137,7 @@ Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
     std::uint64_t cells = 0;
     for (const PlacedSurface& surface : surfaces) {
         for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
-            const Grid grid = face_grid(*surface.mesh, surface.params, f, surface.unit);
+            const Grid grid = face_grid(*surface.mesh, surface.params, f, surface.frame.unit);
             cells += grid.columns * grid.rows; // Cannot overflow: at most 2^62 is added to 2^30.
             if (cells > gpu::kFirstCellMask) {
                 const auto part = &surface - surfaces.data();
@@ -209,13 +208,13 @@ void write_lengths(PlacedSurfaces surfaces, bool one_cell_each, std::span<std::b
         for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
             const Grid grid = one_cell_each
                                   ? Grid{1, 1, 0}
-                                  : face_grid(*surface.mesh, surface.params, f, surface.unit);
+                                  : face_grid(*surface.mesh, surface.params, f, surface.frame.unit);
             const bool single = grid.columns * grid.rows == 1;
             const HalfEdge* const edges = &surface.mesh->half_edges()[std::size_t{3} * f];
             store(own, f,
-                  gpu::FaceLengthsRec{scaled(edges[0].length, surface.unit),
-                                      scaled(edges[1].length, surface.unit),
-                                      scaled(edges[2].length, surface.unit),
+                  gpu::FaceLengthsRec{scaled(edges[0].length, surface.frame.unit),
+                                      scaled(edges[1].length, surface.frame.unit),
+                                      scaled(edges[2].length, surface.frame.unit),
                                       first_cell | (single ? gpu::kSingleCell : grid.corner)
                                                        << gpu::kFaceCornerShift});
             first_cell += static_cast<std::uint32_t>(grid.columns * grid.rows);

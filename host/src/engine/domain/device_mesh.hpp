@@ -16,8 +16,7 @@ namespace geodisk {
 /// Counts the cells of all faces; 0 if each face has one. Errors: more than 2^30, naming the face.
 Result<std::uint32_t> count_cells(PlacedSurfaces surfaces);
 
-/// Returns the area of a face as kernels compute it, in units of working_distance(), which is
-/// `unit`.
+/// Returns the area of a face as kernels compute it, with lengths in units of `unit`.
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit);
 
 /// Bytes of a row of the buffers.

@@ -6,6 +6,7 @@
 
 #include "engine/domain/stages.hpp"
 #include "support/guard.hpp"
+#include "support/invalid.hpp"
 #include "support/number_text.hpp"
 
 namespace geodisk {
@@ -15,14 +16,10 @@ const double kTwoRootThree = 2 * std::sqrt(3.0);
 // Mean packing density, for which counts of 300 to 10,000 samples on scanned and modelled meshes
 // come out as requested. Stages use kExpectedRho, so that a distance keeps its samples.
 constexpr double kCountedRho = 0.721;
-// Maximum ratio of candidates to expected samples, for a surface much smaller than a disk.
-constexpr double kLargestRatio = 1e12;
-// Maximum edge length in distances: longer edges would need a guard of a percent.
-constexpr double kLongestEdge = 4000;
 
 /// Checks that no face expects more candidates than the kernels can count.
-Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& params) {
-    const Stages stages = stages_of(mesh, params);
+Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& params,
+                                const Stages& stages) {
     const double most = std::max(stages.expected(0), stages.expected(kLastOtherStage)) /
                         effective_area(mesh, params);
     const double longest = mesh.statistics().longest_edge;
@@ -95,48 +92,55 @@ double packing_density(double area, double min_distance, double count) noexcept 
     return min_distance / 2 * std::sqrt(kTwoRootThree * count / area);
 }
 
+Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) {
+    if (!(params.min_distance > 0) || !std::isfinite(params.min_distance)) {
+        return invalid("the minimum distance must be a positive finite number");
+    }
+    if (!(params.pool_ratio >= 1 && params.pool_ratio <= 10000)) {
+        return invalid("the pool ratio must be 1 to 10,000");
+    }
+    if (params.radii != nullptr && params.radii->face_count() != mesh.face_count()) {
+        return invalid("the radii are of a mesh with " +
+                       std::to_string(params.radii->face_count()) + " faces, this one has " +
+                       std::to_string(mesh.face_count()));
+    }
+    if (!params.face_keys.empty() && params.face_keys.size() != mesh.face_count()) {
+        return invalid("there are " + std::to_string(params.face_keys.size()) + " face keys for " +
+                       std::to_string(mesh.face_count()) + " faces");
+    }
+    return Done{};
+}
+
+Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SampleParams& params,
+                                       const Stages& stages) {
+    if (!(stages.ratio <= kLargestRatio)) {
+        return invalid("the minimum distance is too large for this surface, where radii vary");
+    }
+    const double wanted = std::ceil(stages.candidates());
+    if (!(wanted <= kMostCandidates)) {
+        return invalid("the minimum distance is too small for this surface: the pool would take " +
+                       number_text(wanted) + " candidates, the maximum is " +
+                       number_text(kMostCandidates));
+    }
+    const double longest = mesh.statistics().longest_edge / params.min_distance;
+    if (!(longest <= kLongestEdge)) {
+        return invalid("the minimum distance is too small for this mesh: its longest edge is " +
+                       number_text(longest) +
+                       " times as long, and single precision resolves at most " +
+                       number_text(kLongestEdge) + " times; split long edges");
+    }
+    if (auto checked = check_largest_face(mesh, params, stages); !checked) {
+        return checked.error();
+    }
+    return static_cast<std::uint32_t>(wanted);
+}
+
 Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& params) noexcept {
     return guarded([&]() -> Result<std::uint32_t> {
-        const auto invalid = [](std::string message) {
-            return Error{Status::invalid_argument, std::move(message)};
-        };
-        if (!(params.min_distance > 0) || !std::isfinite(params.min_distance)) {
-            return invalid("the minimum distance must be a positive finite number");
-        }
-        if (!(params.pool_ratio >= 1 && params.pool_ratio <= 10000)) {
-            return invalid("the pool ratio must be 1 to 10,000");
-        }
-        if (params.radii != nullptr && params.radii->face_count() != mesh.face_count()) {
-            return invalid("the radii are of a mesh with " +
-                           std::to_string(params.radii->face_count()) + " faces, this one has " +
-                           std::to_string(mesh.face_count()));
-        }
-        if (!params.face_keys.empty() && params.face_keys.size() != mesh.face_count()) {
-            return invalid("there are " + std::to_string(params.face_keys.size()) +
-                           " face keys for " + std::to_string(mesh.face_count()) + " faces");
-        }
-        const Stages stages = stages_of(mesh, params);
-        if (!(stages.ratio <= kLargestRatio)) {
-            return invalid("the minimum distance is too large for this surface, where radii vary");
-        }
-        const double wanted = std::ceil(stages.candidates());
-        if (!(wanted <= kMostCandidates)) {
-            return invalid(
-                "the minimum distance is too small for this surface: the pool would take " +
-                number_text(wanted) + " candidates, the maximum is " +
-                number_text(kMostCandidates));
-        }
-        const double longest = mesh.statistics().longest_edge / params.min_distance;
-        if (!(longest <= kLongestEdge)) {
-            return invalid("the minimum distance is too small for this mesh: its longest edge is " +
-                           number_text(longest) +
-                           " times as long, and single precision resolves at most " +
-                           number_text(kLongestEdge) + " times; split long edges");
-        }
-        if (auto checked = check_largest_face(mesh, params); !checked) {
+        if (auto checked = check_params(mesh, params); !checked) {
             return checked.error();
         }
-        return static_cast<std::uint32_t>(wanted);
+        return check_candidates(mesh, params, stages_of(mesh, params));
     });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 
@@ -13,7 +14,8 @@ namespace geodisk {
 struct PlacedSurface {
     const PreparedMesh* mesh;
     SampleParams params; ///< Distance in units of the mesh.
-    double unit;         ///< Unit of the device: working_distance().
+    JobFrame frame;      ///< Frame of the mesh, or of one that it is a part of.
+    Stages stages;       ///< Stages of the surface in its frame.
     std::uint32_t first_face, first_vertex, first_corner;
 };
 

@@ -160,6 +160,11 @@ std::string SpaceDomain::beside_candidates() const {
     return " and " + std::to_string(mesh_.face_count()) + " faces in space";
 }
 
+void SpaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
+    GridDomain::set_constants(job, plan);
+    job.has_keys = params_.face_keys.empty() ? 0 : 1;
+}
+
 std::size_t SpaceDomain::upload_size(BufferRole role) const {
     return role == BufferRole::corners ? std::size_t{mesh_.face_count()} * gpu::kSpaceRows * 16
                                        : GridDomain::upload_size(role);

@@ -31,6 +31,7 @@ class SpaceDomain : public GridDomain {
     SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params,
                 Metric metric, SpaceFrame frame);
 
+    void set_constants(gpu::JobRec& job, const RunPlan& plan) const override;
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;
     std::string beside_candidates() const override;

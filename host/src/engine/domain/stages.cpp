@@ -28,14 +28,15 @@ double Stages::per_sample(std::uint32_t stage) const noexcept {
         return ratio / pool_stages();
     }
     double darts = kStageRatio;
-    const double most = std::min(kMostDartsPerSample, kMostDartsOfStage / samples);
+    const double whole = of_whole > 0 ? of_whole : samples;
+    const double most = std::min(kMostDartsPerSample, kMostDartsOfStage / whole);
     while (darts > most) { // By powers of two, so that an edit of the mesh hardly ever changes it.
         darts /= 2;
     }
     for (std::uint32_t s = 0; s < stage && 2 * darts <= most; ++s) {
         darts *= 2;
     }
-    return std::max(darts, kLeastPool / samples);
+    return std::max(darts, kLeastPool / whole);
 }
 
 Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
@@ -45,12 +46,19 @@ Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
     return {samples, std::max(params.pool_ratio, kLeastPool / samples), params.throws};
 }
 
+Stages stages_in(const JobFrame& frame, const PreparedMesh& mesh, const SampleParams& params) {
+    Stages stages{expected_count(effective_area(mesh, params), frame.unit), frame.pool_ratio,
+                  params.throws};
+    stages.of_whole = frame.samples;
+    return stages;
+}
+
 double samples_per_area() noexcept {
     return expected_count(1, 1);
 }
 
-float stage_intensity(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t stage) {
-    return static_cast<float>(stages_of(mesh, params).per_sample(stage) * samples_per_area());
+float stage_intensity(const Stages& stages, std::uint32_t stage) {
+    return static_cast<float>(stages.per_sample(stage) * samples_per_area());
 }
 
 double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
@@ -60,8 +68,8 @@ double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, st
     return per_area * 0.5 * edge.length * edge.apex_y * density;
 }
 
-void FaceCrowding::add(const PreparedMesh& mesh, const SampleParams& params) {
-    const double per_area = stages_of(mesh, params).candidates() / effective_area(mesh, params);
+void FaceCrowding::add(const PreparedMesh& mesh, const SampleParams& params, const Stages& stages) {
+    const double per_area = stages.candidates() / effective_area(mesh, params);
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
         const double expected = expected_in_face(mesh, params, face, per_area);
         sum_ += expected;
@@ -75,7 +83,7 @@ bool FaceCrowding::is_small() const noexcept {
 
 bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params) {
     FaceCrowding crowding;
-    crowding.add(mesh, params);
+    crowding.add(mesh, params, stages_of(mesh, params));
     return crowding.is_small();
 }
 

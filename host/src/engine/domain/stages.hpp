@@ -2,26 +2,40 @@
 #pragma once
 
 #include <geodisk/export.hpp>
+#include <geodisk/job_frame.hpp>
 #include <geodisk/params.hpp>
 
 namespace geodisk {
 
 /// Fewer candidates are not worth a pool.
 inline constexpr double kLeastPool = 64;
+/// Maximum ratio of candidates to expected samples, for a surface much smaller than a disk.
+inline constexpr double kLargestRatio = 1e12;
+/// Maximum edge length in distances: longer edges would need a guard of a percent.
+inline constexpr double kLongestEdge = 4000;
 /// From it on all stages of darts are alike.
 inline constexpr std::uint32_t kLastOtherStage = 32;
 
 /// The stages of a job that pool_size() finds no fault with.
 GEODISK_API Stages stages_of(const PreparedMesh& mesh, const SampleParams& params);
 
+/// Returns the stages of a job in a frame: that of the mesh itself, or of one that it is a part of.
+Stages stages_in(const JobFrame& frame, const PreparedMesh& mesh, const SampleParams& params);
+
+/// Checks parameters by themselves and against the mesh.
+Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params);
+
+/// Checks the number of candidates, of all faces and of each. Returns the candidates of the job.
+Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SampleParams& params,
+                                       const Stages& stages);
+
 /// Samples expected per area of one distance squared.
 GEODISK_API double samples_per_area() noexcept;
 
 /// Candidates that a stage expects per unit of area, or where radii vary per unit of the integral
-/// of 1 / g^2; lengths in units of working_distance(). It follows from the distance alone, so that
-/// no edit elsewhere changes it.
-GEODISK_API float stage_intensity(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::uint32_t stage);
+/// of 1 / g^2; lengths in units of JobFrame::unit. It follows from the distance alone, so that no
+/// edit elsewhere changes it.
+GEODISK_API float stage_intensity(const Stages& stages, std::uint32_t stage);
 
 /// Candidates that a face expects, where `per_area` are expected per unit of effective_area().
 double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
@@ -31,7 +45,7 @@ double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, st
 class FaceCrowding {
   public:
     /// Those of a surface.
-    void add(const PreparedMesh& mesh, const SampleParams& params);
+    void add(const PreparedMesh& mesh, const SampleParams& params, const Stages& stages);
     /// Whether faces hold so few that disks need not tell their cells apart: all then have one
     /// cell. The rule bears on speed alone.
     bool is_small() const noexcept;

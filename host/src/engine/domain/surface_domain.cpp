@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "constants.h"
 #include "engine/capacity.hpp"
+#include "engine/domain/check_frame.hpp"
 #include "engine/domain/device_mesh.hpp"
 #include "engine/domain/stages.hpp"
 #include "support/guard.hpp"
@@ -22,9 +23,6 @@ constexpr std::uint32_t kDefaultSteps = 128;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
-// Disks from so many faces on take vertex events by distance. The rule must not look at the device:
-// with the order of work the longest window chain may change, and with it the guard.
-constexpr double kHeapFaces = 1u << 14;
 
 // Of several surfaces, as of one.
 constexpr std::uint64_t kMostHalfEdges = std::uint64_t{1} << 30;
@@ -37,14 +35,13 @@ double steps_over(double faces) {
 
 /// The stages of all: each has those of its own.
 Stages stages_of(PlacedSurfaces surfaces) {
-    Stages all = stages_of(*surfaces[0].mesh, surfaces[0].params);
     if (surfaces.size() == 1) {
-        return all;
+        return surfaces[0].stages;
     }
-    all = {};
+    Stages all;
     double pool = 0;
     for (const PlacedSurface& surface : surfaces) {
-        const Stages own = stages_of(*surface.mesh, surface.params);
+        const Stages& own = surface.stages;
         all.samples += own.samples;
         pool += own.pool();
         all.most_stages = std::max(all.most_stages, own.pool_stages());
@@ -59,8 +56,8 @@ Result<Domain> wrapped(Result<std::unique_ptr<const Domain::Impl>> made) {
                 : Result<Domain>(made.error());
 }
 
-PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params) {
-    return {&mesh, params, working_distance(mesh, params), 0, 0, 0};
+PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame) {
+    return {&mesh, params, frame, stages_in(frame, mesh, params), 0, 0, 0};
 }
 
 Error in_part(std::size_t part, Error error) {
@@ -78,23 +75,42 @@ Result<PlacedSurface> place(const SurfacePart& part) {
     }
     SampleParams params = part.params;
     params.min_distance /= part.scale;
-    if (auto checked = pool_size(*part.mesh, params); !checked) {
-        return checked.error();
+    const auto frame = frame_of(*part.mesh, params);
+    if (!frame) {
+        return frame.error();
     }
     if (params.throws != 0 || params.stop_count != 0) {
         return invalid("of several surfaces, darts and samples are not counted");
     }
-    return placed(*part.mesh, params);
+    return placed(*part.mesh, params, *frame);
 }
 
 } // namespace
 
 Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& params) noexcept {
     return guarded([&]() -> Result<Domain> {
-        if (auto checked = pool_size(mesh, params); !checked) {
+        const auto frame = frame_of(mesh, params);
+        if (!frame) {
+            return frame.error();
+        }
+        return wrapped(SurfaceDomain::make({placed(mesh, params, *frame)}));
+    });
+}
+
+Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& params,
+                               const JobFrame& frame) noexcept {
+    return guarded([&]() -> Result<Domain> {
+        if (auto checked = check_params(mesh, params); !checked) {
             return checked.error();
         }
-        return wrapped(SurfaceDomain::make({placed(mesh, params)}));
+        if (auto checked = check_frame(frame, mesh, params); !checked) {
+            return checked.error();
+        }
+        const PlacedSurface surface = placed(mesh, params, frame);
+        if (auto checked = check_candidates(mesh, params, surface.stages); !checked) {
+            return checked.error();
+        }
+        return wrapped(SurfaceDomain::make({surface}));
     });
 }
 
@@ -120,7 +136,7 @@ Result<Domain> Domain::surfaces(std::span<const SurfacePart> parts) noexcept {
             half_edges += part.mesh->half_edges().size();
             vertices += part.mesh->vertex_count();
             corners += part.mesh->corners().size();
-            candidates += stages_of(*part.mesh, next->params).candidates();
+            candidates += next->stages.candidates();
             if (half_edges > kMostHalfEdges || vertices > kMostVertices ||
                 candidates > kMostCandidates) {
                 return in_part(surfaces.size(),
@@ -150,8 +166,9 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
         const PreparedMesh& mesh = *surface.mesh;
         const SampleParams& params = surface.params;
         full_ += std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance));
-        first_error_ = std::max(first_error_, first_error(mesh, params));
-        error.widen(ErrorModel(mesh, params));
+        first_error_ = std::max(first_error_, surface.frame.error_bound);
+        error.widen(ErrorModel(surface.frame));
+        kernels.event_heap |= surface.frame.nearest_first;
         meshes.push_back(mesh.identity());
         first_faces.push_back(surface.first_face);
     }
@@ -160,7 +177,6 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
     kernels.adaptive = has_radii(surfaces_);
     kernels.several = surfaces_.size() > 1;
     kernels.many_rows = cells_ != 0;
-    kernels.event_heap = faces_per_disk() >= kHeapFaces;
     samples_per_measure = samples_per_area();
     // Several have neither, and seeds of their own.
     const SampleParams& params = surfaces_[0].params;
@@ -248,16 +264,16 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     job.limit = tolerances.limit;
     job.margin = tolerances.margin;
     job.slack = tolerances.slack;
-    job.has_keys = surfaces_[0].params.face_keys.empty() ? 0 : 1;
+    const auto has_keys = [](const PlacedSurface& s) { return !s.params.face_keys.empty(); };
+    job.has_keys = std::all_of(surfaces_.begin(), surfaces_.end(), has_keys) ? 1 : 0;
     job.first_key_row =
         static_cast<std::uint32_t>((fan_bytes(surfaces_) + radii_bytes(surfaces_)) / kRowBytes);
     job.all_single = cells_ == 0 ? 1 : 0;
     job.vertices = vertex_count(surfaces_);
     job.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
     for (const PlacedSurface& surface : surfaces_) {
-        const MeshStatistics& mesh = surface.mesh->statistics();
-        job.path_rules &= (mesh.nonmanifold_edges == 0 ? ~0u : ~gpu::kRuleSplitsOnce) &
-                          (mesh.diagonal > 0 ? ~0u : ~gpu::kRuleStraightFaces);
+        job.path_rules &= (surface.frame.splits_once ? ~0u : ~gpu::kRuleSplitsOnce) &
+                          (surface.frame.straight_faces ? ~0u : ~gpu::kRuleStraightFaces);
     }
 }
 

@@ -14,6 +14,7 @@ constexpr double kLeastSlack = 16; // In roundings.
 constexpr double kRadiiRounding = 0x1p-21;
 constexpr double kLeastChain = 64;
 constexpr double kMostChain = 1u << 16;
+constexpr double kLeastGuard = 0x1p-13;
 // Where radii vary: what is added to a small radius matters more.
 constexpr double kRadiiLeastGuard = 0x1p-15;
 
@@ -23,14 +24,6 @@ double power_of_two_from(double x, double least) {
         power *= 2;
     }
     return power;
-}
-
-/// A straight path crosses about the square root of the faces of a disk, which are 2 F / N.
-std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance) {
-    const double faces = 2.0 * mesh.face_count() /
-                         std::max(1.0, expected_count(mesh.statistics().area, min_distance));
-    return static_cast<std::uint32_t>(
-        std::clamp(8 + 4 * std::sqrt(faces), kLeastChain, kMostChain));
 }
 
 } // namespace
@@ -48,18 +41,9 @@ double working_distance(const PreparedMesh& mesh, const SampleParams& params) {
                                    : working_distance(mesh, params.min_distance);
 }
 
-ErrorModel::ErrorModel(const PreparedMesh& mesh, double min_distance)
-    : longest_(mesh.statistics().longest_edge / working_distance(mesh, min_distance)),
-      per_crossing_(kRounding) {}
-
-ErrorModel::ErrorModel(const PreparedMesh& mesh, const SampleParams& params)
-    : longest_(mesh.statistics().longest_edge / working_distance(mesh, params)),
-      per_crossing_(kRounding) {
-    if (params.radii != nullptr) {
-        further_ = kRadiiRounding;
-        least_guard_ = kRadiiLeastGuard;
-    }
-}
+ErrorModel::ErrorModel(const JobFrame& frame)
+    : longest_(frame.longest_edge), further_(frame.radii_vary ? kRadiiRounding : 0),
+      least_guard_(frame.radii_vary ? kRadiiLeastGuard : kLeastGuard), per_crossing_(kRounding) {}
 
 void ErrorModel::widen(const ErrorModel& other) noexcept {
     longest_ = std::max(longest_, other.longest_);
@@ -83,12 +67,12 @@ Tolerances ErrorModel::tolerances(double error_bound) const noexcept {
             error_bound};
 }
 
-double first_error(const PreparedMesh& mesh, double min_distance) {
-    return ErrorModel(mesh, min_distance).error_of(guessed_chain(mesh, min_distance));
-}
-
-double first_error(const PreparedMesh& mesh, const SampleParams& params) {
-    return ErrorModel(mesh, params).error_of(guessed_chain(mesh, params.min_distance));
+// A straight path crosses about the square root of the faces of a disk, which are 2 F / N.
+std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance) {
+    const double faces = 2.0 * mesh.face_count() /
+                         std::max(1.0, expected_count(mesh.statistics().area, min_distance));
+    return static_cast<std::uint32_t>(
+        std::clamp(8 + 4 * std::sqrt(faces), kLeastChain, kMostChain));
 }
 
 } // namespace geodisk

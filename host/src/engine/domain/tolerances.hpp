@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <geodisk/export.hpp>
+#include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 
@@ -35,9 +36,8 @@ class GEODISK_API ErrorModel {
   public:
     /// The same error whatever the chain: of straight lines.
     explicit ErrorModel(double error = 0) : further_(error) {}
-    ErrorModel(const PreparedMesh& mesh, double min_distance);
-    /// Where radii vary, with a little more for their rounding.
-    ErrorModel(const PreparedMesh& mesh, const SampleParams& params);
+    /// Makes the model of a surface. If radii vary, it allows for their rounding.
+    explicit ErrorModel(const JobFrame& frame);
 
     /// Makes it one that holds of another as well.
     void widen(const ErrorModel& other) noexcept;
@@ -57,14 +57,7 @@ class GEODISK_API ErrorModel {
     double per_crossing_ = 0;
 };
 
-/// The bound to begin with, for a guess of the longest chain by the faces that a disk covers.
-GEODISK_API double first_error(const PreparedMesh& mesh, double min_distance);
-GEODISK_API double first_error(const PreparedMesh& mesh, const SampleParams& params);
-
-/// Those of the bound to begin with.
-template <class Params>
-Tolerances first_tolerances(const PreparedMesh& mesh, const Params& params) {
-    return ErrorModel(mesh, params).tolerances(first_error(mesh, params));
-}
+/// Returns the longest chain to begin with. It follows from the number of faces that a disk covers.
+std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance);
 
 } // namespace geodisk

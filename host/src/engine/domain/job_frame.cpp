@@ -1,0 +1,45 @@
+#include "geodisk/job_frame.hpp"
+
+#include <algorithm>
+
+#include "engine/domain/stages.hpp"
+#include "engine/domain/tolerances.hpp"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+// Disks from so many faces on take vertex events by distance. The rule must not look at the device:
+// with the order of work the longest window chain may change, and with it the guard.
+constexpr double kHeapFaces = 1u << 14;
+
+} // namespace
+
+Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    return guarded([&]() -> Result<JobFrame> {
+        if (auto checked = check_params(mesh, params); !checked) {
+            return checked.error();
+        }
+        const Stages stages = stages_of(mesh, params);
+        if (auto checked = check_candidates(mesh, params, stages); !checked) {
+            return checked.error();
+        }
+        const MeshStatistics& statistics = mesh.statistics();
+        const double full = expected_count(effective_area(mesh, params), params.min_distance);
+        JobFrame frame;
+        frame.min_distance = params.min_distance;
+        frame.unit = working_distance(mesh, params);
+        frame.samples = stages.samples;
+        frame.pool_ratio = stages.ratio;
+        frame.longest_edge = statistics.longest_edge / frame.unit;
+        frame.radii_vary = params.radii != nullptr;
+        // No disk covers more than all faces.
+        frame.nearest_first = 2.0 * mesh.face_count() / std::max(2.0, full) >= kHeapFaces;
+        frame.splits_once = statistics.nonmanifold_edges == 0;
+        frame.straight_faces = statistics.diagonal > 0;
+        frame.error_bound = ErrorModel(frame).error_of(guessed_chain(mesh, params.min_distance));
+        return frame;
+    });
+}
+
+} // namespace geodisk
