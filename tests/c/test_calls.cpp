@@ -236,6 +236,38 @@ TEST_CASE("wrong arguments are told of") {
     Release()(static_cast<geodisk_count_search*>(nullptr));
 }
 
+TEST_CASE("a surface in a frame") {
+    const auto mesh = mesh_of(cube());
+    auto params = sized<geodisk_surface_params>();
+    params.min_distance = 0.3;
+    params.seed = 1;
+    geodisk_job_frame frame{};
+    REQUIRE(geodisk_job_frame_of(mesh.get(), &params, &frame, nullptr) == GEODISK_OK);
+    const auto framed = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+        return geodisk_domain_surface_in_frame(mesh.get(), &params, &frame, made, error);
+    });
+    CHECK(placed(sample(shared_sampler(), framed.get()).get()) ==
+          placed(sample(shared_sampler(), surface_of(mesh.get(), 0.3).get()).get()));
+
+    geodisk_domain* domain = nullptr;
+    const auto make = [&](geodisk_error* error) {
+        return geodisk_domain_surface_in_frame(mesh.get(), &params, &frame, &domain, error);
+    };
+    params.min_distance = 0.4;
+    check_wrong("for another job", make);
+    params.metric = GEODISK_EUCLIDEAN;
+    check_wrong("geodesic distances only", make);
+    params.metric = GEODISK_GEODESIC;
+    frame.bytes[20] ^= 1;
+    check_wrong("is damaged", make);
+    check_wrong("frame is NULL", [&](geodisk_error* error) {
+        return geodisk_job_frame_of(mesh.get(), &params, nullptr, error);
+    });
+    check_wrong("frame is NULL", [&](geodisk_error* error) {
+        return geodisk_domain_surface_in_frame(mesh.get(), &params, nullptr, &domain, error);
+    });
+}
+
 TEST_CASE("structs of older and later versions") {
     const auto mesh = mesh_of(cube());
     // An older one ends early; what it lacks is 0, whatever lies behind it.

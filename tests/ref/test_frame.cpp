@@ -198,6 +198,15 @@ TEST_CASE("frame: of the library and of the reference are equal") {
     }
 }
 
+TEST_CASE("frame: large disks take vertex events by distance") {
+    const PreparedMesh sphere = prepared(builtin("icosphere", 6));
+    for (const double count : {0.5, 5.0, 20.0}) {
+        const SampleParams params = params_for(sphere, count);
+        check_frames(sphere, params);
+        CHECK(ref::frame_of(sphere, params).nearest_first == (count < 10));
+    }
+}
+
 TEST_CASE("frame: of the library and of the reference are equal where radii vary") {
     for (const TestMesh& mesh : {builtin("icosphere", 3), builtin("torus-knot", 6)}) {
         for (const double least : {0.001, 0.3, 1.0}) {

@@ -327,6 +327,24 @@ GEODISK_C_API geodisk_status geodisk_domain_surface(const geodisk_mesh *mesh,
                                                     const geodisk_surface_params *params,
                                                     geodisk_domain **domain, geodisk_error *error);
 
+/* Everything global about a job on a surface, as bytes that are the same on every machine. */
+typedef struct geodisk_job_frame {
+    unsigned char bytes[64];
+} geodisk_job_frame;
+
+/* Derives the frame of a job, to sample parts of its mesh as the whole is sampled. */
+GEODISK_C_API geodisk_status geodisk_job_frame_of(const geodisk_mesh *mesh,
+                                                  const geodisk_surface_params *params,
+                                                  geodisk_job_frame *frame, geodisk_error *error);
+
+/* Makes the domain of one surface by geodesic distance, in the frame of a mesh that it is a part of.
+ * Give it the parameters of the whole, and the face keys that its faces have in the whole. */
+GEODISK_C_API geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh *mesh,
+                                                             const geodisk_surface_params *params,
+                                                             const geodisk_job_frame *frame,
+                                                             geodisk_domain **domain,
+                                                             geodisk_error *error);
+
 /* One of several surfaces that are sampled as one job: an instance of a mesh. */
 typedef struct geodisk_surface_part {
     size_t struct_size;

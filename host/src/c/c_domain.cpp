@@ -1,15 +1,19 @@
 #include "c/c_domain.hpp"
 
+#include <cstring>
 #include <span>
 #include <string>
 #include <utility>
 
 #include <geodisk/box.hpp>
+#include <geodisk/job_frame.hpp>
 
 #include "c/c_call.hpp"
 
 namespace geodisk::c {
 namespace {
+
+static_assert(sizeof(geodisk_job_frame) == kJobFrameBytes);
 
 /// Fills in a part. Its params refer to data of the part, so it must not move afterwards.
 Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& given, Part& part) {
@@ -120,6 +124,60 @@ geodisk_status geodisk_domain_surface(const geodisk_mesh* mesh,
         }
         state->min_distance = given->min_distance;
         return keep(make_surface(state->parts[0], given->metric), state, domain);
+    });
+}
+
+geodisk_status geodisk_job_frame_of(const geodisk_mesh* mesh, const geodisk_surface_params* params,
+                                    geodisk_job_frame* frame, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (frame == nullptr) {
+            return wrong("frame is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        Part part;
+        if (const auto filled = fill_part(mesh, *given, part); !filled) {
+            return filled.error();
+        }
+        const auto made = frame_of(part.mesh->prepared, part.params);
+        if (!made) {
+            return made.error();
+        }
+        const auto bytes = to_bytes(*made);
+        std::memcpy(frame->bytes, bytes.data(), bytes.size());
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh* mesh,
+                                               const geodisk_surface_params* params,
+                                               const geodisk_job_frame* frame,
+                                               geodisk_domain** domain, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (domain == nullptr || frame == nullptr) {
+            return wrong("domain or frame is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        if (given->metric != GEODISK_GEODESIC) {
+            return wrong("params->metric: frames are for geodesic distances only");
+        }
+        const auto of_whole = frame_from_bytes(std::as_bytes(std::span(frame->bytes)));
+        if (!of_whole) {
+            return of_whole.error();
+        }
+        const auto state = std::make_shared<DomainState>();
+        state->parts.resize(1);
+        Part& part = state->parts[0];
+        if (const auto filled = fill_part(mesh, *given, part); !filled) {
+            return filled.error();
+        }
+        state->min_distance = given->min_distance;
+        return keep(Domain::surface(part.mesh->prepared, part.params, *of_whole), state, domain);
     });
 }
 
