@@ -3,6 +3,8 @@
 #ifndef GEODISK_DART_ORDER_GLSL
 #define GEODISK_DART_ORDER_GLSL
 
+#include "job.glsl"
+
 // Returns true if one comes before another, given the four words of their samples.
 bool is_before(uvec4 a, uvec4 b) {
     bool by_weights = job.has_keys != 0u;
