@@ -1,5 +1,7 @@
 #include "bench/measure.hpp"
 
+#include <algorithm>
+#include <ctime>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,14 @@ ReferenceRun<Real> run_reference(const ref::Surface<Real>& surface, const Refere
     }
     run.seconds = watch.seconds();
     return run;
+}
+
+/// Processor time that `work` takes, in seconds.
+template <class Work>
+double cpu_seconds_of(const Work& work) {
+    const std::clock_t start = std::clock();
+    work();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 bool is_same(const Sample& sample, const ref::FacePoint<float>& point) {
@@ -117,21 +127,24 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count, std::ui
                 what);
 
     const ref::Surface<double> surface(mesh.prepared, params);
-    std::vector<double> upload, device, readback, reference;
+    std::vector<double> upload, device, readback, reference, device_cpu, reference_cpu;
     const tools::Stopwatch warm_up;
     for (int i = 0; i < repetition.warm_ups || warm_up.seconds() < kWarmUpSeconds; ++i) {
         run_device(runner, mesh.prepared, params, what);
     }
     for (int i = 0; i < repetition.repeats; ++i) {
-        set = run_device(runner, mesh.prepared, params, what);
+        device_cpu.push_back(
+            cpu_seconds_of([&] { set = run_device(runner, mesh.prepared, params, what); }));
         upload.push_back(set.report.seconds.upload);
         device.push_back(set.report.seconds.sample);
         readback.push_back(set.report.seconds.readback);
     }
     for (int i = -repetition.warm_ups; i < repetition.repeats; ++i) {
-        const double seconds = run_reference(surface, job).seconds;
+        double seconds = 0;
+        const double cpu = cpu_seconds_of([&] { seconds = run_reference(surface, job).seconds; });
         if (i >= 0) {
             reference.push_back(seconds);
+            reference_cpu.push_back(cpu);
         }
     }
     Measurement row;
@@ -145,6 +158,8 @@ Measurement measure(Runner& runner, const BenchMesh& mesh, double count, std::ui
     row.seconds.device = median(device);
     row.seconds.readback = median(readback);
     row.seconds.reference = median(reference);
+    row.cpu_seconds.device = *std::min_element(device_cpu.begin(), device_cpu.end());
+    row.cpu_seconds.reference = *std::min_element(reference_cpu.begin(), reference_cpu.end());
     row.run = set.report;
     return row;
 }

@@ -24,6 +24,11 @@ struct Measurement {
         double readback = 0;
         double reference = 0; ///< The same as `device`, sequentially in double precision.
     } seconds;
+    /// Least processor time of a run, over all cores. Other work on the machine hardly changes it.
+    struct {
+        double device = 0; ///< With upload and readback. Meaningful where the device is a CPU.
+        double reference = 0;
+    } cpu_seconds;
     RunReport run; ///< Of the last run; only its seconds vary.
 
     double per_sample(double value) const { return value / static_cast<double>(samples); }

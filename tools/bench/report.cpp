@@ -30,6 +30,8 @@ void visit_fields(const Measurement& row, const Visit& visit) {
     visit("readback_seconds", row.seconds.readback);
     visit("reference_seconds", row.seconds.reference);
     visit("device_per_reference", row.seconds.device / row.seconds.reference);
+    visit("device_cpu_seconds", row.cpu_seconds.device);
+    visit("reference_cpu_seconds", row.cpu_seconds.reference);
     visit("device_samples_per_second", static_cast<double>(row.samples) / row.seconds.device);
     visit("reference_samples_per_second", static_cast<double>(row.samples) / row.seconds.reference);
     for (std::size_t stage = 0; stage < kStages; ++stage) {
