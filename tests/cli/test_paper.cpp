@@ -82,12 +82,11 @@ TEST_CASE("fig11 varies radii along a mesh") {
 }
 
 TEST_CASE("fig12 shows boxes and a spectrum") {
-    const Outcome outcome = check_figure(
-        "fig12", {"fig12abc.png", "fig12d.png", "fig12e.svg", "fig12f.svg", "fig12-spectrum.csv"},
-        3,
-        {"fig12", "--square", "0.05", "--cube", "0.1", "--spectrum", "0.05", "--repeats", "2",
-         "--size", "64"});
-    CHECK(contains(outcome.out, "-3.01 dB"));
+    check_figure("fig12",
+                 {"fig12abc.png", "fig12d.png", "fig12e.svg", "fig12f.svg", "fig12-spectrum.csv"},
+                 3,
+                 {"fig12", "--square", "0.05", "--cube", "0.1", "--spectrum", "0.05", "--repeats",
+                  "2", "--size", "64"});
 }
 
 TEST_CASE("figures draws all of them" * doctest::test_suite("slow")) {
@@ -105,22 +104,18 @@ TEST_CASE("figures draws all of them" * doctest::test_suite("slow")) {
 }
 
 TEST_CASE("fig4 tells methods apart by their spectra") {
-    const Outcome outcome = check_figure("fig4", {"fig4-curves.csv", "fig4a.svg", "fig4b.svg"}, 6,
-                                         {"fig4", "builtin:icosphere:3", "-n", "60", "--harmonics",
-                                          "100", "--repeats", "3", "--deals", "40"});
-    for (const char* const text : {"phase groups (closed form)", "-1.76 dB", "detectable"}) {
-        CHECK(contains(outcome.out, text));
-    }
+    check_figure("fig4", {"fig4-curves.csv", "fig4a.svg", "fig4b.svg"}, 6,
+                 {"fig4", "builtin:icosphere:3", "-n", "60", "--harmonics", "100", "--repeats", "3",
+                  "--deals", "40"});
     const TemporaryFolder folder;
     check_fails(folder, 2, "--harmonics", {"fig4", "builtin:icosphere:1", "--harmonics", "1000"},
                 paper());
 }
 
 TEST_CASE("fig5 sweeps samples and candidates") {
-    const Outcome outcome = check_figure("fig5", {"fig5a.svg", "fig5b.svg", "fig5c.svg"}, 5,
-                                         {"fig5", "builtin:cube", "--counts", "20,60", "--ratios",
-                                          "2,5,10", "--ratio-count", "40", "--repeats", "1"});
-    CHECK(contains(outcome.out, "0.70 and 0.76"));
+    check_figure("fig5", {"fig5a.svg", "fig5b.svg", "fig5c.svg"}, 5,
+                 {"fig5", "builtin:cube", "--counts", "20,60", "--ratios", "2,5,10",
+                  "--ratio-count", "40", "--repeats", "1"});
 }
 
 TEST_CASE("fig7 shows what each metric loses, and that exact distances lose nothing") {
@@ -132,10 +127,9 @@ TEST_CASE("fig7 shows what each metric loses, and that exact distances lose noth
 }
 
 TEST_CASE("fig9 counts pairs that are too close") {
-    const Outcome outcome = check_figure(
+    check_figure(
         "fig9", {"fig9.svg", "fig9.png"}, 6,
         {"fig9", "builtin:plate:4", "--size", "64", "--counts", "40,200", "--repeats", "1"});
-    CHECK(contains(outcome.out, "closed form"));
 }
 
 TEST_CASE("fig8 has a row for each mesh") {
