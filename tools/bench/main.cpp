@@ -36,7 +36,7 @@ Examples:
   geodisk_bench builtin:cube -n 1e4,1e5 --repeats 9 --json bench.json
   geodisk_bench builtin:showpiece -n 1e4,1e5 --tune
   geodisk_bench builtin:torus-knot:6 -n 50 --copies 300
-  geodisk_bench builtin:showpiece --scaling --json scaling.json --plot scaling
+  geodisk_bench builtin:showpiece --scaling --json scaling.json
 
 Exit status:
   0    success

@@ -53,9 +53,6 @@ Options checked(const RawOptions& raw) {
         tools::fail_usage(
             "--tune measures nothing else and contradicts --scaling, --json and --csv");
     }
-    if (!options.scaling && !options.plot.empty()) {
-        tools::fail_usage("--plot needs --scaling");
-    }
     if (options.copies != 0 &&
         (options.tune || options.scaling || !options.json.empty() || !options.csv.empty())) {
         tools::fail_usage("--copies measures nothing else and contradicts --tune, --scaling, "
@@ -88,10 +85,6 @@ void add_scaling(Command app, RawOptions& raw) {
     raw.sweep_options.push_back(app.add_option("--scaling-faces", raw.scaling_faces, "F",
                                                "Maximum of triangles in the second sweep", group)
                                     .shows_default());
-    app.add_option("--plot", raw.options.plot, "PREFIX",
-                   "Draw the sweeps: PREFIX-time-n.svg,\n"
-                   "PREFIX-time-faces.svg and PREFIX-memory-n.svg",
-                   group);
 }
 
 Reads reads_from(const std::string& name) {

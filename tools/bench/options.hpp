@@ -28,7 +28,6 @@ struct Options {
     std::uint64_t most_faces = 0; ///< Where the sweep of triangles ends.
 
     std::string json, csv; ///< Files to write; empty for none.
-    std::string plot;      ///< Prefix of the plots' files; empty for none.
 };
 
 /// Adds all options to `app`, and `run` as what to do with them once parsed. Values out of range

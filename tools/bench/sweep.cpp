@@ -16,7 +16,8 @@ std::vector<Growth> fit_growth(Sweep sweep, const std::vector<Measurement>& rows
     std::vector<Point> reference;
     std::vector<Point> prepare;
     for (const Measurement& row : rows) {
-        const double x = swept_value(sweep, row);
+        const double x =
+            static_cast<double>(sweep == Sweep::triangles ? row.triangles : row.samples);
         device.push_back({x, row.seconds.device});
         reference.push_back({x, row.seconds.reference});
         prepare.push_back({x, row.seconds.prepare});
@@ -101,10 +102,6 @@ const char* to_string(Sweep sweep) {
     default:
         return "listed";
     }
-}
-
-double swept_value(Sweep sweep, const Measurement& row) {
-    return static_cast<double>(sweep == Sweep::triangles ? row.triangles : row.samples);
 }
 
 std::vector<NamedMesh> read_meshes(const std::vector<std::string>& paths) {

@@ -35,9 +35,6 @@ struct Series {
     std::vector<Growth> growth; ///< Empty unless a sweep.
 };
 
-/// What `sweep` varies, of one row.
-double swept_value(Sweep sweep, const Measurement& row);
-
 /// Called with each row as it is measured, and with each series once it is complete.
 struct Observer {
     std::function<void(const Measurement&)> on_row;
