@@ -52,14 +52,13 @@ void run_box(const BoxOptions& options) {
     const auto [set, done] = sample_box(job, device, progress);
     const std::vector<SampleRow> rows = to_rows(set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
-    if (job.wanted_count == 0) {
-        for (const MeshWarning& warning : set_warnings({.samples = rows.size(),
-                                          .min_distance = job.box.min_distance,
-                                          .stop_count = job.method.stop_count,
-                                          .has_throws = job.method.throws > 0,
-                                          .domain = "box"})) {
-            print_warning(warning.message);
-        }
+    for (const MeshWarning& warning : set_warnings({.samples = rows.size(),
+                                      .min_distance = job.box.min_distance,
+                                      .wanted_count = job.wanted_count,
+                                      .stop_count = job.method.stop_count,
+                                      .has_throws = job.method.throws > 0,
+                                      .domain = "box"})) {
+        print_warning(warning.message);
     }
     if (const auto note = rounding_note(job.out.target(), rows, dimension, job.box.min_distance)) {
         print_warning(job.out.output + ": " + *note);
