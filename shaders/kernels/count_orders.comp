@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Counts the candidates before push.end_order, for a number of darts. Runs while none is active.
-// kSelectBlock candidates per work group.
+// Counts the candidates up to control.counted_order, for an exact number of darts. Runs while none is
+// active. kSelectBlock candidates per work group.
 // reads: orders   writes: control
 
 #include "../lib/prelude.glsl"
@@ -21,9 +21,10 @@ void main() {
     barrier();
     uint begin = own_group() * kSelectBlock;
     uint end = min(begin + kSelectBlock, min(control.drawn, job.capacity));
+    uint highest = control.counted_order;
     uint below = 0u;
     for (uint place = begin + gl_LocalInvocationID.x; place < end; place += kWideLanes) {
-        below += word_at(orders, place) < push.end_order ? 1u : 0u;
+        below += word_at(orders, place) <= highest ? 1u : 0u;
     }
     atomicAdd(group_below, below);
     barrier();

@@ -90,11 +90,19 @@ void meet(uvec4 own, uint place, bool is_rejected) {
 
 void end_active(uint place) { atomicAnd(orders[active_word(place)], ~state_bit(place)); }
 
+// Of samples alone: which other candidates get a disk depends on the slots, and the guard must not.
+void note_chain(uint slot) {
+    if (slots[slot].longest_chain > control.longest_chain) {
+        atomicMax(control.longest_chain, slots[slot].longest_chain);
+    }
+}
+
 void finish(uint slot, bool is_rejected) {
     uint place = slots[slot].place;
     slots[slot].phase = kSlotDecided;
     ++decided;
     if (place == kNoPlace) {
+        note_chain(slot);
         return;
     }
     end_undecided(place);
@@ -103,11 +111,7 @@ void finish(uint slot, bool is_rejected) {
     if (!is_rejected) {
         // A batch begins only if there is room.
         accepted[atomicAdd(control.accepted, 1u)] = sample_of(slot);
-        // Only for accepted candidates: which others get a disk depends on the slots, and the guard must
-        // not.
-        if (slots[slot].longest_chain > control.longest_chain) {
-            atomicMax(control.longest_chain, slots[slot].longest_chain);
-        }
+        note_chain(slot);
     }
 }
 

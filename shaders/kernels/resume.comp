@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Prepares select again after rewind. One invocation.
+// Prepares select again after rewind, or where push.end_order has changed. Leaves a batch in progress
+// and an overflow alone. One invocation.
 // writes: control   spec: slot local size
 
 #include "../lib/prelude.glsl"
@@ -12,12 +13,13 @@ GEODISK_CONTROL;
 #include "../lib/schedule.glsl"
 
 void main() {
-    control.undecided = 0u;
-    control.overflow = 0u;
+    if (control.slots_used != 0u || control.overflow != 0u) {
+        return;
+    }
     if (control.mode == kSelectPool) {
         control.list_end = 0u; // The list may be incomplete.
     }
-    if (control.done == 0u) {
-        prepare_select();
-    }
+    control.done = 0u;
+    set_out_select(0u);
+    go_on();
 }

@@ -177,7 +177,7 @@ void go_on_selected() {
         }
         limit_span(control.list_left <= control.first_order, control.list_end);
         control.list_end = min(control.list_end, control.list_left);
-        prepare_select();
+        go_on(); // push.end_order may be lower by now.
     } else {
         begin_batch();
     }

@@ -122,7 +122,8 @@ struct ControlRec {
     uint overflow;         // kOverflow* bits
     uint endless_face;     // with kOverflowEndless: 1 plus a face of a candidate whose disk it is
     uint done;             // 1 once no idle candidate is left, or stop_count accepted
-    uint below;            // candidates below an order, by count_orders
+    uint counted_order;    // highest order that count_orders counts
+    uint below;            // candidates up to that order
     uint first_open;       // while samples are sorted: the lowest undecided order
     uint ready;            // samples that are in order and final, of all chunks
     uint accepted;         // samples of all chunks
@@ -159,7 +160,7 @@ static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 176 && offsetof(LaneRec, held_b0) == 172);
-static_assert(sizeof(ControlRec) == 224 && offsetof(ControlRec, lane_trips_high) == 220);
+static_assert(sizeof(ControlRec) == 228 && offsetof(ControlRec, lane_trips_high) == 224);
 } // namespace geodisk::gpu
 #endif
 

@@ -57,6 +57,7 @@ CHECK_FIELD(geodisk_job_options, regrowths, 20);
 CHECK_FIELD(geodisk_buffer_need, read_bytes, 24);
 CHECK_FIELD(geodisk_buffer_range, bytes, 16);
 CHECK_FIELD(geodisk_advice, ready, 12);
+CHECK_FIELD(geodisk_advice, candidates, 16);
 CHECK_FIELD(geodisk_frame_options, frames, 16);
 CHECK_FIELD(geodisk_frame_options, reader_access, 36);
 CHECK_FIELD(geodisk_frame_samples, placed_offset, 16);

@@ -18,7 +18,7 @@
 namespace geodisk::test {
 namespace {
 
-geodisk_buffer_range given(const BufferRange& range) {
+geodisk_buffer_range given_range(const BufferRange& range) {
     return {number_of(range.buffer), range.offset, range.size};
 }
 
@@ -34,6 +34,7 @@ class Recording {
 
     geodisk_job* job() const { return job_.get(); }
     Workshop& workshop() { return workshop_; }
+    std::uint64_t candidates() const { return candidates_; }
     std::uint32_t times(geodisk_next next) const {
         return static_cast<std::uint32_t>(std::count(seen_.begin(), seen_.end(), next));
     }
@@ -56,8 +57,8 @@ class Recording {
         }
     }
 
-    /// Frames until the samples are there; as many as are returned.
-    std::uint32_t run(std::size_t lag = 0) {
+    /// Frames until the samples are there, or another step comes; as many as are returned.
+    std::uint32_t run(std::size_t lag = 0, geodisk_next until = GEODISK_COMPLETE) {
         std::vector<std::vector<std::byte>> reports(lag + 1,
                                                     std::vector<std::byte>(control_bytes()));
         for (std::size_t frame = 0; frame < 10'000; ++frame) {
@@ -68,7 +69,8 @@ class Recording {
             INFO(error.message);
             REQUIRE(status == GEODISK_OK);
             seen_.push_back(advice.next);
-            if (advice.next == GEODISK_COMPLETE) {
+            if (advice.next == until) {
+                candidates_ = advice.candidates;
                 return advice.ready;
             }
             if (advice.next == GEODISK_LARGER_POOL || advice.next == GEODISK_LARGER_SAMPLES) {
@@ -155,7 +157,7 @@ class Recording {
 
     void bind() {
         std::vector<geodisk_buffer_range> ranges(GEODISK_BUFFERS);
-        std::transform(workspace_.begin(), workspace_.end(), ranges.begin(), given);
+        std::transform(workspace_.begin(), workspace_.end(), ranges.begin(), given_range);
         auto error = sized<geodisk_error>();
         const geodisk_status status = geodisk_job_bind(job(), ranges.data(), &error);
         INFO(error.message);
@@ -197,6 +199,7 @@ class Recording {
     Workspace workspace_;
     std::vector<std::byte> control_;
     std::vector<geodisk_next> seen_;
+    std::uint64_t candidates_ = 0;
 };
 
 geodisk_job_options small_options() {
@@ -328,6 +331,88 @@ TEST_CASE("a job in a box leaves its order on the device") {
     CHECK(std::ranges::is_sorted(records, {}, &geodisk_sample_record::order));
 }
 
+TEST_CASE("a job throws an exact number of darts, and stops at orders") {
+    const auto mesh = mesh_of(knot());
+    auto params = sized<geodisk_surface_params>();
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 200, &params.min_distance, nullptr) ==
+            GEODISK_OK);
+    params.throws = 3'000;
+    const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+    Recording recording(domain.get(), small_options());
+    recording.bind_all();
+    const Placed set = wanted(domain.get());
+    CHECK(recording.placed(recording.run()) == set);
+    CHECK(recording.times(GEODISK_COUNT) > 0);
+    CHECK(recording.candidates() == 3'000);
+
+    REQUIRE(geodisk_job_set_seed(recording.job(), params.seed, nullptr) == GEODISK_OK);
+    std::uint32_t before = 0;
+    for (const std::uint64_t order : {std::uint64_t{1} << 24, std::uint64_t{3} << 27}) {
+        REQUIRE(geodisk_job_set_end_order(recording.job(), order, nullptr) == GEODISK_OK);
+        const std::uint32_t ready = recording.run(0, GEODISK_PAUSED);
+        CHECK(ready > before);
+        CHECK(ready < set.faces.size());
+        before = ready;
+    }
+    REQUIRE(geodisk_job_set_end_order(recording.job(), GEODISK_ALL_ORDERS, nullptr) == GEODISK_OK);
+    CHECK(recording.placed(recording.run()) == set);
+    CHECK(geodisk_job_set_end_order(nullptr, 0, nullptr) == GEODISK_INVALID_ARGUMENT);
+}
+
+TEST_CASE("rounds of a job are recorded in parts") {
+    const auto domain = knot_domain();
+    Recording recording(domain.get(), small_options());
+    recording.bind_all();
+    recording.record(GEODISK_BEGIN, 0);
+    for (int round = 0; round < 150; ++round) {
+        for (const geodisk_next part : {GEODISK_SELECT, GEODISK_DETECT, GEODISK_RESOLVE}) {
+            recording.record(part, 0);
+        }
+    }
+    CHECK(recording.placed(recording.run()) == wanted(domain.get()));
+    CHECK(recording.times(GEODISK_GO_ON) <= 1); // Before the first record is there.
+}
+
+TEST_CASE("a job begins with samples that are given") {
+    const auto domain = knot_domain();
+    Recording recording(domain.get(), small_options());
+    recording.bind_all();
+    const Placed set = wanted(domain.get());
+    const std::uint32_t count = recording.run();
+    auto given =
+        recording.read<geodisk_sample_record>(recording.buffer(GEODISK_SAMPLES_BUFFER), count / 2);
+    const auto set_settled = [&](std::size_t size) {
+        REQUIRE(geodisk_job_set_settled(recording.job(), given.data(), size, nullptr) ==
+                GEODISK_OK);
+        CHECK(recording.need(GEODISK_SAMPLES_BUFFER).upload_bytes ==
+              size * sizeof(geodisk_sample_record));
+        recording.workshop().start_over();
+    };
+    set_settled(given.size());
+    recording.bind_all();
+    CHECK(recording.placed(recording.run()) == set);
+    set_settled(0);
+    recording.bind_all();
+    CHECK(recording.placed(recording.run()) == set);
+
+    CHECK(geodisk_job_set_settled(recording.job(), nullptr, 1, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    given[1].face = 1'000'000;
+    set_settled(2);
+    std::vector<geodisk_buffer_range> ranges(GEODISK_BUFFERS);
+    WorkspaceNeeds needs;
+    for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
+        needs.bytes[i] = recording.need(i).bytes;
+    }
+    const Workspace workspace = recording.workshop().cut(needs);
+    std::transform(workspace.begin(), workspace.end(), ranges.begin(), given_range);
+    auto error = sized<geodisk_error>();
+    CHECK(geodisk_job_bind(recording.job(), ranges.data(), &error) == GEODISK_INVALID_ARGUMENT);
+    CHECK(std::string(error.message).find("settled sample 1 is in face") != std::string::npos);
+}
+
 TEST_CASE("buffers of a job that become too small are replaced") {
     const auto domain = knot_domain();
     const Placed set = wanted(domain.get());
@@ -384,10 +469,10 @@ TEST_CASE("samples of a job are placed on the device, where they are drawn") {
     recording.write(drawn[1], knot().triangles.data(), needs.bytes[1]);
 
     auto params = sized<geodisk_placement_params>();
-    params.vertices = given(drawn[0]);
-    params.indices = given(drawn[1]);
-    params.placed = given(drawn[2]);
-    params.arguments = given(drawn[3]);
+    params.vertices = given_range(drawn[0]);
+    params.indices = given_range(drawn[1]);
+    params.placed = given_range(drawn[2]);
+    params.arguments = given_range(drawn[3]);
     params.vertices_each = 4;
     const auto placement = owned<geodisk_placement>([&](auto** made, geodisk_error* error) {
         return geodisk_placement_create(recording.job(), &params, made, error);

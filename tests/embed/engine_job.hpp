@@ -97,6 +97,9 @@ class EngineJob {
                 sampler_.record_rounds(commands, *job_, 3);
             }
             return;
+        case Next::count:
+            sampler_.record_count(commands, *job_, 3);
+            return;
         case Next::finish:
             sampler_.record_finish(commands, *job_, 3);
             return;

@@ -29,25 +29,7 @@ std::vector<Next> follow(DeviceRun& run, Advice& last) {
         if (steps.empty() || steps.back() != last.next) {
             steps.push_back(last.next);
         }
-        switch (last.next) {
-        case Next::begin:
-            run.begin();
-            break;
-        case Next::go_on:
-            run.rounds(1);
-            break;
-        case Next::finish:
-            run.finish();
-            break;
-        case Next::larger_pool:
-            run.set_plan(last.plan);
-            run.rewind();
-            break;
-        case Next::larger_samples:
-            run.enlarge_samples(last.sample_capacity);
-            run.rewind();
-            break;
-        default:
+        if (!run.follow(last)) {
             return steps;
         }
     }
@@ -80,7 +62,7 @@ TEST_SUITE("advance") {
         CHECK(ready_points(run) == float_set(knot.mesh, knot.params, run.plan().error_bound));
         // Nothing more comes, and the run may begin anew.
         CHECK(expect(run.job().advance(run.control())).next == Next::complete);
-        run.set_stages(0, 1);
+        run.job().set_seed(knot.params.seed);
         CHECK(follow(run, last) == steps);
     }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "engine/job/plan.hpp"
 #include "engine_job.hpp"
 
 namespace geodisk::test {
@@ -218,14 +219,15 @@ TEST_SUITE("workspaces") {
             RunPlan grown = plan;
             std::uint64_t samples = plan.sample_capacity;
             for (std::uint32_t i = 0; i < regrowths; ++i) {
-                grown = expect(sampler.grow_plan(grown, kAll, needs.bytes[kPool]));
+                grown = expect(grown_plan(grown, kAll, needs.bytes[kPool], sampler.report()));
                 samples += samples / 2;
             }
             CHECK(grown.slots == plan.slots);
             CHECK(grown.lanes == plan.lanes);
             CHECK(grown.pool_bytes() == needs.bytes[kPool]);
             CHECK(needs.bytes[kSamples] == samples * sizeof(gpu::SampleRec));
-            const RunPlan more = expect(sampler.grow_plan(grown, kAll, needs.bytes[kPool]));
+            const RunPlan more =
+                expect(grown_plan(grown, kAll, needs.bytes[kPool], sampler.report()));
             CHECK(more.lanes < plan.lanes);
             for (std::size_t i = 0; i < kBufferRoles; ++i) {
                 CHECK(needs.bytes[i] >= once.bytes[i]);

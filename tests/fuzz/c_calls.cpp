@@ -322,6 +322,9 @@ class Program {
         geodisk_job_advance(job, control.data(), bytes_.next<std::uint16_t>() % control.size(),
                             &advice, e);
         geodisk_job_set_seed(job, bytes_.next<std::uint64_t>(), e);
+        geodisk_job_set_end_order(job, bytes_.next<std::uint64_t>(), e);
+        const geodisk_sample_record given[] = {bytes_.next<geodisk_sample_record>()};
+        geodisk_job_set_settled(job, given, bytes_.below(2), e);
         geodisk_job_renew(job, domains_.any(bytes_), e);
         auto params = bytes_.any_struct<geodisk_placement_params>();
         geodisk_placement* placement = nullptr;

@@ -79,10 +79,55 @@ void DeviceRun::rounds(std::uint32_t count) {
     submit([&](VkCommandBuffer commands) { sampler_.record_rounds(commands, *job_, count); });
 }
 
-void DeviceRun::grow(std::uint32_t overflow) {
-    const std::uint64_t pool = buffers_[static_cast<std::size_t>(BufferRole::pool)].size();
-    expect(job_->set_plan(expect(sampler_.grow_plan(job_->plan(), overflow, pool))));
-    rewind();
+bool DeviceRun::count(std::uint32_t dispatches) {
+    bool is_last = false;
+    submit([&](VkCommandBuffer commands) {
+        is_last = sampler_.record_count(commands, *job_, dispatches);
+    });
+    return is_last;
+}
+
+void DeviceRun::grow() {
+    const Advice advice = expect(job_->advance(control()));
+    REQUIRE(advice.next == Next::larger_pool);
+    follow(advice);
+}
+
+bool DeviceRun::follow(const Advice& advice) {
+    switch (advice.next) {
+    case Next::begin:
+        begin();
+        return true;
+    case Next::count:
+        count();
+        return true;
+    case Next::go_on:
+        rounds(1);
+        return true;
+    case Next::finish:
+        finish();
+        return true;
+    case Next::larger_pool:
+        set_plan(advice.plan);
+        rewind();
+        return true;
+    case Next::larger_samples:
+        enlarge_samples(advice.sample_capacity);
+        rewind();
+        return true;
+    default:
+        return false;
+    }
+}
+
+Advice DeviceRun::follow_all() {
+    for (std::uint32_t i = 0; i < 100'000; ++i) {
+        const Advice advice = expect(job_->advance(control()));
+        if (!follow(advice)) {
+            return advice;
+        }
+    }
+    throw std::runtime_error("the advice leads nowhere");
 }
 
 void DeviceRun::rewind() {

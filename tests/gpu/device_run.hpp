@@ -2,10 +2,12 @@
 // that an embedding engine makes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -43,19 +45,27 @@ class DeviceRun {
               const Context& context = shared_context())
         : DeviceRun(expect(Domain::box(box)), plan, options, context) {}
 
+    /// Begins any stages, which Job::advance() does in their order.
     void set_stages(std::uint32_t first, std::uint32_t count) {
-        expect(job_->set_stages(first, count));
+        Job::Impl::of(*job_).begin_stages(first, count);
     }
     /// Within the pool there is.
     void set_plan(const RunPlan& plan) { expect(job_->set_plan(plan)); }
     /// At most so many dispatches; whether those were the last.
     bool begin(std::uint32_t dispatches = kAllDispatches);
     bool finish(std::uint32_t dispatches = kAllDispatches);
+    bool count(std::uint32_t dispatches = kAllDispatches);
     void rounds(std::uint32_t count);
-    void grow(std::uint32_t overflow);
+    /// Goes on after an overflow, within the pool there is.
+    void grow();
     /// Room for so many, and what there is copied.
     void enlarge_samples(std::uint32_t capacity);
     void rewind();
+    /// Does what comes next, a round at a time; false if nothing does by itself: the run is
+    /// complete, paused, or to start over.
+    bool follow(const Advice& advice);
+    /// Follows the job's advice for as long. Returns the last.
+    Advice follow_all();
 
     gpu::ControlRec control() const { return read<gpu::ControlRec>(BufferRole::control, 1)[0]; }
     const RunPlan& plan() const { return job_->plan(); }
@@ -74,6 +84,14 @@ class DeviceRun {
                         count * sizeof(Record));
         }
         return records;
+    }
+
+    /// Writes to the start of a buffer.
+    template <class Record>
+    void write(BufferRole role, std::span<const Record> records) {
+        const auto bytes = std::as_bytes(records);
+        std::copy(bytes.begin(), bytes.end(),
+                  buffers_[static_cast<std::size_t>(role)].bytes().begin());
     }
 
     /// Dispatches recorded so far.

@@ -1,6 +1,7 @@
 #include "sets.hpp"
 
 #include "device_run.hpp"
+#include "kernels/detect.hpp"
 #include "kernels/pool.hpp"
 #include "lib/frame.hpp"
 #include "throw_darts.hpp"
@@ -33,6 +34,36 @@ Points float_set(const PreparedMesh& mesh, const SampleParams& params, double er
 
 Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
     return sequential_set<double>(mesh, params, error_bound);
+}
+
+Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                   const Points& settled) {
+    expect(pool_size(mesh, params));
+    const ref::Surface<float> surface(mesh, params);
+    const ref::Pool<float> pool = ref::draw_pool(surface, params);
+    const auto tolerances = ref::frame_of(mesh, params).tolerances(error_bound);
+    ref::Detector<float> detector(surface, pool.bins, tolerances, tolerances.limit);
+    std::vector<bool> decided(pool.size());
+    const auto reject = [&](const ref::FacePoint<float>& source) {
+        detector.run(
+            source, [&](std::uint32_t q) { return !decided[q]; },
+            [&](std::uint32_t q, float) { decided[q] = true; });
+    };
+    Points points = settled;
+    for (const SamplePoint& point : settled) {
+        reject({point.face, point.weight1, point.weight2});
+    }
+    const std::size_t most = params.stop_count != 0 ? params.stop_count : kMostCandidates;
+    for (std::uint32_t rank = 0; rank < pool.size() && points.size() < most; ++rank) {
+        const std::uint32_t place = pool.places[rank];
+        if (!decided[place]) {
+            decided[place] = true;
+            const ref::FacePoint<float> point = pool.candidate(rank);
+            points.push_back({point.face, point.weight1, point.weight2});
+            reject(point);
+        }
+    }
+    return points;
 }
 
 Points points_of(const SampleSet& set) {

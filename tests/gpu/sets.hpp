@@ -23,7 +23,10 @@ using Points = std::vector<SamplePoint>;
 
 /// What sequential dart throwing accepts, as the float twin decides.
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
-/// The same in double precision.
+/// What it accepts behind samples that are settled and reject first; they come first.
+Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                   const Points& settled);
+/// As float_set, in double precision.
 Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 
 Points points_of(const SampleSet& set);

@@ -88,7 +88,7 @@ TEST_SUITE("limits") {
             while (run.control().done == 0) {
                 run.rounds(1);
                 if (run.control().overflow != 0) {
-                    run.grow(run.control().overflow);
+                    run.grow();
                 }
                 run.finish();
                 const gpu::ControlRec control = run.control();

@@ -608,13 +608,21 @@ enum {
     GEODISK_LARGER_POOL = 3,    /* Bind a larger buffer, then record this step. */
     GEODISK_LARGER_SAMPLES = 4, /* Bind larger buffers, then record this step. */
     GEODISK_START_OVER = 5,     /* Bind and upload all buffers again, then record GEODISK_BEGIN. */
-    GEODISK_COMPLETE = 6        /* All samples are complete. */
+    GEODISK_COMPLETE = 6,       /* All samples are complete. */
+    GEODISK_COUNT = 7,          /* Record it: counts candidates for an exact number of darts. */
+    GEODISK_PAUSED = 8,         /* All candidates below geodisk_job_set_end_order are decided. */
+
+    /* Parts of GEODISK_GO_ON to record one by one, for your own commands between them. Always record
+     * all three, in this order. They are never the next step. */
+    GEODISK_SELECT = 16,
+    GEODISK_DETECT = 17,
+    GEODISK_RESOLVE = 18
 };
 
 /* Records a step to a VkCommandBuffer, outside a render pass. `amount` is the number of rounds for
- * GEODISK_GO_ON, 0 for one; and the maximum of dispatches for GEODISK_BEGIN and GEODISK_FINISH, 0
- * for no limit. Writes to `is_last`, which may be NULL, whether the step is recorded completely. If
- * not, the next call records the rest first.
+ * GEODISK_GO_ON, 0 for one; and the maximum of dispatches for GEODISK_BEGIN, GEODISK_COUNT and
+ * GEODISK_FINISH, 0 for no limit. Writes to `is_last`, which may be NULL, whether the step is recorded
+ * completely. If not, the next call records the rest first.
  *
  * Rounds without work are empty. GEODISK_FINISH may be recorded at any time. The samples decided so
  * far are the first ones of the set, and stay where they are. */
@@ -627,6 +635,9 @@ typedef struct geodisk_advice {
     size_t struct_size;
     geodisk_next next;
     uint32_t ready; /* Number of samples in order and final, as far as the host knows. */
+    /* With GEODISK_COMPLETE, number of candidates up to the last one that takes part. 0 for a job
+     * that stopped at a count: record GEODISK_COUNT, and the next copy gives the number. */
+    uint64_t candidates;
 } geodisk_advice;
 
 /* Writes the next step of the job to `advice`. `control` is a copy of the first `bytes` of
@@ -639,6 +650,27 @@ GEODISK_C_API geodisk_status geodisk_job_advance(geodisk_job *job, const void *c
 /* Restarts with another seed; record GEODISK_BEGIN next. Uploaded data stays. */
 GEODISK_C_API geodisk_status geodisk_job_set_seed(geodisk_job *job, uint64_t seed,
                                                   geodisk_error *error);
+
+/* No limit for geodisk_job_set_end_order. */
+#define GEODISK_ALL_ORDERS 0xffffffffffffffffu
+
+/* Decides only candidates of lower order: their stage times 2^28, plus their priority. Then
+ * GEODISK_PAUSED is the next step until another order is set. Any sequence of orders gives the same
+ * samples. Applies until another seed or domain is set. */
+GEODISK_C_API geodisk_status geodisk_job_set_end_order(geodisk_job *job, uint64_t order,
+                                                       geodisk_error *error);
+
+struct geodisk_sample_record;
+
+/* Gives the job `count` settled samples, which it copies. They precede all candidates, reject those
+ * closer than the minimum distance, and are the first samples of the result, in this order.
+ * Distances among them are not checked. In a box they must be samples of the same box and seed.
+ * GEODISK_START_OVER comes next; buffers that are large enough may be bound again. The samples are
+ * then part of the uploads, for GEODISK_SAMPLES_BUFFER. geodisk_job_bind fails for faces or weights
+ * out of range. Applies to all seeds, until geodisk_job_renew. */
+GEODISK_C_API geodisk_status geodisk_job_set_settled(geodisk_job *job,
+                                                     const struct geodisk_sample_record *samples,
+                                                     size_t count, geodisk_error *error);
 
 /* Makes this a job of another domain, with the same options. GEODISK_START_OVER comes next; buffers
  * that are large enough may be bound again. Allocates nothing for a domain of the same kind. An

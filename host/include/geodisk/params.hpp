@@ -48,8 +48,9 @@ struct SampleParams {
     std::span<const std::uint32_t> face_keys{};
 };
 
-/// Stages in which the candidates of a job come. Each is a Poisson process of its own, drawn face
-/// by face. All candidates of a stage precede those of the next (host/docs/determinism.md).
+/// Source of a job's candidates: a pool, or an exact number of darts. They come in stages. Each is
+/// a Poisson process of its own, drawn face by face. All candidates of a stage precede those of the
+/// next (host/docs/determinism.md).
 struct Stages {
     double samples = 0;       ///< Expected samples of the job.
     double ratio = 0;         ///< Candidates of a pool per expected sample.
@@ -72,14 +73,27 @@ struct Stages {
     /// stage expects fewer than 64 in all.
     GEODISK_API double per_sample(std::uint32_t stage) const noexcept;
 
+    /// Returns true if just `throws` candidates take part, however many the stages have.
+    bool is_counted() const noexcept { return throws != 0; }
+    /// Returns how many stages may be drawn at once: all of a pool, one of darts.
+    std::uint32_t most_at_once() const noexcept { return is_counted() ? 1 : pool_stages(); }
+    /// Returns how many stages are left after the first `done` with `drawn` candidates. For darts
+    /// 1, and 0 once there are enough.
+    GEODISK_API std::uint32_t left(std::uint32_t done, std::uint64_t drawn) const noexcept;
+    /// Returns the maximum of candidates that still take part after the first `drawn`; for a pool
+    /// no bound.
+    GEODISK_API std::uint64_t still_wanted(std::uint64_t drawn) const noexcept;
+
     /// Returns the candidates that a stage expects; for several surfaces an upper bound.
     double expected(std::uint32_t stage) const noexcept {
         return most_expected > 0 ? most_expected : per_sample(stage) * samples;
     }
+    /// Returns the maximum of candidates that so many stages expect, drawn at once.
+    GEODISK_API double expected_at_once(std::uint32_t stages) const noexcept;
     /// Returns the candidates that a pool expects.
     double pool() const noexcept { return ratio * samples; }
     /// Returns the candidates of the job: its darts, or else its pool.
-    double candidates() const noexcept { return throws != 0 ? throws : pool(); }
+    double candidates() const noexcept { return is_counted() ? throws : pool(); }
 };
 
 /// Returns the area that a run fills: the mesh's, or RadiusField::effective_area() if radii vary.

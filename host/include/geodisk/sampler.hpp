@@ -223,6 +223,9 @@ enum class Next : std::uint32_t {
     start_over,     ///< A new job with Advice::plan: window chains were longer than its guard
                     ///< provides for.
     complete,       ///< The samples are complete, Advice::ready of them.
+    count,          ///< record_count(), or the rest of it: an exact number of darts is thrown.
+    paused,         ///< All candidates below Job::set_end_order() are decided, and the first
+                    ///< Advice::ready samples are theirs. Set another order to go on.
 };
 
 /// Returns the name of a step as spelled above.
@@ -237,11 +240,19 @@ struct Advice {
     /// Number of samples that are in order and final, as far as the host knows. Grows until the
     /// next seed or domain.
     std::uint32_t ready = 0;
+    /// With Next::complete, number of candidates up to the last one that takes part. 0 for a run
+    /// that stopped at SampleParams::stop_count: record_count() counts them, and the next copy of
+    /// the control record gives the number.
+    std::uint64_t candidates = 0;
 };
+
+/// Job::set_end_order() without an end.
+inline constexpr std::uint64_t kAllOrders = ~std::uint64_t{0};
 
 namespace gpu {
 struct ControlRec;
-}
+struct SampleRec;
+} // namespace gpu
 
 class Job;
 
@@ -273,22 +284,10 @@ class GEODISK_API Sampler {
     /// Errors: `workspace_too_small` if not even one lane fits.
     Result<RunPlan> plan_run(const Domain& domain, std::uint64_t pool_bytes) const noexcept;
 
-    /// Returns the plan to use after an overflow: the capacities named by `overflow`
-    /// (gpu::kOverflow* bits) are doubled, and slots and lanes reduced if the pool would exceed
-    /// `pool_bytes`. Errors: `workspace_too_small`, naming the bytes of one lane and one list of
-    /// conflicts.
-    Result<RunPlan> grow_plan(const RunPlan& plan, std::uint32_t overflow,
-                              std::uint64_t pool_bytes) const noexcept;
-
-    /// Returns the plan to start over with: a larger `error_bound` if ControlRec::longest_chain was
-    /// too long for the plan's, else the same plan.
-    RunPlan widen_plan(const Domain& domain, RunPlan plan,
-                       std::uint32_t longest_chain) const noexcept;
-
     /// Returns the buffer sizes of the plan, large enough for `regrowths` more: each doubles the
     /// capacities of disks and adds half as many samples. Errors: `job_too_large` if a buffer
-    /// exceeds a binding of the device, naming buffer, candidates and bytes; those of grow_plan()
-    /// for regrowths.
+    /// exceeds a binding of the device, naming buffer, candidates and bytes; `workspace_too_small`
+    /// if a regrowth does.
     Result<WorkspaceNeeds> workspace_needs(const Domain& domain, const RunPlan& plan,
                                            std::uint32_t regrowths = 0) const noexcept;
 
@@ -325,17 +324,28 @@ class GEODISK_API Sampler {
     /// put in order stay where they are; later calls append.
     ///
     /// No dispatch grows with the mesh or the candidates: RunPlan::dispatch_items limits dispatches
-    /// over these, RunPlan::step_budget and lanes those of disks. record_begin() and
-    /// record_finish() record at most `dispatches`, including clears, from where the last call
-    /// stopped, and return true when everything is recorded. The next call of any kind records the
-    /// rest first. A round is 2 dispatches and RunPlan::detect_passes.
+    /// over these, RunPlan::step_budget and lanes those of disks. record_begin(),
+    /// record_count() and record_finish() record at most `dispatches`, including clears, from where
+    /// the last call stopped, and return true when everything is recorded. The next call of any
+    /// kind records the rest first. A round is 2 dispatches and RunPlan::detect_passes.
     /// @{
 
     /// Draws the candidates of the next stages. Returns true when everything is recorded.
     bool record_begin(VkCommandBuffer commands, Job& job,
                       std::uint32_t dispatches = kAllDispatches) const noexcept;
+    /// Counts candidates, where Next::count asks for it or a run has stopped at a count. Records
+    /// nothing otherwise. Returns true when everything is recorded.
+    bool record_count(VkCommandBuffer commands, Job& job,
+                      std::uint32_t dispatches = kAllDispatches) const noexcept;
     /// Records this many rounds; those without work are empty dispatches.
     void record_rounds(VkCommandBuffer commands, Job& job, std::uint32_t rounds) const noexcept;
+    /// Record the parts of a round one by one, for commands of your own between them. Always record
+    /// all three, in this order. record_select() lists the candidates that come next, or puts them
+    /// into slots; record_detect() computes their disks; record_resolve() decides them once all of
+    /// these are complete.
+    void record_select(VkCommandBuffer commands, Job& job) const noexcept;
+    void record_detect(VkCommandBuffer commands, Job& job) const noexcept;
+    void record_resolve(VkCommandBuffer commands, Job& job) const noexcept;
     /// Restarts the batch in progress, after Job::set_plan() or set_samples().
     void record_rewind(VkCommandBuffer commands, Job& job) const noexcept;
     /// Writes the samples so far in order, as gpu::SampleRec. Returns true when everything is
@@ -375,17 +385,33 @@ class GEODISK_API Job {
     /// domain, and create a Placement again. No command buffer of the job may be pending. Errors:
     /// those of make_job(); after an error it can only be renewed again.
     Result<Done> renew(const Domain& domain, const RunPlan& plan) noexcept;
-    /// Restarts with another seed; uploaded data stays.
+    /// Restarts with another seed; uploaded data and settled samples stay.
     void set_seed(std::uint64_t seed) noexcept;
+    /// Decides only the candidates of lower order: the number of their stage times 2^28, plus their
+    /// priority. advance() then says Next::paused; set a higher order, or kAllOrders, to go on. Any
+    /// sequence of orders gives the same samples. Holds for what is recorded next, until the run
+    /// restarts. Candidates that earlier rounds decide stay decided.
+    void set_end_order(std::uint64_t order) noexcept;
+    /// Restarts with samples that are settled: they come before all candidates, reject those closer
+    /// than the minimum distance, and are the first samples of the run, in this order. Distances
+    /// among them are not checked. Write them to the start of the samples buffer before
+    /// record_begin(); geodisk leaves them there. They count towards SampleParams::stop_count, and
+    /// hold for other seeds, until renew(). In a box they must be samples of the same box and seed.
+    /// Errors: `invalid_argument`, naming the sample, for a face that does not exist, or weights
+    /// that are not multiples of 2^-24 with a sum of at most 1; for more samples than
+    /// RunPlan::sample_capacity.
+    Result<Done> set_settled(std::span<const gpu::SampleRec> samples) noexcept;
     /// Returns the next step, from a copy of the control record that the host has read. Copies from
-    /// before the last record_begin() or record_rewind() are ignored with Next::go_on, so several
-    /// frames may be in flight; the same copy may be given twice. Sets the job to its next stages
-    /// if Next::begin follows others. `pool_bytes` limits a larger pool; 0 keeps to the workspace.
+    /// before the last record_begin(), record_count() or record_rewind() are ignored with
+    /// Next::go_on, so several frames may be in flight; the same copy may be given twice. Sets the
+    /// job to its next stages if Next::begin follows others. `pool_bytes` limits a larger pool; 0
+    /// keeps to the workspace.
     ///
     /// Errors: `mesh_rejected` if the mesh exceeds single precision, naming the face of a candidate
     /// (numbered through all surfaces); `invalid_argument` if no candidate was drawn because the
     /// data of write_upload() was not uploaded; `internal` if the control record is corrupt;
-    /// `workspace_too_small` as grow_plan(); `job_too_large` if no binding holds the samples.
+    /// `workspace_too_small` if not even one disk fits, naming its bytes; `job_too_large` if no
+    /// binding holds the samples.
     Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes = 0) noexcept;
     /// Replaces the plan for rounds recorded from now on. It may have no more slots than the job
     /// was made with, must have the same stages and error_bound, and its pool must fit the
@@ -393,11 +419,6 @@ class GEODISK_API Job {
     Result<Done> set_plan(const RunPlan& plan) noexcept;
     /// Replaces the plan and the pool. No command buffer of the job may be pending.
     Result<Done> set_plan(const RunPlan& plan, const BufferRange& pool) noexcept;
-    /// Sets the stages to begin next: `count` of them from `first` on. A new job has
-    /// RunPlan::stages from 0 on. Stages must follow each other, each finished by record_finish()
-    /// before the next begins; stage 0 restarts the run. Errors: `invalid_argument` for none, for
-    /// more than RunPlan::stages, or numbers beyond 32 bits.
-    Result<Done> set_stages(std::uint32_t first, std::uint32_t count) noexcept;
     /// Replaces the buffers of the samples by larger ones, after Next::larger_samples: samples,
     /// accepted and buckets, with the sizes of sample_bytes(). RunPlan::sample_capacity becomes
     /// `capacity`. Copy the contents of samples and accepted, then record a rewind. No command

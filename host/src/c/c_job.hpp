@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <geodisk/geodisk.h>
 #include <geodisk/sampler.hpp>
@@ -13,6 +15,7 @@
 #include "c/c_call.hpp"
 #include "c/c_device.hpp"
 #include "c/c_domain.hpp"
+#include "records.h"
 
 namespace geodisk::c {
 
@@ -32,6 +35,8 @@ struct geodisk_job {
     std::uint32_t stages = 0; ///< Stages drawn at once, or 0.
     std::uint32_t regrowths = 0;
     std::optional<std::uint64_t> seed; ///< Seed that replaces the domain's.
+    std::uint64_t end_order = geodisk::kAllOrders;
+    std::vector<geodisk::gpu::SampleRec> settled;
 
     geodisk::RunPlan plan; ///< Plan to continue with, once there are buffers for it.
     std::uint32_t sample_capacity = 0;
@@ -55,6 +60,24 @@ struct geodisk_job {
 };
 
 namespace geodisk::c {
+
+/// Plans a run of a domain with so many settled samples. An error
+/// changes nothing.
+Result<Done> plan_domain(geodisk_job& job, std::shared_ptr<const DomainState> state,
+                         std::size_t settled);
+Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,
+                                              const geodisk_domain& domain,
+                                              const geodisk_job_options& options);
+/// Asks for all buffers and restarts.
+void start_over(geodisk_job& job);
+Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges);
+/// Bytes to upload into a buffer: those of the domain, and the settled samples.
+std::size_t upload_bytes(const geodisk_job& job, BufferRole role);
+Result<Done> write_upload(const geodisk_job& job, BufferRole role, std::span<std::byte> out);
+/// As geodisk_job_record; returns true if everything is recorded.
+Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next what,
+                    std::uint32_t amount);
+Result<geodisk_advice> advise(geodisk_job& job, const gpu::ControlRec& control);
 
 /// Runs `body(*job)` unless another call uses the job.
 template <class Body>

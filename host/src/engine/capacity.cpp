@@ -21,25 +21,14 @@ constexpr std::uint32_t kMostBuckets = 1u << 22;
 
 } // namespace
 
-// For darts, the largest possible stage.
 std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept {
-    double expected = std::min(at_once * stages.expected(0), stages.pool());
-    if (stages.throws != 0) {
-        double all = 0;
-        for (std::uint32_t s = 0; all < 2.0 * stages.throws && s < gpu::kMostDartStages; ++s) {
-            expected = stages.expected(s);
-            all += expected;
-        }
-    }
+    const double expected = stages.expected_at_once(at_once);
     const double most = std::ceil(expected + kDeviations * std::sqrt(expected) + 64);
     return static_cast<std::uint32_t>(std::min<double>(most, kMostCandidates));
 }
 
 std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept {
-    if (stages.throws != 0) {
-        return 1;
-    }
-    std::uint32_t at_once = stages.pool_stages();
+    std::uint32_t at_once = stages.most_at_once();
     while (at_once > 1 && capacity_for(stages, at_once) > most_candidates) {
         --at_once;
     }

@@ -89,6 +89,9 @@ void Sampling::record(VkCommandBuffer commands, std::uint32_t turn) {
             is_begun_ = sampler_.record_begin(commands, *job_, kDispatches);
         }
         break;
+    case geodisk::Next::count:
+        sampler_.record_count(commands, *job_, kDispatches);
+        break;
     case geodisk::Next::larger_pool: // Within the one there is: fewer lanes with more each.
         take(job_->set_plan(advice.plan));
         sampler_.record_rewind(commands, *job_);

@@ -61,7 +61,7 @@ std::uint64_t GridDomain::most_candidates(const DeviceLimits& limits, std::uint3
 }
 
 double GridDomain::in_disk(const RunPlan& plan, std::uint32_t candidates) const {
-    const double drawn = stages.throws != 0 ? candidates : plan.stages * stages.expected(0);
+    const double drawn = stages.is_counted() ? candidates : plan.stages * stages.expected(0);
     return std::min<double>(crowd_ * drawn / stages.samples, candidates);
 }
 

@@ -26,7 +26,7 @@ int doublings(const BoxParams& box) {
     const Stages stages = stages_of(box);
     const double fewer = kStageRatio / stages.per_sample(0);
     const double dimensions = static_cast<double>(box.extents.size());
-    return stages.throws != 0 && fewer > 1
+    return stages.is_counted() && fewer > 1
                ? static_cast<int>(std::ceil(std::log2(fewer) / dimensions))
                : 0;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "engine/domain/tolerances.hpp"
 
 namespace geodisk {
@@ -24,7 +25,7 @@ std::uint32_t Stages::pool_stages() const noexcept {
 }
 
 double Stages::per_sample(std::uint32_t stage) const noexcept {
-    if (throws == 0) {
+    if (!is_counted()) {
         return ratio / pool_stages();
     }
     double darts = kStageRatio;
@@ -37,6 +38,30 @@ double Stages::per_sample(std::uint32_t stage) const noexcept {
         darts *= 2;
     }
     return std::max(darts, kLeastPool / whole);
+}
+
+std::uint32_t Stages::left(std::uint32_t done, std::uint64_t drawn) const noexcept {
+    if (is_counted()) {
+        return drawn < throws ? 1 : 0;
+    }
+    return pool_stages() - std::min(done, pool_stages());
+}
+
+std::uint64_t Stages::still_wanted(std::uint64_t drawn) const noexcept {
+    return is_counted() ? throws - std::min<std::uint64_t>(drawn, throws) : ~std::uint64_t{0};
+}
+
+double Stages::expected_at_once(std::uint32_t stages) const noexcept {
+    if (!is_counted()) {
+        return std::min(stages * expected(0), pool());
+    }
+    // The last that there may be is the largest.
+    double last = 0, all = 0;
+    for (std::uint32_t s = 0; all < 2.0 * throws && s < gpu::kMostDartStages; ++s) {
+        last = expected(s);
+        all += last;
+    }
+    return last;
 }
 
 Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {

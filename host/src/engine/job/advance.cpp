@@ -56,8 +56,9 @@ constexpr double kSurelySome = 60;
 } // namespace
 
 const char* to_string(Next next) noexcept {
-    constexpr const char* kNames[] = {"begin",          "go_on",      "finish",  "larger_pool",
-                                      "larger_samples", "start_over", "complete"};
+    constexpr const char* kNames[] = {"begin",       "go_on",          "finish",
+                                      "larger_pool", "larger_samples", "start_over",
+                                      "complete",    "count",          "paused"};
     return kNames[static_cast<std::size_t>(next)];
 }
 
@@ -65,10 +66,38 @@ std::uint32_t Job::Impl::stages_left(const gpu::ControlRec& control) const {
     if (control.accepted >= constants.stop_count) {
         return 0;
     }
-    if (stages.throws != 0) {
-        return thrown + darts(control) < stages.throws ? 1 : 0;
+    return std::min(plan.stages,
+                    stages.left(push.first_stage + push.stages, thrown + darts(control)));
+}
+
+double Job::Impl::decided(const gpu::ControlRec& control) const {
+    const double part = static_cast<double>(control.first_order) / chunk_end;
+    return static_cast<double>(thrown) + part * static_cast<double>(darts(control));
+}
+
+std::uint64_t Job::Impl::candidates(const gpu::ControlRec& control) const {
+    if (control.accepted < constants.stop_count) {
+        return thrown + darts(control);
     }
-    return std::min(stages.pool_stages() - push.first_stage - push.stages, plan.stages);
+    if (control.settled >= constants.stop_count) {
+        return thrown;
+    }
+    return is_stop_counted ? thrown + control.below : 0;
+}
+
+void Job::Impl::find_cut(const gpu::ControlRec& control) {
+    const std::uint64_t wanted = stages.still_wanted(thrown);
+    if (cut) {
+        cut->note(control.below);
+    } else if (control.drawn > wanted) {
+        cut.emplace(chunk_end, control.drawn, static_cast<std::uint32_t>(wanted));
+    }
+    is_count_due = cut && !cut->is_found();
+    if (!is_count_due) {
+        awaits_cut = false;
+        chunk_end = cut ? cut->end() : chunk_end;
+        apply_end();
+    }
 }
 
 Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes) {
@@ -77,13 +106,21 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         !is_begin_due && control.generation == generation && control.abi == gpu::kAbi;
     ready = is_told ? std::max(ready, control.ready) : ready;
     Advice advice{Next::go_on, plan, push.sample_capacity, ready};
-    if (is_begin_due || !begun.is_at_start()) {
-        advice.next = Next::begin;
+    const auto next = [&advice](Next step) {
+        advice.next = step;
         return advice;
+    };
+    if (is_begin_due && begun.is_at_start() && waits_for(push.first_stage)) {
+        return next(Next::paused);
+    }
+    if (is_begin_due || !begun.is_at_start()) {
+        return next(Next::begin);
     }
     if (!finished.is_at_start()) {
-        advice.next = Next::finish;
-        return advice;
+        return next(Next::finish);
+    }
+    if (!counted.is_at_start()) {
+        return next(Next::count);
     }
     if (control.generation != generation || control.abi == 0) {
         return advice; // Not there yet.
@@ -99,9 +136,8 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         if (!capacity) {
             return capacity.error();
         }
-        advice.next = Next::larger_samples;
         advice.sample_capacity = *capacity;
-        return advice;
+        return next(Next::larger_samples);
     }
     if (control.overflow != 0) {
         // As many slots as the job was made with, if the pool may be as large as that takes.
@@ -113,11 +149,18 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         if (!grown) {
             return grown.error();
         }
-        advice.next = Next::larger_pool;
         advice.plan = *grown;
-        return advice;
+        return next(Next::larger_pool);
     }
-    if (control.done == 0) {
+    if (awaits_cut && !is_count_due) {
+        find_cut(control);
+    }
+    if (awaits_cut) {
+        return next(Next::count);
+    }
+    const bool is_enough = control.accepted >= constants.stop_count;
+    const bool is_over = is_enough || control.drawn == 0; // Whatever the end of the orders.
+    if (control.done == 0 || (!is_over && control.first_order < push.end_order)) {
         return advice;
     }
     if (control.drawn == 0 && push.first_stage == 0 &&
@@ -127,18 +170,27 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
                      "Sampler::write_upload gives before the first commands of the job"};
     }
     if (control.ready < std::min(control.accepted, constants.stop_count)) {
-        advice.next = Next::finish;
-        return advice;
+        return next(Next::finish);
+    }
+    if (!is_over && push.end_order < chunk_end) {
+        return next(Next::paused);
     }
     if (const std::uint32_t count = stages_left(control); count > 0) {
+        const std::uint32_t first = push.first_stage + push.stages;
+        if (waits_for(first)) {
+            return next(Next::paused);
+        }
         thrown += darts(control);
-        begin_stages(push.first_stage + push.stages, count);
-        advice.next = Next::begin;
-        return advice;
+        begin_stages(first, count);
+        return next(Next::begin);
     }
     advice.plan = widened(plan, error, control.longest_chain);
-    advice.next = advice.plan.error_bound == plan.error_bound ? Next::complete : Next::start_over;
-    return advice;
+    if (advice.plan.error_bound != plan.error_bound) {
+        return next(Next::start_over);
+    }
+    advice.candidates = candidates(control);
+    is_count_due = is_enough && control.settled < constants.stop_count && !is_stop_counted;
+    return next(Next::complete);
 }
 
 Result<Advice> Job::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes) noexcept {

@@ -12,122 +12,16 @@
 #include "bindings.h"
 #include "engine/capacity.hpp"
 #include "engine/domain/domain_impl.hpp"
-#include "engine/job/buffer_ranges.hpp"
+#include "engine/job/job_checks.hpp"
 #include "engine/job/plan.hpp"
 #include "engine/job/sampler_impl.hpp"
 #include "records.h"
 #include "support/guard.hpp"
-#include "support/number_text.hpp"
 #include "vk/descriptors.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
 namespace {
-
-// Beside a minimum distance of one.
-constexpr double kMostError = 0.5;
-
-/// Whether a buffer of a workspace will do, beside the first `others` buffers of it.
-Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
-                          std::size_t others, const auto& name, const Sampler::Impl& sampler) {
-    if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {
-        return checked;
-    }
-    for (std::size_t k = 0; k < others; ++k) {
-        if (k != role && overlap(workspace[role], workspace[k])) {
-            return overlap_error(name(role), name(k));
-        }
-    }
-    return Done{};
-}
-
-Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
-                             const Domain::Impl& of, const Sampler::Impl& sampler) {
-    const auto name = [&of](std::size_t i) { return of.name_of(static_cast<BufferRole>(i)); };
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        if (needs.bytes[i] == 0) {
-            continue;
-        }
-        if (auto checked = check_buffer(workspace, i, needs.bytes[i], i, name, sampler); !checked) {
-            return checked;
-        }
-    }
-    return Done{};
-}
-
-/// Whether a range may take the place of one of a workspace that is in use.
-Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
-                               const Sampler::Impl& sampler) {
-    const auto name = [](std::size_t i) { return to_string(static_cast<BufferRole>(i)); };
-    return check_buffer(workspace, role, needed, kBufferRoles, name, sampler);
-}
-
-/// What the shaders rely on without looking.
-Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
-    constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
-    const bool fine =
-        plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
-        std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
-        plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
-        plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
-        plan.dispatch_items >= 1 && plan.detect_passes <= 4096 &&
-        plan.sample_capacity > plan.slots && plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
-        plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed && plan.slots <= kMost &&
-        plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
-        plan.list_capacity <= kMost;
-    if (!fine) {
-        return Error{Status::invalid_argument,
-                     "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
-                     "detect_passes, stages, idle_capacity and dispatch_items at least 1, stages "
-                     "at most 15, "
-                     "sample_capacity more than slots, window_capacity and table_capacity powers "
-                     "of two, list_capacity a "
-                     "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
-    }
-    // The vertex table tags distances by the bits that those below 2 leave clear.
-    if (!(plan.error_bound > 0 && plan.error_bound <= kMostError)) {
-        return Error{Status::invalid_argument,
-                     "the plan's error_bound of " + number_text(plan.error_bound) +
-                         " is not above 0 and at most half of the minimum distance"};
-    }
-    const std::uint64_t most_slots = std::uint64_t{kMostGroups} * tuning.slot_local_size;
-    if (plan.slots > most_slots) {
-        return Error{Status::invalid_argument,
-                     "the plan's " + std::to_string(plan.slots) + " slots are more than the " +
-                         std::to_string(most_slots) + " that work groups of " +
-                         std::to_string(tuning.slot_local_size) + " reach"};
-    }
-    if (plan.pool_block != tuning.pool_block && plan.pool_block != 1) {
-        return Error{Status::invalid_argument, "the plan's pool_block is " +
-                                                   std::to_string(plan.pool_block) +
-                                                   ", which is neither 1 nor the sampler's " +
-                                                   std::to_string(tuning.pool_block)};
-    }
-    return Done{};
-}
-
-/// The same for a plan of a job that exists.
-Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize pool) {
-    if (auto checked = check_plan(plan, job.sampler->choices.tuning); !checked) {
-        return checked;
-    }
-    if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
-        plan.sample_capacity != job.plan.sample_capacity ||
-        plan.error_bound != job.plan.error_bound) {
-        return Error{Status::invalid_argument,
-                     "the plan has another error_bound, or other stages, idle_capacity or "
-                     "sample_capacity than the job was made for"};
-    }
-    const std::uint32_t most_slots = job.most_slots;
-    if (plan.pool_bytes() > pool || plan.slots > most_slots) {
-        return Error{Status::workspace_too_small,
-                     "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
-                         " bytes and " + std::to_string(plan.slots) + " slots; the workspace has " +
-                         std::to_string(pool) + " bytes and " + std::to_string(most_slots) +
-                         " slots"};
-    }
-    return Done{};
-}
 
 /// The buffer that a binding names, be it a second time, as texels.
 std::uint32_t buffer_of(std::uint32_t binding) {
@@ -263,37 +157,45 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
     });
 }
 
-Result<Done> Job::set_stages(std::uint32_t first, std::uint32_t count) noexcept {
-    return guarded([&]() -> Result<Done> {
-        if (count == 0 || count > impl_->plan.stages) {
-            return Error{Status::invalid_argument,
-                         std::to_string(count) + " stages are not of 1 to " +
-                             std::to_string(impl_->plan.stages) + ", which the workspace holds"};
-        }
-        if (std::uint64_t{first} + count > std::uint64_t{1} << 32) {
-            return Error{Status::invalid_argument, "stages go beyond the last one, 4294967295"};
-        }
-        if (first != 0 && !impl_->finished.is_at_start()) {
-            return Error{Status::invalid_argument,
-                         "record_finish of the stages before is recorded in part"};
-        }
-        impl_->begin_stages(first, count);
-        return Done{};
-    });
-}
-
 void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
-    begun = finished = {};
+    begun = finished = counted = {};
     is_begin_due = true;
+    is_count_due = is_stop_counted = false;
     thrown = first == 0 ? 0 : thrown;
     ready = first == 0 ? 0 : ready;
-    cut_darts = 0;
+    awaits_cut = constants.capacity > stages.still_wanted(thrown);
+    cut.reset();
+    chunk_end = count << gpu::kPriorityBits;
     push.first_stage = first;
     push.stages = count;
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
-    push.end_order = count << gpu::kPriorityBits;
-    push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(push.end_order - 1u)) -
+    push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(chunk_end - 1u)) -
                         static_cast<std::uint32_t>(std::countr_zero(constants.buckets));
+    apply_end();
+}
+
+void Job::set_end_order(std::uint64_t order) noexcept {
+    impl_->end_order = order;
+    impl_->apply_end();
+}
+
+void Job::Impl::apply_end() {
+    const std::uint64_t before = std::uint64_t{push.first_stage} << gpu::kPriorityBits;
+    const std::uint64_t wanted = end_order - std::min(end_order, before);
+    const auto end = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, chunk_end));
+    const std::uint32_t old = std::exchange(push.end_order, awaits_cut ? 0 : end);
+    is_end_changed = is_end_changed || push.end_order != old;
+}
+
+Result<Done> Job::set_settled(std::span<const gpu::SampleRec> samples) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (auto checked = check_settled(samples, *impl_); !checked) {
+            return checked;
+        }
+        impl_->given = static_cast<std::uint32_t>(samples.size());
+        impl_->begin_first_stages();
+        return Done{};
+    });
 }
 
 std::array<VkDeviceSize, 3> Job::sample_bytes(std::uint32_t capacity) const noexcept {
@@ -394,6 +296,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     samples_per_measure = of.samples_per_measure;
     error = of.error;
     dispatches = 0;
+    given = 0;
     push = {};
     constants = {};
     constants.capacity = capacity_for(of.stages, new_plan.stages);
@@ -446,8 +349,8 @@ Result<Done> Job::Impl::bind(const Workspace& ranges, bool all) {
 }
 
 void Job::Impl::begin_first_stages() {
-    const std::uint32_t all = stages.throws != 0 ? plan.stages : stages.pool_stages();
-    begin_stages(0, std::min(plan.stages, all));
+    end_order = kAllOrders;
+    begin_stages(0, std::min(plan.stages, stages.left(0, 0)));
 }
 
 Result<Done> Job::Impl::allocate_sets() {

@@ -259,11 +259,6 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
     return grown;
 }
 
-Result<RunPlan> Sampler::grow_plan(const RunPlan& plan, std::uint32_t overflow,
-                                   std::uint64_t pool_bytes) const noexcept {
-    return guarded([&] { return grown_plan(plan, overflow, pool_bytes, impl_->report); });
-}
-
 RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain) {
     if (error.error_of(longest_chain) > plan.error_bound) {
         plan.error_bound = error.error_of(2 * longest_chain);
@@ -271,15 +266,10 @@ RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_cha
     return plan;
 }
 
-RunPlan Sampler::widen_plan(const Domain& domain, RunPlan plan,
-                            std::uint32_t longest_chain) const noexcept {
-    return widened(plan, Domain::Impl::of(domain).error, longest_chain);
-}
-
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report) {
     const Domain::Impl& of = Domain::Impl::of(domain);
-    if (of.stages.throws != 0 && plan.stages > 1) {
+    if (of.stages.is_counted() && plan.stages > 1) {
         return Error{Status::invalid_argument,
                      "darts are drawn one stage at a time; RunPlan::stages is " +
                          std::to_string(plan.stages) + ", set it to 1"};

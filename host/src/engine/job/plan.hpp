@@ -10,7 +10,9 @@ namespace geodisk {
 /// Returns `plan` with every field that is not zero in `wanted` replaced.
 GEODISK_API RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept;
 
-/// Implements Sampler::grow_plan.
+/// Returns the plan to use after an overflow: the capacities named by `overflow` (gpu::kOverflow*
+/// bits) are doubled, and slots and lanes reduced if the pool would exceed `pool_bytes`. Errors:
+/// `workspace_too_small`, naming the bytes of one lane and one list of conflicts.
 Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
                            const DeviceReport& report);
 
@@ -18,7 +20,8 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report);
 
-/// Implements Sampler::widen_plan.
+/// Returns the plan to start over with: a larger `error_bound` if ControlRec::longest_chain was too
+/// long for the plan's, else the same plan.
 RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain);
 
 /// Returns the sample capacity that a run needs to continue: the samples so far and all of a batch.

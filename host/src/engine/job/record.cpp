@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include <geodisk/sampler.hpp>
 
@@ -103,17 +104,29 @@ class Recorder {
         const BufferRange& control = range(BufferRole::control);
         sampler_.vk.vkCmdFillBuffer(commands_, control.buffer, control.offset + first, size, word);
     }
+    void fill_generation() const {
+        fill(offsetof(gpu::ControlRec, generation), 4, job_.generation);
+    }
     /// Zeros but for the generation, which is the job's.
     void fill_below(std::size_t end) const {
         constexpr std::size_t kAt = offsetof(gpu::ControlRec, generation);
         fill(0, kAt, 0);
-        fill(kAt, 4, job_.generation);
+        fill_generation();
         fill(kAt + 4, end - kAt - 4, 0);
     }
     void copy(std::size_t from, std::size_t to) const {
         const BufferRange& control = range(BufferRole::control);
         const VkBufferCopy copy{control.offset + from, control.offset + to, 4};
         sampler_.vk.vkCmdCopyBuffer(commands_, control.buffer, control.buffer, 1, &copy);
+    }
+    /// That of a sample that is in order.
+    void copy_order(std::uint32_t sample, std::size_t to) const {
+        const BufferRange& samples = range(BufferRole::samples);
+        const BufferRange& control = range(BufferRole::control);
+        const VkBufferCopy copy{samples.offset + VkDeviceSize{sample} * sizeof(gpu::SampleRec) +
+                                    offsetof(gpu::SampleRec, order),
+                                control.offset + to, 4};
+        sampler_.vk.vkCmdCopyBuffer(commands_, samples.buffer, control.buffer, 1, &copy);
     }
 
     /// Writes the constants of the job.
@@ -253,14 +266,21 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     recorder.stage(Stage::count);
     recorder.write_constants();
     recorder.change_control([&] {
-        if (push.first_stage == 0) {
-            recorder.fill_below(sizeof(gpu::ControlRec));
-            return;
-        }
         // What was accepted so far is settled, and in order.
-        recorder.copy(offsetof(gpu::ControlRec, accepted), offsetof(gpu::ControlRec, settled));
-        recorder.copy(offsetof(gpu::ControlRec, accepted), offsetof(gpu::ControlRec, ordered));
-        recorder.fill_below(offsetof(gpu::ControlRec, accepted));
+        constexpr std::size_t kAccepted = offsetof(gpu::ControlRec, accepted);
+        constexpr std::size_t kSettled = offsetof(gpu::ControlRec, settled);
+        constexpr std::size_t kOrdered = offsetof(gpu::ControlRec, ordered);
+        constexpr std::size_t kRest = offsetof(gpu::ControlRec, next_ordered);
+        static_assert(kSettled == kAccepted + 4 && kOrdered == kSettled + 4 &&
+                      kRest == kOrdered + 4);
+        if (push.first_stage == 0) {
+            recorder.fill(kAccepted, kRest - kAccepted, job.given);
+            recorder.fill(kRest, sizeof(gpu::ControlRec) - kRest, 0);
+        } else {
+            recorder.copy(kAccepted, kSettled);
+            recorder.copy(kAccepted, kOrdered);
+        }
+        recorder.fill_below(kAccepted);
     });
     recorder.clear(BufferRole::pool,
                    push.first_stage == 0 ? VkDeviceSize{push.first_list_row} * 16 : 0);
@@ -275,6 +295,34 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     recorder.stage(Stage::draw);
     recorder.pass_over_candidates(own.draw, gpu::kDrawBlock, push);
     recorder.single(Kernel::begin_chunk, push);
+    job.is_end_changed = false;
+    return recorder.is_complete();
+}
+
+bool record_count(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
+    if (job.counted.is_at_start()) {
+        if (!job.is_count_due) {
+            return true;
+        }
+        if (!budget.is_spent()) {
+            job.generation = next_number();
+            job.is_count_due = false;
+            job.is_stop_counted = !job.awaits_cut;
+        }
+    }
+    Recorder recorder(commands, job, job.counted, budget);
+    recorder.stage(Stage::count);
+    recorder.change_control([&] {
+        recorder.fill(offsetof(gpu::ControlRec, below), 4, 0);
+        constexpr std::size_t kTo = offsetof(gpu::ControlRec, counted_order);
+        if (job.is_stop_counted) {
+            recorder.copy_order(job.constants.stop_count - 1, kTo);
+        } else {
+            recorder.fill(kTo, 4, job.cut->guess() - 1);
+        }
+    });
+    recorder.pass_over_candidates(Kernel::count_orders, gpu::kSelectBlock, job.push);
+    recorder.change_control([&] { recorder.fill_generation(); }); // Copies tell of it from now on.
     return recorder.is_complete();
 }
 
@@ -296,42 +344,83 @@ bool record_finish(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
 
 namespace {
 
-/// What is left of a begin or a finish: nothing else may come between.
-void record_rest(VkCommandBuffer commands, Job::Impl& job) {
+/// Records what is left of other calls: nothing may come between. At most one has something left.
+void record_rest(VkCommandBuffer commands, Job::Impl& job, const Cursor* but = nullptr) {
     Budget all;
-    if (!job.begun.is_at_start()) {
-        record_begin(commands, job, all);
+    const auto rest = [&](const Cursor& cursor, const auto& record) {
+        if (&cursor != but && !cursor.is_at_start()) {
+            record(commands, job, all);
+        }
+    };
+    rest(job.begun, geodisk::record_begin);
+    rest(job.counted, geodisk::record_count);
+    rest(job.finished, geodisk::record_finish);
+}
+
+void add_select(Recorder& recorder, Job::Impl& job) {
+    recorder.stage(Stage::select);
+    if (std::exchange(job.is_end_changed, false)) {
+        recorder.single(Kernel::resume, job.push);
     }
-    if (!job.finished.is_at_start()) {
-        record_finish(commands, job, all);
+    recorder.dispatch_indirect(kernels_of(job.variant.domain).select,
+                               offsetof(gpu::ControlRec, select_x));
+}
+
+void add_detect(Recorder& recorder, Job::Impl& job) {
+    recorder.stage(Stage::detect);
+    for (std::uint32_t pass = 0; pass < job.plan.detect_passes; ++pass) {
+        recorder.dispatch_indirect(kernels_of(job.variant.domain).detect,
+                                   offsetof(gpu::ControlRec, detect_x));
     }
+}
+
+void add_resolve(Recorder& recorder) {
+    recorder.stage(Stage::resolve);
+    recorder.dispatch_indirect(Kernel::resolve, offsetof(gpu::ControlRec, groups_x));
 }
 
 } // namespace
 
 bool Sampler::record_begin(VkCommandBuffer commands, Job& job,
                            std::uint32_t dispatches) const noexcept {
-    if (!job.impl_->finished.is_at_start()) {
-        record_rest(commands, *job.impl_);
-    }
+    record_rest(commands, *job.impl_, &job.impl_->begun);
     Budget budget{dispatches};
     return geodisk::record_begin(commands, *job.impl_, budget);
+}
+
+bool Sampler::record_count(VkCommandBuffer commands, Job& job,
+                           std::uint32_t dispatches) const noexcept {
+    record_rest(commands, *job.impl_, &job.impl_->counted);
+    Budget budget{dispatches};
+    return geodisk::record_count(commands, *job.impl_, budget);
+}
+
+void Sampler::record_select(VkCommandBuffer commands, Job& job) const noexcept {
+    record_rest(commands, *job.impl_);
+    Recorder recorder(commands, *job.impl_);
+    add_select(recorder, *job.impl_);
+}
+
+void Sampler::record_detect(VkCommandBuffer commands, Job& job) const noexcept {
+    record_rest(commands, *job.impl_);
+    Recorder recorder(commands, *job.impl_);
+    add_detect(recorder, *job.impl_);
+}
+
+void Sampler::record_resolve(VkCommandBuffer commands, Job& job) const noexcept {
+    record_rest(commands, *job.impl_);
+    Recorder recorder(commands, *job.impl_);
+    add_resolve(recorder);
 }
 
 void Sampler::record_rounds(VkCommandBuffer commands, Job& job,
                             std::uint32_t rounds) const noexcept {
     record_rest(commands, *job.impl_);
     Recorder recorder(commands, *job.impl_);
-    const DomainKernels own = kernels_of(job.impl_->variant.domain);
     for (std::uint32_t round = 0; round < rounds; ++round) {
-        recorder.stage(Stage::select);
-        recorder.dispatch_indirect(own.select, offsetof(gpu::ControlRec, select_x));
-        recorder.stage(Stage::detect);
-        for (std::uint32_t pass = 0; pass < job.impl_->plan.detect_passes; ++pass) {
-            recorder.dispatch_indirect(own.detect, offsetof(gpu::ControlRec, detect_x));
-        }
-        recorder.stage(Stage::resolve);
-        recorder.dispatch_indirect(Kernel::resolve, offsetof(gpu::ControlRec, groups_x));
+        add_select(recorder, *job.impl_);
+        add_detect(recorder, *job.impl_);
+        add_resolve(recorder);
     }
 }
 
@@ -341,34 +430,27 @@ void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
     // The batch was selected with the slots of an earlier plan, never fewer than now.
     Recorder recorder(commands, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    recorder.change_control(
-        [&] { recorder.fill(offsetof(gpu::ControlRec, generation), 4, job.impl_->generation); });
+    recorder.change_control([&] { recorder.fill_generation(); });
     // No lane has a slot, and no row of a table a disk.
     recorder.clear(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
     recorder.pass(Kernel::rewind, job.impl_->most_slots, impl_->choices.tuning.slot_local_size,
                   push);
+    recorder.change_control([&] {
+        for (const std::size_t word :
+             {offsetof(gpu::ControlRec, slots_used), offsetof(gpu::ControlRec, undecided),
+              offsetof(gpu::ControlRec, overflow)}) {
+            recorder.fill(word, 4, 0);
+        }
+    });
     recorder.single(Kernel::resume, push);
+    job.impl_->is_end_changed = false;
 }
 
 bool Sampler::record_finish(VkCommandBuffer commands, Job& job,
                             std::uint32_t dispatches) const noexcept {
-    if (!job.impl_->begun.is_at_start()) {
-        record_rest(commands, *job.impl_);
-    }
+    record_rest(commands, *job.impl_, &job.impl_->finished);
     Budget budget{dispatches};
     return geodisk::record_finish(commands, *job.impl_, budget);
-}
-
-void Job::Impl::record_restart(VkCommandBuffer commands) {
-    Recorder(commands, *this).single(Kernel::begin_chunk, push);
-}
-
-void Job::Impl::record_count(VkCommandBuffer commands, std::uint32_t end_order) {
-    Recorder recorder(commands, *this);
-    gpu::Push counted = push;
-    counted.end_order = end_order;
-    recorder.change_control([&] { recorder.fill(offsetof(gpu::ControlRec, below), 4, 0); });
-    recorder.pass_over_candidates(Kernel::count_orders, gpu::kSelectBlock, counted);
 }
 
 } // namespace geodisk

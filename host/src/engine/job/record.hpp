@@ -21,8 +21,9 @@ struct Budget {
     bool is_spent() const { return dispatches == 0 || items == 0 || is_in_new; }
 };
 
-/// As Sampler::record_begin and record_finish.
+/// As Sampler::record_begin, record_count and record_finish.
 bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget);
+bool record_count(VkCommandBuffer commands, Job::Impl& job, Budget& budget);
 bool record_finish(VkCommandBuffer commands, Job::Impl& job, Budget& budget);
 
 } // namespace geodisk

@@ -10,6 +10,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "engine/domain/tolerances.hpp"
+#include "engine/job/order_cut.hpp"
 #include "engine/kernels/pipelines.hpp"
 #include "push.h"
 #include "records.h"
@@ -88,13 +89,22 @@ struct Job::Impl {
     RunPlan plan;
     gpu::JobRec constants{}; ///< On the device once record_begin() is recorded.
     gpu::Push push{};
-    Cursor begun, finished;       ///< Of record_begin and record_finish.
-    std::uint32_t generation = 0; ///< See ControlRec.
-    bool is_begin_due = true;     ///< record_begin of the stages at hand.
-    std::uint64_t thrown = 0;     ///< Candidates of the stages before.
-    std::uint64_t cut_darts = 0;  ///< Of these stages, those that take part, unless all do.
-    std::uint64_t dispatches = 0; ///< Recorded, empty ones included.
-    std::uint32_t ready = 0;      ///< Samples known to be in order and final.
+    Cursor begun, finished, counted; ///< Positions in record_begin, record_finish, record_count.
+    std::uint32_t generation = 0;    ///< See ControlRec.
+    bool is_begin_due = true;        ///< record_begin() of the stages at hand.
+    std::uint32_t given = 0;         ///< Samples that are settled from the start.
+    std::uint64_t thrown = 0;        ///< Candidates of the stages before.
+    /// Lowest order, of these stages, that does not take part. Unknown while the exact number of
+    /// darts is still to be found: none is decided until then.
+    std::uint32_t chunk_end = 0;
+    bool awaits_cut = false;
+    std::optional<OrderCut> cut;
+    std::uint64_t end_order = kAllOrders; ///< Of Job::set_end_order().
+    bool is_end_changed = false;          ///< Rounds recorded next go on to another push.end_order.
+    bool is_count_due = false;            ///< record_count().
+    bool is_stop_counted = false;         ///< It has counted up to the last sample.
+    std::uint64_t dispatches = 0;         ///< Recorded, empty ones included.
+    std::uint32_t ready = 0;              ///< Samples known to be in order and final.
 
     bool has(std::size_t kernel) const {
         return kernel_info(static_cast<Kernel>(kernel)).serves(variant.domain);
@@ -106,13 +116,24 @@ struct Job::Impl {
     void begin_stages(std::uint32_t first, std::uint32_t count);
     void begin_first_stages();
     void set_seed(std::uint64_t seed);
+    void set_end_order(std::uint64_t order);
+    /// Sets the end of the orders to decide, for what is recorded next.
+    void apply_end();
+    /// Returns true if all stages from this one on are to wait.
+    bool waits_for(std::uint64_t stage) const { return end_order <= stage << gpu::kPriorityBits; }
     /// Candidates of the stages at hand that take part.
     std::uint64_t darts(const gpu::ControlRec& control) const {
-        return cut_darts != 0 ? cut_darts : control.drawn;
+        return cut ? cut->count() : control.drawn;
     }
+    /// Candidates decided so far, approximately.
+    double decided(const gpu::ControlRec& control) const;
+    /// Candidates up to the last that takes part, once all are decided; 0 if not known.
+    std::uint64_t candidates(const gpu::ControlRec& control) const;
     /// Stages to draw next, where all of those at hand are decided.
     std::uint32_t stages_left(const gpu::ControlRec& control) const;
     Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes);
+    /// Finds the end of an exact number of darts by the count of an earlier record_count().
+    void find_cut(const gpu::ControlRec& control);
     static Impl& of(Job& job) { return *job.impl_; }
     static const Impl& of(const Job& job) { return *job.impl_; }
     ~Impl();
@@ -130,10 +151,6 @@ struct Job::Impl {
     /// Compiles those that it lacks.
     Result<Done> choose_kernels(KernelVariant wanted, const RunPlan& for_plan);
     void apply_plan(const RunPlan& new_plan);
-    /// Counts the candidates of lower order into ControlRec::below; none may be active.
-    void record_count(VkCommandBuffer commands, std::uint32_t end_order);
-    /// Sets out the first batch anew, after a change of the push block.
-    void record_restart(VkCommandBuffer commands);
 };
 
 } // namespace geodisk

@@ -143,6 +143,11 @@ Result<Done> FrameSampler::Impl::record_work(VkCommandBuffer commands, const Adv
             return Done{}; // No samples yet.
         }
         break;
+    case Next::count:
+        if (!sampler->record_count(commands, job, options.dispatches)) {
+            return Done{};
+        }
+        break;
     case Next::larger_pool: // Within the same pool: fewer disks at a time, with more memory each.
         if (auto set = job.set_plan(advice.plan); !set) {
             return set;

@@ -1,42 +1,23 @@
 #include "engine/run/run.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "constants.h"
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/plan.hpp"
-#include "engine/job/record.hpp"
 #include "engine/run/memory_budget.hpp"
-#include "engine/run/pace.hpp"
 #include "engine/run/run_memory.hpp"
 #include "engine/run/run_result.hpp"
+#include "engine/run/submissions.hpp"
 
 namespace geodisk {
 namespace {
 
-constexpr std::uint64_t kMostRounds = 256;
-// About those of a run that recomputes few; and that are so few that one submission does for them.
-constexpr double kDisksPerSample = 1.5;
-constexpr double kFewSteps = 1024;
-// Rounds that list candidates, or end a batch.
-constexpr std::uint64_t kRoundsBeside = 6;
-constexpr std::uint32_t kMostPasses = 64;
-// Submissions that may leave no trace, before the device counts as stuck.
-constexpr std::uint32_t kMostIdle = 8;
-// Part of a run that the steps of disks alone may count as done.
-constexpr double kMostExpected = 0.99;
-// Items of a pass before it is known how long they take.
-constexpr std::uint64_t kItemsOfNew = std::uint64_t{1} << 18;
-// Counts of candidates before an order until that of a number of darts is found.
-constexpr std::uint32_t kMostGuesses = 64;
-
-/// One run: its memory, its job and what the device reported last.
+/// One run: its memory, its job and its submissions.
 class Run {
   public:
     /// Takes at most so many bytes on the device. `before` tells of earlier starts of the run.
@@ -44,8 +25,7 @@ class Run {
         const RunReport& before)
         : runner_(runner), domain_(domain), most_bytes_(most_bytes), of_(Domain::Impl::of(domain)),
           memory_(*runner.workspace), kept_(runner.jobs[index_of(of_.kernels.domain)]),
-          job_(kept_.job), passes_(runner.submission_seconds()),
-          rounds_(runner.submission_seconds()) {
+          job_(kept_.job), submissions_(runner, memory_, of_) {
         report_.seconds = before.seconds;
     }
     Run(const Run&) = delete;
@@ -59,31 +39,17 @@ class Run {
     Task<Result<Done>> upload();
     Task<Result<Advice>> sample();
     Task<Result<Done>> follow(Advice advice);
-    Task<Result<Done>> begin_chunk();
-    Task<Result<Done>> cut_darts();
-    Task<Result<Done>> run_rounds(bool rewind);
-    Result<Done> check_progress(const gpu::ControlRec& before);
-    Task<Result<Done>> gather_chunk();
-    bool has_all() const { return of_.stop_count != 0 && control_.accepted >= of_.stop_count; }
-    Job::Impl& job() { return Job::Impl::of(*job_); }
-    const Job::Impl& job() const { return Job::Impl::of(*job_); }
-    Result<Done> shorten(std::uint64_t items);
-    std::uint32_t record_rounds(VkCommandBuffer commands);
+    Task<Result<std::uint64_t>> candidates(Advice advice);
     /// Bytes that the pool may grow to: at most so many, and as the device has left.
     std::uint64_t pool_bytes(std::uint64_t most) const;
-    Progress how_far() const;
-    Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
-    Result<double> took(Result<Done> end);
-    using Passes = bool (*)(VkCommandBuffer, Job::Impl&, Budget&);
-    using InOne = void (Run::*)(VkCommandBuffer, Budget&);
-    Task<Result<Done>> run_passes(Passes record, InOne in_one);
-    Task<Result<std::uint32_t>> count_before(std::uint32_t order);
     Result<Done> grow(const RunPlan& grown);
     bool fit_samples(Advice& advice) const;
     Task<Result<Done>> enlarge_samples(std::uint32_t capacity);
     void record_all(VkCommandBuffer commands, Budget& budget);
-    void record_samples(VkCommandBuffer commands, Budget&);
+    void record_samples(VkCommandBuffer commands);
     Task<Result<std::vector<gpu::SampleRec>>> read_samples();
+    Job::Impl& job() { return Job::Impl::of(*job_); }
+    const gpu::ControlRec& control() const { return submissions_.control(); }
 
     Runner::Impl& runner_;
     const Domain& domain_;
@@ -92,13 +58,14 @@ class Run {
     RunMemory& memory_;
     Runner::Impl::KeptJob& kept_;
     std::optional<Job>& job_;
-    RunPlan wanted_; ///< But for dispatches that have to be shorter.
-    Pace passes_, rounds_;
-    double submitted_ = 0;   ///< When.
-    std::uint32_t idle_ = 0; ///< Submissions of late that left no trace.
-    gpu::ControlRec control_{};
-    double steps_ = 0;     ///< Of all rounds.
-    double all_steps_ = 0; ///< That are expected.
+    Submissions submissions_;
+    // What goes on in the submission that draws the candidates, or puts the samples in order.
+    const Submissions::InOne after_begin_ = [this](VkCommandBuffer commands, Budget& budget) {
+        record_all(commands, budget);
+    };
+    const Submissions::InOne after_finish_ = [this](VkCommandBuffer commands, Budget&) {
+        record_samples(commands);
+    };
     RunReport report_;
 };
 
@@ -133,8 +100,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
         job().clock = &*runner_.clock;
         runner_.clock->reset();
     }
-    wanted_ = plan;
-    all_steps_ = kDisksPerSample * of_.all_steps() * std::max(1.0, kLeastSlots / of_.samples);
+    submissions_.use(*job_, plan);
     report_.guard = of_.guard_for(plan.error_bound);
     return Done{};
 }
@@ -175,95 +141,28 @@ Task<Result<Done>> Run::upload() {
     co_return Done{};
 }
 
-Result<Done> Run::submit(const std::function<void(VkCommandBuffer)>& record) {
-    submitted_ = runner_.now();
-    return runner_.submit_timed([&](VkCommandBuffer commands) {
-        memory_.record_uploads(commands);
-        record(commands);
-        memory_.record_control(commands);
-    });
-}
-
-/// Once it has ended, reads the control record; the seconds it took.
-Result<double> Run::took(Result<Done> end) {
-    if (end && runner_.clock) {
-        end = runner_.clock->collect();
-    }
-    if (!end) {
-        return end.error();
-    }
-    control_ = memory_.control();
-    if (control_.abi != gpu::kAbi && job().begun.is_at_start()) {
-        return Error{Status::internal, "the device did not write its control record"};
-    }
-    runner_.progress = how_far();
-    return runner_.now() - submitted_;
-}
-
-/// Submits passes in as many parts as the time asks for; where one will do, with what `in_one`
-/// records.
-Task<Result<Done>> Run::run_passes(Passes record, InOne in_one) {
-    bool is_last = false;
-    for (std::uint32_t part = 0; !is_last; ++part) {
-        if (auto short_enough = shorten(passes_.items()); !short_enough) {
-            co_return short_enough;
-        }
-        Budget budget{kAllDispatches, passes_.items(), kItemsOfNew};
-        if (auto done = submit([&](VkCommandBuffer commands) {
-                is_last = record(commands, job(), budget);
-                if (is_last && part == 0) {
-                    (this->*in_one)(commands, budget);
-                }
-            });
-            !done) {
-            co_return done;
-        }
-        const auto seconds = took(co_await runner_.submitter->ended());
-        if (!seconds) {
-            co_return seconds.error();
-        }
-        passes_.took(*seconds, passes_.items() - budget.items);
-        if (budget.is_in_new) {
-            passes_.bound(kItemsOfNew);
-        }
-    }
-    co_return Done{};
-}
-
-/// Candidates of the chunk that are of lower order.
-Task<Result<std::uint32_t>> Run::count_before(std::uint32_t order) {
-    if (auto done = submit([&](VkCommandBuffer commands) { job().record_count(commands, order); });
-        !done) {
-        co_return done.error();
-    }
-    const auto counted = took(co_await runner_.submitter->ended());
-    if (!counted) {
-        co_return counted.error();
-    }
-    co_return control_.below;
-}
-
 Result<Done> Run::grow(const RunPlan& grown) {
     ++report_.regrown;
     if (auto enlarged = memory_.enlarge_pool(grown.pool_bytes()); !enlarged) {
         return enlarged;
     }
-    const RunPlan before = std::exchange(wanted_, grown);
-    wanted_.dispatch_items = before.dispatch_items;
-    wanted_.step_budget = before.step_budget;
-    wanted_.detect_passes = before.detect_passes;
-    auto set = job_->set_plan(wanted_, memory_.range(BufferRole::pool));
+    RunPlan& plan = submissions_.plan();
+    const RunPlan before = std::exchange(plan, grown);
+    plan.dispatch_items = before.dispatch_items;
+    plan.step_budget = before.step_budget;
+    plan.detect_passes = before.detect_passes;
+    auto set = job_->set_plan(plan, memory_.range(BufferRole::pool));
     kept_.made = memory_.made();
     return set;
 }
 
 Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
     auto enlarged = co_await memory_.enlarge_samples(job_->sample_bytes(capacity),
-                                                     control_.accepted, most_bytes_);
+                                                     control().accepted, most_bytes_);
     if (!enlarged) {
         co_return enlarged;
     }
-    wanted_.sample_capacity = capacity;
+    submissions_.plan().sample_capacity = capacity;
     auto set =
         job_->set_samples(capacity, memory_.range(BufferRole::samples),
                           memory_.range(BufferRole::accepted), memory_.range(BufferRole::buckets));
@@ -275,11 +174,11 @@ Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
 Task<Result<Advice>> Run::sample() {
     for (;;) {
         // What is free is asked for only where it matters.
-        const bool grows = control_.overflow != 0;
-        auto advice = job_->advance(control_, grows ? pool_bytes(runner_.options.pool_bytes) : 0);
+        const bool grows = control().overflow != 0;
+        auto advice = job_->advance(control(), grows ? pool_bytes(runner_.options.pool_bytes) : 0);
         if (!advice && grows && advice.error().status == Status::workspace_too_small) {
             // A single disk that is too large for the pool may take all that the device has.
-            advice = job_->advance(control_, pool_bytes(~std::uint64_t{0}));
+            advice = job_->advance(control(), pool_bytes(~std::uint64_t{0}));
         }
         if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
             co_return advice;
@@ -306,7 +205,7 @@ bool Run::fit_samples(Advice& advice) const {
     };
     // advance() has found that it fits 32 bits.
     const auto least =
-        static_cast<std::uint32_t>(least_sample_capacity(control_, job_->plan().slots));
+        static_cast<std::uint32_t>(least_sample_capacity(control(), job_->plan().slots));
     if (!fits(advice.sample_capacity) && fits(least)) {
         advice.sample_capacity = least;
     }
@@ -322,164 +221,62 @@ std::uint64_t Run::pool_bytes(std::uint64_t most) const {
 }
 
 Task<Result<Done>> Run::follow(Advice advice) {
-    if (advice.next == Next::begin) {
-        co_return co_await begin_chunk();
-    }
-    if (advice.next == Next::finish) {
-        co_return co_await gather_chunk();
-    }
     Result<Done> enlarged = Done{};
-    if (advice.next == Next::larger_pool) {
+    switch (advice.next) {
+    case Next::begin:
+        ++report_.chunks;
+        co_return co_await submissions_.run_passes(record_begin, after_begin_);
+    case Next::count:
+        co_return co_await submissions_.run_passes(record_count, {});
+    case Next::finish:
+        co_return co_await submissions_.run_passes(record_finish, after_finish_);
+    case Next::larger_pool:
         enlarged = grow(advice.plan);
-    } else if (advice.next == Next::larger_samples) {
+        break;
+    case Next::larger_samples:
         enlarged = co_await enlarge_samples(advice.sample_capacity);
+        break;
+    default:
+        break;
     }
     if (!enlarged) {
         co_return enlarged;
     }
-    co_return co_await run_rounds(advice.next != Next::go_on);
+    co_return co_await submissions_.run_rounds(advice.next != Next::go_on);
 }
 
-/// Dispatches within the time there is.
-Result<Done> Run::shorten(std::uint64_t items) {
-    return job_->set_plan(shortened(wanted_, runner_.options.plan, items));
-}
-
-/// As many as the time allows, or as are expected to do where all disks together are little work.
-std::uint32_t Run::record_rounds(VkCommandBuffer commands) {
-    const RunPlan& plan = job_->plan();
-    std::uint64_t rounds = rounds_.items() / items_of_round(plan);
-    const double disks = kDisksPerSample * of_.samples;
-    if (disks * std::max(of_.disk_steps(plan, job().constants.capacity), 1.0) <= kFewSteps) {
-        rounds =
-            std::max(rounds, kRoundsBeside + 2 * static_cast<std::uint64_t>(disks) / plan.slots);
-    }
-    const auto count =
-        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rounds, 1, kMostRounds));
-    runner_.sampler.record_rounds(commands, *job_, count);
-    return count;
-}
-
-/// What goes on in the submission that draws the candidates, if they are few.
+/// All of the run, if it is small.
 void Run::record_all(VkCommandBuffer commands, Budget& budget) {
-    if (of_.stages.throws == 0 && budget.items >= job_->plan().sample_capacity) {
-        record_rounds(commands);
+    if (!of_.stages.is_counted() && budget.items >= job_->plan().sample_capacity) {
+        submissions_.record_rounds(commands);
         record_finish(commands, job(), budget);
-        record_samples(commands, budget);
+        record_samples(commands);
     }
-}
-
-Task<Result<Done>> Run::begin_chunk() {
-    ++report_.chunks;
-    auto begun = co_await run_passes(record_begin, &Run::record_all);
-    if (!begun) {
-        co_return begun;
-    }
-    const std::uint32_t throws = of_.stages.throws;
-    if (throws != 0 && job().thrown + control_.drawn > throws) {
-        co_return co_await cut_darts();
-    }
-    co_return Done{};
-}
-
-/// Finds the order below which there are just as many darts as are to be thrown.
-Task<Result<Done>> Run::cut_darts() {
-    const auto wanted = static_cast<std::uint32_t>(of_.stages.throws - job().thrown);
-    std::uint64_t low = 0, high = job().push.end_order;
-    std::uint64_t low_count = 0, high_count = control_.drawn;
-    for (std::uint32_t guess = 0; high_count != wanted && low_count != wanted; ++guess) {
-        // Orders are spread evenly, so a few guesses by proportion do; halves where they do not.
-        const double part = guess < kMostGuesses / 4
-                                ? static_cast<double>(wanted - low_count) /
-                                      static_cast<double>(high_count - low_count)
-                                : 0.5;
-        const auto step = static_cast<std::uint64_t>(part * static_cast<double>(high - low));
-        const std::uint64_t middle = low + std::clamp<std::uint64_t>(step, 1, high - low - 1);
-        const auto count = co_await count_before(static_cast<std::uint32_t>(middle));
-        if (!count) {
-            co_return count.error();
-        }
-        (*count < wanted ? low : high) = middle;
-        (*count < wanted ? low_count : high_count) = *count;
-        if (high - low <= 1) {
-            break; // Several of one order: they all take part.
-        }
-    }
-    const bool at_low = low_count == wanted;
-    job().cut_darts = at_low ? low_count : high_count;
-    job().push.end_order = static_cast<std::uint32_t>(at_low ? low : high);
-    if (auto done = submit([&](VkCommandBuffer commands) { job().record_restart(commands); });
-        !done) {
-        co_return done;
-    }
-    const auto restarted = took(co_await runner_.submitter->ended());
-    co_return restarted ? Result<Done>(Done{}) : restarted.error();
-}
-
-Task<Result<Done>> Run::run_rounds(bool rewind) {
-    if (auto short_enough = shorten(rounds_.items()); !short_enough) {
-        co_return short_enough;
-    }
-    const gpu::ControlRec before = control_;
-    std::uint32_t rounds = 0;
-    if (auto done = submit([&](VkCommandBuffer commands) {
-            if (rewind) {
-                runner_.sampler.record_rewind(commands, *job_);
-            }
-            rounds = record_rounds(commands);
-        });
-        !done) {
-        co_return done;
-    }
-    const auto seconds = took(co_await runner_.submitter->ended());
-    if (!seconds) {
-        co_return seconds.error();
-    }
-    steps_ += control_.steps - before.steps;
-    rounds_.took(*seconds, rounds * items_of_round(job_->plan()), control_.steps - before.steps);
-    // Batches that take more than a round: fewer of the other dispatches go idle when a round
-    // detects longer.
-    const bool is_slow = rounds >= 2 * (control_.iterations - before.iterations);
-    if (control_.incomplete > 0 && is_slow && runner_.options.plan.detect_passes == 0) {
-        wanted_.detect_passes = std::min(2 * wanted_.detect_passes, kMostPasses);
-    }
-    co_return check_progress(before);
-}
-
-Result<Done> Run::check_progress(const gpu::ControlRec& before) {
-    idle_ = std::memcmp(&before, &control_, sizeof before) == 0 ? idle_ + 1 : 0;
-    if (idle_ == kMostIdle) {
-        return Error{Status::internal,
-                     "the device makes no progress: " + std::to_string(kMostIdle) +
-                         " submissions have changed nothing"};
-    }
-    return Done{};
-}
-
-Progress Run::how_far() const {
-    const double in_chunk = static_cast<double>(control_.first_order) / job().push.end_order *
-                            static_cast<double>(job().darts(control_));
-    const double all = of_.stages.candidates();
-    const double decided = static_cast<double>(job().thrown) + in_chunk;
-    // A large disk may take as long as all others.
-    const double stepped = all_steps_ > 0 ? std::min(kMostExpected, steps_ / all_steps_) : 0;
-    return {static_cast<std::uint32_t>(std::min(std::max(decided, stepped * all), all)),
-            static_cast<std::uint32_t>(all), control_.accepted, control_.disks,
-            wide(control_.windows_low, control_.windows_high)};
-}
-
-Task<Result<Done>> Run::gather_chunk() {
-    co_return co_await run_passes(record_finish, &Run::record_samples);
 }
 
 /// All that there may be, so that they come with the control record.
-void Run::record_samples(VkCommandBuffer commands, Budget&) {
-    memory_.record_samples(commands,
-                           VkDeviceSize{wanted_.sample_capacity} * sizeof(gpu::SampleRec));
+void Run::record_samples(VkCommandBuffer commands) {
+    memory_.record_samples(commands, VkDeviceSize{submissions_.plan().sample_capacity} *
+                                         sizeof(gpu::SampleRec));
+}
+
+/// Candidates of a run that is complete, which are counted if it stopped early.
+Task<Result<std::uint64_t>> Run::candidates(Advice advice) {
+    if (advice.candidates == 0) {
+        if (auto done = co_await submissions_.run_passes(record_count, {}); !done) {
+            co_return done.error();
+        }
+        const auto counted = job_->advance(control());
+        if (!counted) {
+            co_return counted.error();
+        }
+        advice = *counted;
+    }
+    co_return advice.candidates;
 }
 
 Task<Result<std::vector<gpu::SampleRec>>> Run::read_samples() {
-    std::vector<gpu::SampleRec> samples(control_.ready);
+    std::vector<gpu::SampleRec> samples(control().ready);
     const auto bytes = std::as_writable_bytes(std::span(samples));
     if (const auto there = memory_.samples(); there.size() >= bytes.size()) {
         std::copy_n(there.begin(), bytes.size(), bytes.begin());
@@ -522,20 +319,15 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
         co_return samples.error();
     }
     report_.seconds.readback += runner_.now() - start;
-    std::uint64_t darts = job().darts(control_);
-    if (has_all()) {
-        // Those up to the last sample.
-        const auto counted = co_await count_before(samples->back().order + 1);
-        if (!counted) {
-            co_return counted.error();
-        }
-        darts = *counted;
+    const auto darts = co_await candidates(*advice);
+    if (!darts) {
+        co_return darts.error();
     }
-    report_.candidates = static_cast<std::uint32_t>(job().thrown + darts);
+    report_.candidates = static_cast<std::uint32_t>(*darts);
     report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
-    take_counts(control_, report_);
+    take_counts(control(), report_);
     report_.device_bytes = memory_.bytes();
-    report_.plan = wanted_;
+    report_.plan = submissions_.plan();
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }

@@ -1,0 +1,150 @@
+#include "engine/job/job_checks.hpp"
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "bindings.h"
+#include "constants.h"
+#include "engine/domain/domain_impl.hpp"
+#include "engine/job/buffer_ranges.hpp"
+#include "records.h"
+#include "support/number_text.hpp"
+
+namespace geodisk {
+namespace {
+
+// Of a minimum distance.
+constexpr double kMostError = 0.5;
+
+/// Whether a buffer of a workspace will do, beside the first `others` buffers of it.
+Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
+                          std::size_t others, const auto& name, const Sampler::Impl& sampler) {
+    if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {
+        return checked;
+    }
+    for (std::size_t k = 0; k < others; ++k) {
+        if (k != role && overlap(workspace[role], workspace[k])) {
+            return overlap_error(name(role), name(k));
+        }
+    }
+    return Done{};
+}
+
+} // namespace
+
+Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
+                             const Domain::Impl& of, const Sampler::Impl& sampler) {
+    const auto name = [&of](std::size_t i) { return of.name_of(static_cast<BufferRole>(i)); };
+    for (std::size_t i = 0; i < kBufferRoles; ++i) {
+        if (needs.bytes[i] == 0) {
+            continue;
+        }
+        if (auto checked = check_buffer(workspace, i, needs.bytes[i], i, name, sampler); !checked) {
+            return checked;
+        }
+    }
+    return Done{};
+}
+
+Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
+                               const Sampler::Impl& sampler) {
+    const auto name = [](std::size_t i) { return to_string(static_cast<BufferRole>(i)); };
+    return check_buffer(workspace, role, needed, kBufferRoles, name, sampler);
+}
+
+Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
+    constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
+    const bool fine =
+        plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
+        std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
+        plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
+        plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
+        plan.dispatch_items >= 1 && plan.detect_passes <= 4096 &&
+        plan.sample_capacity > plan.slots && plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
+        plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed && plan.slots <= kMost &&
+        plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
+        plan.list_capacity <= kMost;
+    if (!fine) {
+        return Error{Status::invalid_argument,
+                     "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
+                     "detect_passes, stages, idle_capacity and dispatch_items at least 1, stages "
+                     "at most 15, "
+                     "sample_capacity more than slots, window_capacity and table_capacity powers "
+                     "of two, list_capacity a "
+                     "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
+    }
+    // The vertex table tags distances by the bits that those below 2 leave clear.
+    if (!(plan.error_bound > 0 && plan.error_bound <= kMostError)) {
+        return Error{Status::invalid_argument,
+                     "the plan's error_bound of " + number_text(plan.error_bound) +
+                         " is not above 0 and at most half of the minimum distance"};
+    }
+    const std::uint64_t most_slots = std::uint64_t{kMostGroups} * tuning.slot_local_size;
+    if (plan.slots > most_slots) {
+        return Error{Status::invalid_argument,
+                     "the plan's " + std::to_string(plan.slots) + " slots are more than the " +
+                         std::to_string(most_slots) + " that work groups of " +
+                         std::to_string(tuning.slot_local_size) + " reach"};
+    }
+    if (plan.pool_block != tuning.pool_block && plan.pool_block != 1) {
+        return Error{Status::invalid_argument, "the plan's pool_block is " +
+                                                   std::to_string(plan.pool_block) +
+                                                   ", which is neither 1 nor the sampler's " +
+                                                   std::to_string(tuning.pool_block)};
+    }
+    return Done{};
+}
+
+Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize pool) {
+    if (auto checked = check_plan(plan, job.sampler->choices.tuning); !checked) {
+        return checked;
+    }
+    if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
+        plan.sample_capacity != job.plan.sample_capacity ||
+        plan.error_bound != job.plan.error_bound) {
+        return Error{Status::invalid_argument,
+                     "the plan has another error_bound, or other stages, idle_capacity or "
+                     "sample_capacity than the job was made for"};
+    }
+    const std::uint32_t most_slots = job.most_slots;
+    if (plan.pool_bytes() > pool || plan.slots > most_slots) {
+        return Error{Status::workspace_too_small,
+                     "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
+                         " bytes and " + std::to_string(plan.slots) + " slots; the workspace has " +
+                         std::to_string(pool) + " bytes and " + std::to_string(most_slots) +
+                         " slots"};
+    }
+    return Done{};
+}
+
+Result<Done> check_settled(std::span<const gpu::SampleRec> samples, const Job::Impl& job) {
+    if (samples.size() > job.plan.sample_capacity) {
+        return Error{Status::invalid_argument,
+                     std::to_string(samples.size()) + " settled samples are more than the plan's " +
+                         "sample_capacity of " + std::to_string(job.plan.sample_capacity)};
+    }
+    const bool has_weights = job.variant.domain != DomainKind::box;
+    // Multiples of 2^-24, so that the weight of the first corner is exact.
+    const auto is_weight = [](float weight) {
+        return weight >= 0 && weight <= 1 && weight * 0x1p24f == std::floor(weight * 0x1p24f);
+    };
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const gpu::SampleRec& sample = samples[i];
+        if (sample.face >= job.constants.faces) {
+            return Error{Status::invalid_argument,
+                         "settled sample " + std::to_string(i) + " is in " +
+                             (has_weights ? "face " : "cell ") + std::to_string(sample.face) +
+                             ", but there are " + std::to_string(job.constants.faces)};
+        }
+        if (has_weights && !(is_weight(sample.weight1) && is_weight(sample.weight2) &&
+                             sample.weight1 + sample.weight2 <= 1)) {
+            return Error{Status::invalid_argument,
+                         "the weights of settled sample " + std::to_string(i) +
+                             " are not multiples of 2^-24 that sum to at most 1"};
+        }
+    }
+    return Done{};
+}
+
+} // namespace geodisk

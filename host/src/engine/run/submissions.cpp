@@ -1,0 +1,158 @@
+#include "engine/run/submissions.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "constants.h"
+#include "engine/run/run_result.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr std::uint64_t kMostRounds = 256;
+// About those of a run that recomputes few; and that are so few that one submission does for them.
+constexpr double kDisksPerSample = 1.5;
+constexpr double kFewSteps = 1024;
+// Rounds that list candidates, or end a batch.
+constexpr std::uint64_t kRoundsBeside = 6;
+constexpr std::uint32_t kMostPasses = 64;
+// Submissions that may leave no trace, before the device counts as stuck.
+constexpr std::uint32_t kMostIdle = 8;
+// Part of a run that the steps of disks alone may count as done.
+constexpr double kMostExpected = 0.99;
+// Items of a pass before it is known how long they take.
+constexpr std::uint64_t kItemsOfNew = std::uint64_t{1} << 18;
+
+} // namespace
+
+Submissions::Submissions(Runner::Impl& runner, RunMemory& memory, const Domain::Impl& of)
+    : runner_(runner), memory_(memory), of_(of), passes_(runner.submission_seconds()),
+      rounds_(runner.submission_seconds()),
+      all_steps_(kDisksPerSample * of.all_steps() * std::max(1.0, kLeastSlots / of.samples)) {}
+
+void Submissions::use(Job& job, const RunPlan& plan) {
+    job_ = &job;
+    plan_ = plan;
+}
+
+Result<Done> Submissions::submit(const std::function<void(VkCommandBuffer)>& record) {
+    submitted_ = runner_.now();
+    return runner_.submit_timed([&](VkCommandBuffer commands) {
+        memory_.record_uploads(commands);
+        record(commands);
+        memory_.record_control(commands);
+    });
+}
+
+Result<double> Submissions::took(Result<Done> end) {
+    if (end && runner_.clock) {
+        end = runner_.clock->collect();
+    }
+    if (!end) {
+        return end.error();
+    }
+    control_ = memory_.control();
+    if (control_.abi != gpu::kAbi && job().begun.is_at_start()) {
+        return Error{Status::internal, "the device did not write its control record"};
+    }
+    runner_.progress = how_far();
+    return runner_.now() - submitted_;
+}
+
+Task<Result<Done>> Submissions::run_passes(Passes record, const InOne& in_one) {
+    bool is_last = false;
+    for (std::uint32_t part = 0; !is_last; ++part) {
+        if (auto short_enough = shorten(passes_.items()); !short_enough) {
+            co_return short_enough;
+        }
+        Budget budget{kAllDispatches, passes_.items(), kItemsOfNew};
+        if (auto done = submit([&](VkCommandBuffer commands) {
+                is_last = record(commands, job(), budget);
+                if (is_last && part == 0 && in_one) {
+                    in_one(commands, budget);
+                }
+            });
+            !done) {
+            co_return done;
+        }
+        const auto seconds = took(co_await runner_.submitter->ended());
+        if (!seconds) {
+            co_return seconds.error();
+        }
+        passes_.took(*seconds, passes_.items() - budget.items);
+        if (budget.is_in_new) {
+            passes_.bound(kItemsOfNew);
+        }
+    }
+    co_return Done{};
+}
+
+Result<Done> Submissions::shorten(std::uint64_t items) {
+    return job_->set_plan(shortened(plan_, runner_.options.plan, items));
+}
+
+std::uint32_t Submissions::record_rounds(VkCommandBuffer commands) {
+    const RunPlan& plan = job_->plan();
+    std::uint64_t rounds = rounds_.items() / items_of_round(plan);
+    const double disks = kDisksPerSample * of_.samples;
+    if (disks * std::max(of_.disk_steps(plan, job().constants.capacity), 1.0) <= kFewSteps) {
+        rounds =
+            std::max(rounds, kRoundsBeside + 2 * static_cast<std::uint64_t>(disks) / plan.slots);
+    }
+    const auto count =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rounds, 1, kMostRounds));
+    runner_.sampler.record_rounds(commands, *job_, count);
+    return count;
+}
+
+Task<Result<Done>> Submissions::run_rounds(bool rewind) {
+    if (auto short_enough = shorten(rounds_.items()); !short_enough) {
+        co_return short_enough;
+    }
+    const gpu::ControlRec before = control_;
+    std::uint32_t rounds = 0;
+    if (auto done = submit([&](VkCommandBuffer commands) {
+            if (rewind) {
+                runner_.sampler.record_rewind(commands, *job_);
+            }
+            rounds = record_rounds(commands);
+        });
+        !done) {
+        co_return done;
+    }
+    const auto seconds = took(co_await runner_.submitter->ended());
+    if (!seconds) {
+        co_return seconds.error();
+    }
+    steps_ += control_.steps - before.steps;
+    rounds_.took(*seconds, rounds * items_of_round(job_->plan()), control_.steps - before.steps);
+    // Batches that take more than a round: fewer of the other dispatches go idle when a round
+    // detects longer.
+    const bool is_slow = rounds >= 2 * (control_.iterations - before.iterations);
+    if (control_.incomplete > 0 && is_slow && runner_.options.plan.detect_passes == 0) {
+        plan_.detect_passes = std::min(2 * plan_.detect_passes, kMostPasses);
+    }
+    co_return check_progress(before);
+}
+
+Result<Done> Submissions::check_progress(const gpu::ControlRec& before) {
+    idle_ = std::memcmp(&before, &control_, sizeof before) == 0 ? idle_ + 1 : 0;
+    if (idle_ == kMostIdle) {
+        return Error{Status::internal,
+                     "the device makes no progress: " + std::to_string(kMostIdle) +
+                         " submissions have changed nothing"};
+    }
+    return Done{};
+}
+
+Progress Submissions::how_far() const {
+    const double all = of_.stages.candidates();
+    // A large disk may take as long as all others.
+    const double stepped = all_steps_ > 0 ? std::min(kMostExpected, steps_ / all_steps_) : 0;
+    const double decided = std::max(job().decided(control_), stepped * all);
+    return {static_cast<std::uint32_t>(std::min(decided, all)), static_cast<std::uint32_t>(all),
+            control_.accepted, control_.disks, wide(control_.windows_low, control_.windows_high)};
+}
+
+} // namespace geodisk
