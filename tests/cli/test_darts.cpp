@@ -145,7 +145,7 @@ TEST_CASE("methods take their own options") {
         check_fails(folder, 2, "--darts", darts({"-d", "1", "--throws", value}));
         check_fails(folder, 2, "--count", darts({"-d", "1", "--count", value}));
     }
-    check_fails(folder, 2, "more than the 4,294,967,295", darts({"-d", "1", "--throws", "1e10"}));
+    check_fails(folder, 2, "the maximum is 4,294,967,295", darts({"-d", "1", "--throws", "1e10"}));
 }
 
 } // namespace geodisk::test
