@@ -225,7 +225,7 @@ TEST_CASE("wrong lines of a manifest are told before any work") {
     check("-n 9\n", 2, "list.txt: line 1: MESH is required");
     check("builtin:cube --device 0\n", 2, "--device");
     check("builtin:cube --help\n", 2, "--help");
-    check("builtin:cube -o ../a\n", 2, "line 1: --output: '../a' is no name");
+    check("builtin:cube -o ../a\n", 2, "line 1: --output: '../a' is not a file name");
     check("builtin:cube\n", 2, "line 1: no distance given", {"-q"});
     check("out/a.ply -o a\n", 2,
           "out/a.ply: the samples of list.txt: line 1 would replace the mesh");

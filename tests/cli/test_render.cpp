@@ -268,9 +268,9 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     folder.write("bare.obj", "f 1 2 3\n");
     folder.write("lengths.txt", "1 2 3\n2 3 4\n1 3 5\n");
     folder.write("one.csv", "# min_distance: 1\nface_index,bary_u,bary_v,bary_w\n0,1,0,0\n");
-    check_fails(folder, 3, "without coordinates",
+    check_fails(folder, 3, "no coordinates",
                 {"render", "bare.obj", "one.csv", "-o", "p.png", "--edge-lengths", "lengths.txt"});
-    check_fails(folder, 3, "without coordinates",
+    check_fails(folder, 3, "no coordinates",
                 {"sample", "bare.obj", "-d", "1", "-o", "p.csv", "--picture", "p.png",
                  "--edge-lengths", "lengths.txt"});
 }
