@@ -215,7 +215,8 @@ TEST_CASE("samples in space are balls in a frame") {
     CHECK(count_if(cut, is_bare) > 0.01 * 200 * 200); // Sections.
     // Behind what was taken away there are others.
     CHECK(count_if(cut, is_transparent) < 1.1 * disks);
-    check_fails(folder, 2, "of surfaces", {"render", "a.csv", "-o", "q.png", "--style", "voronoi"});
+    check_fails(folder, 2, "is for surfaces",
+                {"render", "a.csv", "-o", "q.png", "--style", "voronoi"});
     make_samples(folder);
     check_fails(folder, 2, "--cut", {"render", kMesh, "a.ply", "-o", "q.png", "--cut"});
 }

@@ -82,10 +82,10 @@ TEST_CASE("welding joins faces along open seams, and verify wants the same") {
     CHECK(contains(same.out, "2 vertices joined to others, area"));
     CHECK(contains(bytes_of(folder / "v.json"), "\"merged_vertices\": 2,"));
     CHECK(same.err.empty());
-    CHECK(
-        contains(run(folder, {"verify", "mesh.obj", "a.ply"}).err, "made with --weld=0.1%, which"));
+    CHECK(contains(run(folder, {"verify", "mesh.obj", "a.ply"}).err,
+                   "made with --weld=0.1%, but this command"));
     CHECK(contains(run(folder, {"verify", "mesh.obj", "b.ply", "--weld=0.1%"}).err,
-                   "made with no --lift, --weld and --keep-seams, which"));
+                   "made with no --lift, --weld and --keep-seams, but this command"));
     const Outcome moved = run(folder, {"transfer", "a.ply", "mesh.obj", "mesh.obj", "-o", "c.ply",
                                        "--weld-a=0.1%", "--weld-b=0.1%", "--json", "c.json"});
     CHECK(moved.status == 0);
@@ -130,13 +130,13 @@ TEST_CASE("seams of coinciding borders are joined, and verify wants the same") {
     CHECK(run(folder, {"verify", "box.obj", "a.ply", "--weld"}).status == 0);
     const Outcome other = run(folder, {"verify", "box.obj", "b.ply"});
     CHECK(other.status == 1);
-    CHECK(contains(other.err, "made with --keep-seams, which is not what is looked at"));
+    CHECK(contains(other.err, "made with --keep-seams, but this command has other options"));
     const Outcome same = run(folder, {"verify", "box.obj", "b.ply", "--keep-seams"});
     CHECK(same.status == 0);
     CHECK(contains(same.out, "keep_seams yes\n"));
     CHECK(contains(same.err, "box.obj: 24 edges coincide but are not connected"));
     CHECK(contains(run(folder, {"verify", "box.obj", "a.ply", "--keep-seams"}).err,
-                   "made with no --lift, --weld and --keep-seams, which"));
+                   "made with no --lift, --weld and --keep-seams, but this command"));
     CHECK(run(folder, {"transfer", "b.ply", "box.obj", "box.obj", "-o", "c.ply", "--keep-seams-a",
                        "--keep-seams-b"})
               .status == 0);
@@ -259,8 +259,8 @@ TEST_CASE("a lift measures in the lifted surface and keeps the coordinates") {
     // Without the lift other distances hold, and the user is told.
     const Outcome other = run(folder, {"verify", "builtin:terrain:20", "a.ply"});
     CHECK(other.status == 1);
-    CHECK(
-        contains(other.err, "a.ply: made with --lift normals:0.2, which is not what is looked at"));
+    CHECK(contains(other.err,
+                   "a.ply: made with --lift normals:0.2, but this command has other options"));
     CHECK_FALSE(contains(other.out, "off the mesh"));
 
     REQUIRE(run(folder, {"sample", "builtin:cube", "-o", "cube.ply", "-n", "9"}).status == 0);
