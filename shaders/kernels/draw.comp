@@ -4,6 +4,7 @@
 // reads: faces, fans (keys, radii), starts   writes: weights, orders, cells, control
 // spec: rounding, adaptive
 
+#define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"
 #include "../lib/job.glsl"
 #include "../lib/face_cell.glsl"
@@ -25,12 +26,13 @@ void visit(Unit unit, uint number) {
                number + 1u == word_at(starts, (unit.owner + 1u) * push.stages)) {
         cells[(word & kFirstCellMask) + 1u] = number + 1u;
     }
-    weights[place] = c.weight1;
-    weights[job.capacity + place] = c.weight2;
+    weights[2u * place] = c.weight1;
+    weights[2u * place + 1u] = c.weight2;
     orders[place] = c.order;
 }
 
 void main() {
+    keep_constants();
     draw_states();
     visit_each();
 }

@@ -18,7 +18,7 @@ void settle_point(uint slot, uvec4 record) {}
 #include "../lib/select_idle.glsl"
 
 uvec4 sample_at(uint place, uint order) {
-    float weight1 = weight_of(word_at(weights, place));
-    float weight2 = weight_of(word_at(weights, job.capacity + place));
+    float weight1 = weight_of(word_at(weights, 2u * place));
+    float weight2 = weight_of(word_at(weights, 2u * place + 1u));
     return uvec4(order, find_unit(place).owner, floatBitsToUint(weight1), floatBitsToUint(weight2));
 }

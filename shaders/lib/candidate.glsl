@@ -8,8 +8,10 @@
 #include "parts.glsl"
 #include "radii.glsl"
 
+layout(constant_id = kSpecKeyed) const bool kKeyed = false;
+
 uint key_of(uint face) {
-    return kSeveral || job.has_keys != 0u ? key_word(face) : face;
+    return kSeveral || kKeyed ? key_word(face) : face;
 }
 
 // Returns the seed of a face. The seed of the job changes those of all surfaces.

@@ -158,8 +158,8 @@ void scan_some() {
             continue;
         }
         ++lane.tested;
-        float weight1 = weight_of(word_at(weights, place));
-        float weight2 = weight_of(word_at(weights, job.capacity + place));
+        float weight1 = weight_of(word_at(weights, 2u * place));
+        float weight2 = weight_of(word_at(weights, 2u * place + 1u));
         vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
         precise float dx = q.x - sx;
         precise float dy = q.y - sy;

@@ -21,8 +21,8 @@ GEODISK_CONST uint kBindFans = 1u;       // a FanRec per vertex; then the fans' 
 GEODISK_CONST uint kBindAxes = kBindFans; // for grids in space: two rows of AxisRec per axis
 GEODISK_CONST uint kBindCells = 2u;      // place where the candidates of each cell start, and one past the
                                          // last; kBindStarts serves for a mesh with one cell per face
-GEODISK_CONST uint kBindWeights = 3u;    // a word per candidate, by place: the weight of its face's second
-                                         // corner, in units of 2^-24; then that of the third
+GEODISK_CONST uint kBindWeights = 3u;    // two words per candidate, by place: the weights of its face's second
+                                         // and third corner, in units of 2^-24
 GEODISK_CONST uint kBindPoints = kBindWeights; // coordinates of the candidates, by place, axis after axis;
                                                // for lengths of curves, then those of the normals; then the
                                                // number each was drawn by

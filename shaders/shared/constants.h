@@ -200,6 +200,7 @@ GEODISK_CONST uint kSpecSeveral = 9u; // several surfaces, each with its own see
 GEODISK_CONST uint kSpecTrims = 10u;  // disks with very many windows trim them
 GEODISK_CONST uint kSpecManyRows = 11u; // faces have several rows of cells
 GEODISK_CONST uint kSpecSlotLocalSize = 4u; // of kernels over slots and lanes
+GEODISK_CONST uint kSpecKeyed = 13u; // faces are drawn by keys of the caller
 GEODISK_CONST uint kSpecLanesApart = 12u; // pool blocks of one lane
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.

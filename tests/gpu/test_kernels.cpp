@@ -123,9 +123,7 @@ std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& 
     const std::uint32_t count = twin.pool.size();
     REQUIRE(run.control().drawn == count);
     const auto states = states_of(run, count);
-    const auto weights1 = run.read<std::uint32_t>(BufferRole::weights, count);
-    const auto weights2 = run.read<std::uint32_t>(BufferRole::weights, count,
-                                                  std::size_t{4} * run.constants().capacity);
+    const auto weights = run.read<std::uint32_t>(BufferRole::weights, std::size_t{2} * count);
     const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
     const std::vector<std::uint32_t>& starts = twin.pool.bins.starts;
     if (run.constants().all_single == 0) {
@@ -138,8 +136,8 @@ std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& 
         std::vector<Key> here, want;
         for (std::uint32_t place = starts[c]; place < starts[c + 1]; ++place) {
             wrong += states[place] != PlaceState::idle;
-            here.emplace_back(orders[place], weight(weights1[place]), weight(weights2[place]),
-                              place);
+            here.emplace_back(orders[place], weight(weights[std::size_t{2} * place]),
+                              weight(weights[std::size_t{2} * place + 1]), place);
             const ref::FacePoint<float>& point = twin.pool.bins.points[place];
             want.emplace_back(twin.pool.words[place], point.weight1, point.weight2, place);
         }

@@ -176,6 +176,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
     kernels.domain = DomainKind::surface;
     kernels.adaptive = has_radii(surfaces_);
     kernels.several = surfaces_.size() > 1;
+    kernels.keyed = !kernels.several && !surfaces_[0].params.face_keys.empty();
     kernels.many_rows = cells_ != 0;
     samples_per_measure = samples_per_area();
     // Several have neither, and seeds of their own.

@@ -58,7 +58,7 @@ std::vector<KernelVariant> all_kernel_variants() {
             variants.push_back(surface);
             for (bool KernelVariant::*const also :
                  {&KernelVariant::event_heap, &KernelVariant::trims, &KernelVariant::lanes_apart,
-                  &KernelVariant::several}) {
+                  &KernelVariant::several, &KernelVariant::keyed}) {
                 variants.emplace_back(surface).*also = true;
             }
         }

@@ -48,6 +48,7 @@ constexpr std::size_t index_of(DomainKind kind) {
 #define GEODISK_KERNEL_SWITCHES(X)                                                                 \
     X(curved, kSpecCurved)          /* Lengths of curves instead of straight lines in space. */    \
     X(adaptive, kSpecAdaptive)      /* Radii that vary over a surface. */                          \
+    X(keyed, kSpecKeyed)            /* Faces are drawn by keys of the caller. */                   \
     X(several, kSpecSeveral)        /* Surfaces with seeds and stages of their own. */             \
     X(many_rows, kSpecManyRows)     /* Faces have several rows of cells. */                        \
     X(event_heap, kSpecEventHeap)   /* Vertex events of a disk wait in a heap, else in a ring. */  \
