@@ -32,8 +32,8 @@ Result<Done> allocate_descriptor_sets(const DeviceRefs& device, const DeviceTabl
 }
 
 void write_buffer(const DeviceRefs& device, const DeviceTable& vk, VkDescriptorSet set,
-                  std::uint32_t binding, VkDescriptorType type,
-                  const VkDescriptorBufferInfo& range) {
+                  std::uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& range,
+                  const VkBufferView& view) {
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;
@@ -41,6 +41,7 @@ void write_buffer(const DeviceRefs& device, const DeviceTable& vk, VkDescriptorS
     write.descriptorCount = 1;
     write.descriptorType = type;
     write.pBufferInfo = &range;
+    write.pTexelBufferView = &view;
     vk.vkUpdateDescriptorSets(device.device, 1, &write, 0, nullptr);
 }
 

@@ -24,9 +24,9 @@ Result<Done> allocate_descriptor_sets(const DeviceRefs& device, const DeviceTabl
                                       std::span<const VkDescriptorSetLayout> layouts,
                                       std::span<VkDescriptorSet> sets);
 
-/// Binds a range as a buffer of this type, storage or uniform.
+/// Binds a range as a buffer of this type, or `view` if that is a texel buffer.
 void write_buffer(const DeviceRefs& device, const DeviceTable& vk, VkDescriptorSet set,
-                  std::uint32_t binding, VkDescriptorType type,
-                  const VkDescriptorBufferInfo& range);
+                  std::uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& range,
+                  const VkBufferView& view = VK_NULL_HANDLE);
 
 } // namespace geodisk

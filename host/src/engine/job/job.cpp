@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -357,15 +356,11 @@ Result<Done> Job::Impl::allocate_sets() {
     const DeviceTable& vk = sampler->vk;
     const VkDevice device = sampler->device.device;
     constexpr std::uint32_t kSets = kSetRoles * kKernels;
-    std::map<VkDescriptorType, std::uint32_t> descriptors;
+    std::vector<VkDescriptorPoolSize> sizes;
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const KernelBinding& binding : bindings_of(k)) {
-            descriptors[binding.type] += kSetRoles;
+            sizes.push_back({binding.type, kSetRoles}); // Those of one type add up.
         }
-    }
-    std::vector<VkDescriptorPoolSize> sizes;
-    for (const auto& [type, count] : descriptors) {
-        sizes.push_back({type, count});
     }
     if (descriptor_pool != VK_NULL_HANDLE) {
         vk.vkDestroyDescriptorPool(device, std::exchange(descriptor_pool, VK_NULL_HANDLE),
@@ -442,23 +437,13 @@ Result<Done> Job::Impl::replace_buffer(std::size_t buffer, const BufferRange& ra
 void Job::Impl::write_buffer(std::size_t buffer) const {
     const VkDescriptorBufferInfo info{workspace[buffer].buffer, workspace[buffer].offset,
                                       workspace[buffer].size};
-    const auto write = [&](SetRole role, std::size_t kernel, const KernelBinding& binding) {
-        VkWriteDescriptorSet set{};
-        set.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        set.dstSet = sets[static_cast<std::size_t>(role)][kernel];
-        set.dstBinding = binding.number;
-        set.descriptorCount = 1;
-        set.descriptorType = binding.type;
-        set.pBufferInfo = &info;
-        set.pTexelBufferView = &views[buffer];
-        sampler->vk.vkUpdateDescriptorSets(sampler->device.device, 1, &set, 0, nullptr);
-    };
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const KernelBinding& binding : bindings_of(k)) {
             for (std::size_t role = 0; role < kSetRoles; ++role) {
                 if (bound_as(static_cast<SetRole>(role), binding.number,
                              constants.all_single != 0) == buffer) {
-                    write(static_cast<SetRole>(role), k, binding);
+                    geodisk::write_buffer(sampler->device, sampler->vk, sets[role][k],
+                                          binding.number, binding.type, info, views[buffer]);
                 }
             }
         }

@@ -109,8 +109,10 @@ struct Placement::Impl {
 };
 
 Result<Done> Placement::Impl::allocate_set() {
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 7}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}}};
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const KernelBinding& binding : sampler->pipelines.interface_of(Kernel::place).bindings) {
+        sizes.push_back({binding.type, 1});
+    }
     const VkDescriptorSetLayout layout = sampler->pipelines.set_layout(kPlace);
     auto created = create_descriptor_pool(sampler->device, sampler->vk, sizes, 1, pool);
     return created ? allocate_descriptor_sets(sampler->device, sampler->vk, pool, {&layout, 1},

@@ -95,10 +95,10 @@ class Recorder {
         });
     }
 
-    /// What `change` does to the control record by the three functions that follow.
+    /// Records what `what` does by the functions that follow.
     template <class Change>
-    void change_control(const Change& change) {
-        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) { transfer(change); });
+    void change(const Change& what) {
+        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) { transfer(what); });
     }
     void fill(std::size_t first, std::size_t size, std::uint32_t word) const {
         const BufferRange& control = range(BufferRole::control);
@@ -114,30 +114,16 @@ class Recorder {
         fill_generation();
         fill(kAt + 4, end - kAt - 4, 0);
     }
-    void copy(std::size_t from, std::size_t to) const {
-        const BufferRange& control = range(BufferRole::control);
-        const VkBufferCopy copy{control.offset + from, control.offset + to, 4};
-        sampler_.vk.vkCmdCopyBuffer(commands_, control.buffer, control.buffer, 1, &copy);
-    }
+    void copy(std::size_t from, std::size_t to) const { copy_word(BufferRole::control, from, to); }
     /// That of a sample that is in order.
     void copy_order(std::uint32_t sample, std::size_t to) const {
-        const BufferRange& samples = range(BufferRole::samples);
-        const BufferRange& control = range(BufferRole::control);
-        const VkBufferCopy copy{samples.offset + VkDeviceSize{sample} * sizeof(gpu::SampleRec) +
-                                    offsetof(gpu::SampleRec, order),
-                                control.offset + to, 4};
-        sampler_.vk.vkCmdCopyBuffer(commands_, samples.buffer, control.buffer, 1, &copy);
+        copy_word(BufferRole::samples,
+                  sample * sizeof(gpu::SampleRec) + offsetof(gpu::SampleRec, order), to);
     }
-
-    /// Writes the constants of the job.
-    void write_constants() {
-        in_parts(1, 1, [&](std::uint64_t, std::uint64_t) {
-            const BufferRange& target = range(BufferRole::constants);
-            transfer([&] {
-                sampler_.vk.vkCmdUpdateBuffer(commands_, target.buffer, target.offset,
-                                              sizeof job_.constants, &job_.constants);
-            });
-        });
+    void write_constants() const {
+        const BufferRange& target = range(BufferRole::constants);
+        sampler_.vk.vkCmdUpdateBuffer(commands_, target.buffer, target.offset,
+                                      sizeof job_.constants, &job_.constants);
     }
 
     /// What is recorded from now on belongs to this stage.
@@ -183,6 +169,14 @@ class Recorder {
             has_unmarked_ = true;
         }
         cursor_ = {cursor_.step + 1, 0};
+    }
+
+    /// Copies a word to the control record.
+    void copy_word(BufferRole role, std::size_t from, std::size_t to) const {
+        const BufferRange& source = range(role);
+        const BufferRange& control = range(BufferRole::control);
+        const VkBufferCopy copy{source.offset + from, control.offset + to, 4};
+        sampler_.vk.vkCmdCopyBuffer(commands_, source.buffer, control.buffer, 1, &copy);
     }
 
     template <class Commands>
@@ -264,8 +258,8 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     const DomainKernels own = kernels_of(job.variant.domain);
     const bool has_cells = job.constants.all_single == 0;
     recorder.stage(Stage::count);
-    recorder.write_constants();
-    recorder.change_control([&] {
+    recorder.change([&] { recorder.write_constants(); });
+    recorder.change([&] {
         // What was accepted so far is settled, and in order.
         constexpr std::size_t kAccepted = offsetof(gpu::ControlRec, accepted);
         constexpr std::size_t kSettled = offsetof(gpu::ControlRec, settled);
@@ -312,7 +306,7 @@ bool record_count(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     }
     Recorder recorder(commands, job, job.counted, budget);
     recorder.stage(Stage::count);
-    recorder.change_control([&] {
+    recorder.change([&] {
         recorder.fill(offsetof(gpu::ControlRec, below), 4, 0);
         constexpr std::size_t kTo = offsetof(gpu::ControlRec, counted_order);
         if (job.is_stop_counted) {
@@ -322,21 +316,21 @@ bool record_count(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
         }
     });
     recorder.pass_over_candidates(Kernel::count_orders, gpu::kSelectBlock, job.push);
-    recorder.change_control([&] { recorder.fill_generation(); }); // Copies tell of it from now on.
+    recorder.change([&] { recorder.fill_generation(); }); // Copies tell of it from now on.
     return recorder.is_complete();
 }
 
 bool record_finish(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     Recorder recorder(commands, job, job.finished, budget);
     recorder.stage(Stage::gather);
-    recorder.change_control(
+    recorder.change(
         [&] { recorder.fill(offsetof(gpu::ControlRec, first_open), 4, gpu::kNoOrder); });
     recorder.clear(BufferRole::buckets, (VkDeviceSize{job.constants.buckets} + 2) * 4);
     recorder.pass_over_samples(Kernel::order_count);
     recorder.scan(job.constants.buckets + 2, SetRole::bucket_scan);
     recorder.pass_over_samples(Kernel::order_place);
     recorder.pass_over_samples(Kernel::order_write);
-    recorder.change_control([&] {
+    recorder.change([&] {
         recorder.copy(offsetof(gpu::ControlRec, next_ordered), offsetof(gpu::ControlRec, ordered));
     });
     return recorder.is_complete();
@@ -430,12 +424,12 @@ void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
     // The batch was selected with the slots of an earlier plan, never fewer than now.
     Recorder recorder(commands, *job.impl_);
     const gpu::Push& push = job.impl_->push;
-    recorder.change_control([&] { recorder.fill_generation(); });
+    recorder.change([&] { recorder.fill_generation(); });
     // No lane has a slot, and no row of a table a disk.
     recorder.clear(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
     recorder.pass(Kernel::rewind, job.impl_->most_slots, impl_->choices.tuning.slot_local_size,
                   push);
-    recorder.change_control([&] {
+    recorder.change([&] {
         for (const std::size_t word :
              {offsetof(gpu::ControlRec, slots_used), offsetof(gpu::ControlRec, undecided),
               offsetof(gpu::ControlRec, overflow)}) {

@@ -116,7 +116,6 @@ struct Job::Impl {
     void begin_stages(std::uint32_t first, std::uint32_t count);
     void begin_first_stages();
     void set_seed(std::uint64_t seed);
-    void set_end_order(std::uint64_t order);
     /// Sets the end of the orders to decide, for what is recorded next.
     void apply_end();
     /// Returns true if all stages from this one on are to wait.
