@@ -154,7 +154,7 @@ double samples_per_volume(const BoxParams& box) noexcept {
 
 Stages stages_of(const BoxParams& box) noexcept {
     const double samples = samples_per_volume(box) * volume_of(box);
-    return {samples, std::max(box.pool_ratio, kLeastPool / samples), box.throws};
+    return {samples, pool_ratio_of(box.pool_ratio, samples), box.throws};
 }
 
 void sample_point(std::uint64_t job_seed, const DrawAxes& axes, const gpu::SampleRec& sample,

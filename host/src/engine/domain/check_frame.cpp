@@ -1,6 +1,5 @@
 #include "engine/domain/check_frame.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -67,7 +66,7 @@ Result<Done> check_frame(const JobFrame& frame, const PreparedMesh& mesh,
     if (frame.radii_vary != (params.radii != nullptr)) {
         return unlike(frame.radii_vary ? "its radii vary" : "its radii do not vary");
     }
-    if (frame.pool_ratio != std::max(params.pool_ratio, kLeastPool / frame.samples)) {
+    if (frame.pool_ratio != pool_ratio_of(params.pool_ratio, frame.samples)) {
         return unlike("its pool ratio is not that of these parameters, " +
                       exact_text(params.pool_ratio));
     }

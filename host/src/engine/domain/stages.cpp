@@ -64,11 +64,15 @@ double Stages::expected_at_once(std::uint32_t stages) const noexcept {
     return last;
 }
 
+double pool_ratio_of(double asked, double samples) {
+    return std::max(asked, kLeastPool / samples);
+}
+
 Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
     // A distance beyond all those of the mesh is as good as one just beyond.
     const double samples =
         expected_count(effective_area(mesh, params), working_distance(mesh, params));
-    return {samples, std::max(params.pool_ratio, kLeastPool / samples), params.throws};
+    return {samples, pool_ratio_of(params.pool_ratio, samples), params.throws};
 }
 
 Stages stages_in(const JobFrame& frame, const PreparedMesh& mesh, const SampleParams& params) {

@@ -9,6 +9,10 @@ namespace geodisk {
 
 /// Fewer candidates are not worth a pool.
 inline constexpr double kLeastPool = 64;
+
+/// Returns the candidates of a pool per expected sample: as many as asked for, or those of the
+/// least pool.
+double pool_ratio_of(double asked, double samples);
 /// Maximum ratio of candidates to expected samples, for a surface much smaller than a disk.
 inline constexpr double kLargestRatio = 1e12;
 /// Maximum edge length in distances: longer edges would need a guard of a percent.
