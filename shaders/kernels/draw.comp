@@ -4,7 +4,6 @@
 // reads: faces, fans (keys, radii), starts   writes: weights, orders, cells, control
 // spec: rounding, adaptive
 
-#define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"
 #include "../lib/job.glsl"
 #include "../lib/face_cell.glsl"
@@ -32,7 +31,6 @@ void visit(Unit unit, uint number) {
 }
 
 void main() {
-    keep_constants();
     draw_states();
     visit_each();
 }

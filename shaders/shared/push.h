@@ -20,7 +20,7 @@ struct JobRec {
     float margin;         // by how much a window must be beaten before it is dropped
     float slack;          // by how much an interval is widened for hits
     uint path_rules;      // kRule* bits that hold of shortest paths
-    uint has_keys;        // 1 where faces are drawn by keys of the caller
+    uint has_keys;        // 1 if the caller gives keys for all faces: ties go by weights
     uint first_key_row;   // of the fans: where the keys begin
     uint all_single;      // 1 where all faces are of one cell, whose table is then that of starts
     uint stop_count;      // enough samples, of all chunks
