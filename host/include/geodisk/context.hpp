@@ -81,7 +81,7 @@ class Context {
     /// The one queue. It comes with a lock of this Context, so that several users may share it.
     QueueRef queue() const noexcept;
 
-    /// What is known about the device; lives as long as this Context.
+    /// Returns what is known about the device. It lives as long as this Context.
     const DeviceReport& report() const noexcept;
 
     /// Number of validation messages so far; always 0 without `ContextOptions::validation`.
