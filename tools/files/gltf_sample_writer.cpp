@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 #include <vector>
 
+#include <geodisk/uninitialized.hpp>
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
+#include "files/block_writer.hpp"
 #include "files/ply_file.hpp"
 #include "files/sample_writers.hpp"
 #include "program/failure.hpp"
@@ -14,13 +17,16 @@
 namespace geodisk::tools {
 namespace {
 
-/// glTF allows attributes of its users no integers of 32 bits; a float holds these exactly.
-float exact_float(std::uint32_t index) {
-    if (index > 1u << 24) {
-        fail_usage("glTF holds numbers of faces up to 16,777,216, and samples lie in face " +
-                   std::to_string(index) + "; use .ply, .csv or .npz");
+/// Throws for what a float does not hold exactly: glTF allows attributes of its users no integers
+/// of 32 bits. `index_of(i)` is that of row i.
+template <class IndexOf>
+void check_indices(std::size_t rows, const IndexOf& index_of) {
+    for (std::size_t i = 0; i < rows; ++i) {
+        if (index_of(i) > 1u << 24) {
+            fail_usage("glTF holds numbers of faces up to 16,777,216, and samples lie in face " +
+                       std::to_string(index_of(i)) + "; use .ply, .csv or .npz");
+        }
     }
-    return static_cast<float>(index);
 }
 
 std::string upper_case(std::string text) {
@@ -33,71 +39,108 @@ std::string upper_case(std::string text) {
 /// Collects the attributes of the points, all of them of floats.
 class Points {
   public:
-    Points(tinygltf::Model& model, std::span<const SampleRow> rows) : model_(model), rows_(rows) {
+    Points(tinygltf::Model& model, std::size_t count) : model_(model), count_(count) {
         model_.buffers.resize(1);
         primitive_.mode = TINYGLTF_MODE_POINTS;
     }
 
-    /// `value(row, i)` is that of component i.
+    /// `value(i, k)` is component k of point i.
     template <class Value>
-    void add(const char* name, std::size_t components, const Value& value) {
-        std::string bytes;
-        std::vector<double> least(components), most(components);
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
+    void add(const std::string& name, std::size_t components, const Value& value) {
+        UninitializedVector<float> numbers(count_ * components);
+        for_rows(count_, [&](std::size_t i) {
             for (std::size_t k = 0; k < components; ++k) {
-                const float number = value(rows_[i], k);
-                append_little_endian(bytes, number);
-                const auto exact = static_cast<double>(number);
-                least[k] = i == 0 ? exact : std::min(least[k], exact);
-                most[k] = i == 0 ? exact : std::max(most[k], exact);
+                numbers[i * components + k] = value(i, k);
             }
-        }
-        std::vector<unsigned char>& all = model_.buffers[0].data;
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = all.size();
-        view.byteLength = bytes.size();
-        view.target = TINYGLTF_TARGET_ARRAY_BUFFER;
-        all.insert(all.end(), bytes.begin(), bytes.end());
+        });
         tinygltf::Accessor accessor;
         accessor.bufferView = static_cast<int>(model_.bufferViews.size());
         accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-        accessor.count = rows_.size();
+        accessor.count = count_;
         accessor.type = components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
-        accessor.minValues = std::move(least);
-        accessor.maxValues = std::move(most);
+        set_bounds(accessor, numbers, components);
         primitive_.attributes[name] = static_cast<int>(model_.accessors.size());
-        model_.bufferViews.push_back(std::move(view));
+        model_.bufferViews.push_back(append(numbers));
         model_.accessors.push_back(std::move(accessor));
+    }
+    /// The same for numbers of faces, one of each point.
+    template <class IndexOf>
+    void add_indices(const std::string& name, const IndexOf& index_of) {
+        check_indices(count_, index_of);
+        add(name, 1, [&](std::size_t i, std::size_t) { return static_cast<float>(index_of(i)); });
     }
 
     const tinygltf::Primitive& primitive() const { return primitive_; }
 
   private:
+    static void set_bounds(tinygltf::Accessor& accessor, std::span<const float> numbers,
+                           std::size_t components) {
+        const auto first = numbers.first(components);
+        accessor.minValues.assign(first.begin(), first.end());
+        accessor.maxValues = accessor.minValues;
+        for (std::size_t i = components; i < numbers.size(); ++i) {
+            const auto number = static_cast<double>(numbers[i]);
+            double& least = accessor.minValues[i % components];
+            double& most = accessor.maxValues[i % components];
+            least = std::min(least, number);
+            most = std::max(most, number);
+        }
+    }
+
+    /// Appends numbers to the buffer.
+    tinygltf::BufferView append(std::span<const float> numbers) {
+        std::vector<unsigned char>& all = model_.buffers[0].data;
+        tinygltf::BufferView view;
+        view.buffer = 0;
+        view.byteOffset = all.size();
+        view.byteLength = numbers.size_bytes();
+        view.target = TINYGLTF_TARGET_ARRAY_BUFFER;
+        all.resize(view.byteOffset + view.byteLength);
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            store_little_endian(all.data() + view.byteOffset + i * sizeof(float), numbers[i]);
+        }
+        return view;
+    }
+
     tinygltf::Model& model_;
-    std::span<const SampleRow> rows_;
+    std::size_t count_;
     tinygltf::Primitive primitive_;
 };
 
-void add_surface(Points& points, const SampleLayout& layout) {
-    points.add("NORMAL", 3, [](const SampleRow& row, std::size_t k) { return row.normal[k]; });
-    points.add("_FACE_INDEX", 1,
-               [](const SampleRow& row, std::size_t) { return exact_float(row.face); });
-    points.add("_BARYCENTRIC", 3, [](const SampleRow& row, std::size_t k) { return row.bary[k]; });
+/// Writes a stream to a file.
+class FileBuffer : public std::streambuf {
+  public:
+    explicit FileBuffer(AtomicFile& file) : file_(file) {}
+
+  private:
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+        file_.write({bytes, static_cast<std::size_t>(count)});
+        return count;
+    }
+    int_type overflow(int_type c) override {
+        const char byte = traits_type::to_char_type(c);
+        xsputn(&byte, 1);
+        return c;
+    }
+
+    AtomicFile& file_;
+};
+
+void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLayout& layout) {
+    points.add("NORMAL", 3, [&](std::size_t i, std::size_t k) { return rows[i].normal[k]; });
+    points.add_indices("_FACE_INDEX", [&](std::size_t i) { return rows[i].face; });
+    points.add("_BARYCENTRIC", 3, [&](std::size_t i, std::size_t k) { return rows[i].bary[k]; });
     if (layout.has_radius) {
-        points.add("_RADIUS", 1, [](const SampleRow& row, std::size_t) {
-            return static_cast<float>(row.radius);
-        });
+        points.add("_RADIUS", 1,
+                   [&](std::size_t i, std::size_t) { return static_cast<float>(rows[i].radius); });
     }
     for (const ExtraColumn& column : layout.extra) {
-        const std::uint32_t* next = column.values.data();
-        points.add(("_" + upper_case(column.name)).c_str(), 1,
-                   [&next](const SampleRow&, std::size_t) { return exact_float(*next++); });
+        points.add_indices('_' + upper_case(column.name),
+                           [&](std::size_t i) { return column.values[i]; });
     }
     if (layout.has_polygon) {
-        points.add("_POLYGON_INDEX", 1, [](const SampleRow& row, std::size_t) {
-            return exact_float(row.polygon.value_or(0));
-        });
+        points.add_indices("_POLYGON_INDEX",
+                           [&](std::size_t i) { return rows[i].polygon.value_or(0); });
     }
 }
 
@@ -110,12 +153,12 @@ tinygltf::Node add_points(tinygltf::Model& model, std::span<const SampleRow> row
     if (origin != std::array<double, 3>{}) {
         node.translation.assign(origin.begin(), origin.end());
     }
-    Points points(model, rows);
-    points.add("POSITION", 3, [&](const SampleRow& row, std::size_t k) {
-        return static_cast<float>(row.position[k] - origin[k]);
+    Points points(model, rows.size());
+    points.add("POSITION", 3, [&](std::size_t i, std::size_t k) {
+        return static_cast<float>(rows[i].position[k] - origin[k]);
     });
     if (layout.is_on_surface) {
-        add_surface(points, layout);
+        add_surface(points, rows, layout);
     }
     tinygltf::Mesh mesh;
     mesh.primitives.push_back(points.primitive());
@@ -157,12 +200,13 @@ void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const Sa
         model.scenes[0].nodes.push_back(0);
     }
     const bool is_binary = target.format == SampleFormat::glb;
-    std::ostringstream out;
+    FileBuffer buffer(file);
+    std::ostream out(&buffer);
+    out.exceptions(std::ios::badbit); // Keeps those of the file.
     tinygltf::TinyGLTF writer;
     if (!writer.WriteGltfSceneToStream(&model, out, true, is_binary)) {
         throw UserError(ExitCode::internal, "the samples do not go into a glTF file");
     }
-    file.write(out.view());
 }
 
 } // namespace geodisk::tools

@@ -1,4 +1,8 @@
+#include <algorithm>
 
+#include <geodisk/uninitialized.hpp>
+
+#include "files/block_writer.hpp"
 #include "files/ply_file.hpp"
 #include "files/sample_writers.hpp"
 #include "files/zip_writer.hpp"
@@ -28,16 +32,45 @@ std::string table_shape(std::size_t rows, std::size_t columns) {
     return '(' + std::to_string(rows) + ", " + std::to_string(columns) + ')';
 }
 
-/// Adds an array whose content `append(bytes, row)` appends for each row.
-template <class Append>
-void add_array(ZipWriter& zip, const std::string& name, const std::string& type,
-               const std::string& shape, std::span<const SampleRow> rows, const Append& append) {
-    std::string bytes = array_header(type, shape);
-    for (const SampleRow& row : rows) {
-        append(bytes, row);
+/// Adds arrays of a value for each row, or of several.
+class Arrays {
+  public:
+    Arrays(ZipWriter& zip, std::size_t rows) : zip_(zip), rows_(rows) {}
+
+    /// Adds a column of numbers: `value_of(i)` is that of row i.
+    template <class ValueOf>
+    void add(const std::string& name, const std::string& type, const ValueOf& value_of) {
+        add(name, type, column_shape(rows_), 1,
+            [&](std::size_t i, std::size_t) { return value_of(i); });
     }
-    zip.add(name + ".npy", bytes);
-}
+    /// Adds a table of doubles: `value_of(i, k)` is that of row i and column k.
+    template <class ValueOf>
+    void add_table(const std::string& name, std::size_t columns, const ValueOf& value_of) {
+        add(name, "<f8", table_shape(rows_, columns), columns,
+            [&](std::size_t i, std::size_t k) { return static_cast<double>(value_of(i, k)); });
+    }
+
+  private:
+    template <class ValueOf>
+    void add(const std::string& name, const std::string& type, const std::string& shape,
+             std::size_t columns, const ValueOf& value_of) {
+        const std::string header = array_header(type, shape);
+        const std::size_t size = sizeof(value_of(0, 0));
+        bytes_.resize(header.size() + rows_ * columns * size);
+        std::ranges::copy(header, bytes_.begin());
+        for_rows(rows_, [&](std::size_t i) {
+            char* out = bytes_.data() + header.size() + i * columns * size;
+            for (std::size_t k = 0; k < columns; ++k, out += size) {
+                store_little_endian(out, value_of(i, k));
+            }
+        });
+        zip_.add(name + ".npy", {bytes_.data(), bytes_.size()});
+    }
+
+    ZipWriter& zip_;
+    std::size_t rows_;
+    UninitializedVector<char> bytes_; ///< Of the array being added.
+};
 
 template <class Value>
 void add_scalar(ZipWriter& zip, const std::string& name, const std::string& type, Value value) {
@@ -55,43 +88,24 @@ void add_text(ZipWriter& zip, const std::string& name, std::string_view text) {
     zip.add(name + ".npy", bytes);
 }
 
-void append_double(std::string& bytes, double value) {
-    append_little_endian(bytes, value);
-}
-
-void add_surface_arrays(ZipWriter& zip, std::span<const SampleRow> rows,
+void add_surface_arrays(Arrays& arrays, std::span<const SampleRow> rows,
                         const SampleLayout& layout) {
-    const std::string triples = table_shape(rows.size(), 3), numbers = column_shape(rows.size());
     if (layout.has_normals()) {
-        add_array(zip, "normals", "<f8", triples, rows, [](std::string& bytes, const auto& row) {
-            for (const float value : row.normal) {
-                append_double(bytes, static_cast<double>(value));
-            }
-        });
+        arrays.add_table("normals", 3,
+                         [&](std::size_t i, std::size_t k) { return rows[i].normal[k]; });
     }
-    add_array(zip, "face_index", "<u4", numbers, rows,
-              [](std::string& bytes, const auto& row) { append_little_endian(bytes, row.face); });
-    add_array(zip, "barycentric", "<f8", triples, rows, [](std::string& bytes, const auto& row) {
-        for (const float value : row.bary) {
-            append_double(bytes, static_cast<double>(value));
-        }
-    });
+    arrays.add("face_index", "<u4", [&](std::size_t i) { return rows[i].face; });
+    arrays.add_table("barycentric", 3,
+                     [&](std::size_t i, std::size_t k) { return rows[i].bary[k]; });
     if (layout.has_radius) {
-        add_array(zip, "radius", "<f8", numbers, rows,
-                  [](std::string& bytes, const auto& row) { append_double(bytes, row.radius); });
+        arrays.add("radius", "<f8", [&](std::size_t i) { return rows[i].radius; });
     }
     for (const ExtraColumn& column : layout.extra) {
-        std::string bytes = array_header("<u4", numbers);
-        for (const std::uint32_t value : column.values) {
-            append_little_endian(bytes, value);
-        }
-        zip.add(column.name + ".npy", bytes);
+        arrays.add(column.name, "<u4", [&](std::size_t i) { return column.values[i]; });
     }
     if (layout.has_polygon) {
-        add_array(zip, "polygon_index", "<u4", numbers, rows,
-                  [](std::string& bytes, const auto& row) {
-                      append_little_endian(bytes, row.polygon.value_or(0));
-                  });
+        arrays.add("polygon_index", "<u4",
+                   [&](std::size_t i) { return rows[i].polygon.value_or(0); });
     }
 }
 
@@ -100,16 +114,13 @@ void add_surface_arrays(ZipWriter& zip, std::span<const SampleRow> rows,
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleLayout& layout) {
     ZipWriter zip(file);
+    Arrays arrays(zip, rows.size());
     if (layout.dimension > 0) {
-        add_array(zip, "points", "<f8", table_shape(rows.size(), layout.dimension), rows,
-                  [&](std::string& bytes, const auto& row) {
-                      for (std::uint32_t axis = 0; axis < layout.dimension; ++axis) {
-                          append_double(bytes, row.position[axis]);
-                      }
-                  });
+        arrays.add_table("points", layout.dimension,
+                         [&](std::size_t i, std::size_t k) { return rows[i].position[k]; });
     }
     if (layout.is_on_surface) {
-        add_surface_arrays(zip, rows, layout);
+        add_surface_arrays(arrays, rows, layout);
     }
     if (const std::string* const text = header.find("min_distance")) {
         if (const auto distance = parse_real(*text)) {

@@ -1,3 +1,4 @@
+#include "files/block_writer.hpp"
 #include "files/sample_writers.hpp"
 #include "program/exact_text.hpp"
 
@@ -5,15 +6,13 @@ namespace geodisk::tools {
 namespace {
 
 template <class Number>
-void write_triple(AtomicFile& file, std::string& line, std::string_view name,
-                  const Number* triple) {
-    line.clear();
-    line += name;
+void append_triple(std::string& text, std::string_view name, const Number* triple) {
+    text += name;
     for (int axis = 0; axis < 3; ++axis) {
-        line += ' ';
-        append_number(line, triple[axis]);
+        text += ' ';
+        append_number(text, triple[axis]);
     }
-    file.write(line += '\n');
+    text += '\n';
 }
 
 } // namespace
@@ -21,18 +20,25 @@ void write_triple(AtomicFile& file, std::string& line, std::string_view name,
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleLayout& layout) {
     write_entries(file, header, "# ");
-    std::string line;
-    for (const SampleRow& row : rows) {
-        write_triple(file, line, "v", row.position);
-    }
+    // Writes what `append(text, i)` appends for each row.
+    const auto write_each = [&](const auto& append) {
+        write_rows(file, rows.size(), [&](std::string& text, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                append(text, i);
+            }
+        });
+    };
+    write_each(
+        [&](std::string& text, std::size_t i) { append_triple(text, "v", rows[i].position); });
     if (layout.has_normals()) {
-        for (const SampleRow& row : rows) {
-            write_triple(file, line, "vn", row.normal);
-        }
+        write_each(
+            [&](std::string& text, std::size_t i) { append_triple(text, "vn", rows[i].normal); });
     }
-    for (std::size_t i = 1; i <= rows.size(); ++i) {
-        file.write("p " + std::to_string(i) + '\n');
-    }
+    write_each([](std::string& text, std::size_t i) {
+        text += "p ";
+        append_number(text, i + 1);
+        text += '\n';
+    });
 }
 
 } // namespace geodisk::tools

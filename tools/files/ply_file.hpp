@@ -116,14 +116,20 @@ class PlyFile {
     std::vector<std::string_view> tokens_; ///< Of the ascii record being parsed.
 };
 
-/// Appends a value as the binary files that are written have it.
+/// Stores a value as the binary files that are written have it.
+template <typename Byte, typename Value>
+void store_little_endian(Byte* out, Value value) {
+    std::memcpy(out, &value, sizeof value);
+    if constexpr (std::endian::native == std::endian::big) {
+        std::reverse(out, out + sizeof value);
+    }
+}
+
+/// Appends a value in the same way.
 template <typename Value>
 void append_little_endian(std::string& bytes, Value value) {
     char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    if constexpr (std::endian::native == std::endian::big) {
-        std::reverse(raw, raw + sizeof raw);
-    }
+    store_little_endian(raw, value);
     bytes.append(raw, sizeof raw);
 }
 

@@ -19,16 +19,20 @@ constexpr double kSmallestFloat = 1e-30; // Well above where float loses digits.
 } // namespace
 
 bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
+    double least[std::size(SampleRow{}.position)], most[std::size(least)];
+    std::ranges::fill(least, std::numeric_limits<double>::infinity());
+    std::ranges::fill(most, -std::numeric_limits<double>::infinity());
+    for (const SampleRow& row : rows) {
+        for (std::uint32_t axis = 0; axis < dimension; ++axis) {
+            least[axis] = std::min(least[axis], row.position[axis]);
+            most[axis] = std::max(most[axis], row.position[axis]);
+        }
+    }
     double largest = 0;
     double extent = 0;
     for (std::uint32_t axis = 0; axis < dimension && !rows.empty(); ++axis) {
-        const auto [low, high] = std::minmax_element(
-            rows.begin(), rows.end(), [axis](const SampleRow& a, const SampleRow& b) {
-                return a.position[axis] < b.position[axis];
-            });
-        const double least = low->position[axis], most = high->position[axis];
-        largest = std::max({largest, std::abs(least), std::abs(most)});
-        extent = std::max(extent, most - least);
+        largest = std::max({largest, std::abs(least[axis]), std::abs(most[axis])});
+        extent = std::max(extent, most[axis] - least[axis]);
     }
     constexpr double kLargestFloat = 1e38;
     const bool in_range = largest == 0 || (largest > kSmallestFloat && largest < kLargestFloat);
@@ -74,31 +78,6 @@ void write_entries(AtomicFile& file, const SampleHeader& header, const char* pre
     for (const auto& [key, value] : header.entries) {
         // Some of these formats end in spreadsheets.
         file.write(prefix + csv_comment(key + ": " + value) + "\n");
-    }
-}
-
-void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const SampleLayout& layout,
-                     char separator) {
-    std::string line;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        line.clear();
-        visit_columns(rows[i], i, layout, [&](std::string_view, auto value) {
-            append_number(line, value);
-            line += separator;
-        });
-        line.back() = '\n';
-        file.write(line);
-    }
-}
-
-void write_binary_rows(AtomicFile& file, std::span<const SampleRow> rows,
-                       const SampleLayout& layout) {
-    std::string record;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        record.clear();
-        visit_columns(rows[i], i, layout,
-                      [&](std::string_view, auto value) { append_little_endian(record, value); });
-        file.write(record);
     }
 }
 

@@ -92,12 +92,4 @@ void write_entries(AtomicFile& file, const SampleHeader& header, const char* pre
 /// An object of all entries, plain ASCII on one line; a key with several values has an array.
 std::string json_text(const SampleHeader& header);
 
-/// A line for each row.
-void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const SampleLayout& layout,
-                     char separator);
-
-/// A record for each row, its columns side by side, little-endian.
-void write_binary_rows(AtomicFile& file, std::span<const SampleRow> rows,
-                       const SampleLayout& layout);
-
 } // namespace geodisk::tools

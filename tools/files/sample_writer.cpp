@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "files/block_writer.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
 #include "files/sample_layout.hpp"
@@ -60,16 +61,15 @@ void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const Sam
 }
 
 void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
-    std::string line;
-    for (const SampleRow& row : rows) {
-        line.clear();
-        for (const double coordinate : std::span(row.position).first(3)) {
-            append_number(line, coordinate);
-            line += ' ';
+    write_rows(file, rows.size(), [&](std::string& text, std::size_t begin, std::size_t end) {
+        for (const SampleRow& row : rows.subspan(begin, end - begin)) {
+            for (const double coordinate : std::span(row.position).first(3)) {
+                append_number(text, coordinate);
+                text += ' ';
+            }
+            text.back() = '\n';
         }
-        line.back() = '\n';
-        file.write(line);
-    }
+    });
 }
 
 /// Whether the header is one of comments, which may be left out.

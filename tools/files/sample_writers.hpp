@@ -1,4 +1,4 @@
-// The writers of single formats, for write_samples().
+// The writers of single formats, for write_samples(), and what they share.
 #pragma once
 
 #include <span>
@@ -6,6 +6,14 @@
 #include "files/sample_layout.hpp"
 
 namespace geodisk::tools {
+
+/// Writes a line for each row.
+void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const SampleLayout& layout,
+                     char separator);
+
+/// Writes a record for each row, its columns side by side, little-endian.
+void write_binary_rows(AtomicFile& file, std::span<const SampleRow> rows,
+                       const SampleLayout& layout);
 
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleLayout& layout);

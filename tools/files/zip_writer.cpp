@@ -1,35 +1,13 @@
 #include "files/zip_writer.hpp"
 
-#include <array>
 #include <limits>
 
+#include "files/checksum.hpp"
 #include "files/ply_file.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-constexpr std::array<std::uint32_t, 256> crc_table() {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t byte = 0; byte < 256; ++byte) {
-        std::uint32_t remainder = byte;
-        for (int bit = 0; bit < 8; ++bit) {
-            remainder = remainder >> 1 ^ (remainder & 1 ? 0xedb88320u : 0);
-        }
-        table[byte] = remainder;
-    }
-    return table;
-}
-
-/// CRC-32 of ISO 3309, as ZIP and PNG have it.
-std::uint32_t crc_of(std::string_view bytes) {
-    static constexpr std::array<std::uint32_t, 256> kTable = crc_table();
-    std::uint32_t crc = ~0u;
-    for (const char c : bytes) {
-        crc = kTable[(crc ^ static_cast<unsigned char>(c)) & 0xff] ^ crc >> 8;
-    }
-    return ~crc;
-}
 
 template <class... Values>
 void append_all(std::string& bytes, Values... values) {
@@ -51,7 +29,7 @@ void ZipWriter::add(std::string_view name, std::string_view content) {
     const U32 size = static_cast<U32>(content.size());
     std::string common; // To the local header and the directory.
     // Flags, method, time, date, checksum, size as stored and as read, sizes of name and more.
-    append_all(common, kVersion, U16{0}, U16{0}, U16{0}, kFirstDay, crc_of(content), size, size,
+    append_all(common, kVersion, U16{0}, U16{0}, U16{0}, kFirstDay, crc32_of(content), size, size,
                static_cast<U16>(name.size()), U16{0});
     append_all(directory_, U32{0x02014b50}, kVersion);
     directory_ += common;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -50,8 +51,12 @@ void in_batches(std::size_t count, std::size_t size, const MakeWorker& make_work
         std::vector<std::jthread> others;
         const std::size_t most =
             std::min<std::size_t>(batches, std::max(1u, std::thread::hardware_concurrency()));
-        for (std::size_t i = 1; i < most; ++i) {
-            others.emplace_back([&work] { work(PartDone()); });
+        try {
+            while (others.size() + 1 < most) {
+                others.emplace_back([&work] { work(PartDone()); });
+            }
+        } catch (const std::system_error&) {
+            // Continue with the threads that could be started.
         }
         work(tell);
     }

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <concepts>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,7 +17,7 @@ template <typename Number>
 void append_number(std::string& text, Number value) {
     char digits[32];
     const std::to_chars_result result = std::to_chars(digits, digits + sizeof digits, value);
-    text.append(digits, result.ptr);
+    text.append(digits, static_cast<std::size_t>(result.ptr - digits));
 }
 
 /// The same as a text of its own.
