@@ -48,6 +48,12 @@ class SlowDevice {
     SlowDevice(const SlowDevice&) = delete;
     SlowDevice& operator=(const SlowDevice&) = delete;
 
+    /// Before another run.
+    void forget() {
+        steps_ = 0;
+        seconds.clear();
+    }
+
     double slower;
     std::vector<double> seconds; ///< Of each submission.
     std::vector<std::uint32_t> dispatches;
@@ -101,10 +107,39 @@ TEST_SUITE("pace") {
     TEST_CASE("rounds are bounded by what they take if all lanes are busy") {
         Pace pace(0.1);
         for (int i = 0; i < 30; ++i) {
-            pace.took(0.001, pace.items(), 10); // 0.1 ms for each of few steps.
+            pace.took(0.001, pace.items(), 10, 16); // 0.1 ms for each of few steps.
         }
         CHECK(pace.items() <= 16 * 10'000);
         CHECK(pace.items() > 16 * 9'000);
+    }
+
+    TEST_CASE("a run begins with as much as took the target in the run before") {
+        Pace pace(0.1);
+        CHECK(pace.begin_run(1000) == 1000); // Nothing is known.
+        CHECK(pace.items() == 1000);
+        for (int i = 0; i < 10; ++i) {
+            pace.took(0.05, pace.items()); // However many there are.
+        }
+        pace.took(0.5, 90'000); // 100,000 in a second.
+        const std::uint64_t before = pace.items();
+        const std::uint64_t begun = pace.begin_run(1000);
+        CHECK(begun <= 10'000);
+        CHECK(begun >= 9'999);
+        CHECK(pace.begin_run(50'000) == 50'000);
+        CHECK(pace.items() == before); // Which does not enlarge it.
+    }
+
+    TEST_CASE("rounds of another run are bounded as if all lanes were busy") {
+        const auto begun = [](std::uint32_t lanes) {
+            Pace pace(0.1);
+            for (int i = 0; i < 30; ++i) {
+                pace.took(0.001, pace.items(), 100, 64); // 10 us for each step of 64 lanes.
+            }
+            return (pace.begin_run(1, lanes) + 8) / 16;
+        };
+        CHECK(begun(64) == 10'000);
+        CHECK(begun(1000) == 10'000);
+        CHECK(begun(16) == 2'500); // These may take as long together.
     }
 
     TEST_CASE("dispatches are as short as they must be, but for what the caller gives") {
@@ -115,16 +150,18 @@ TEST_SUITE("pace") {
         plan.detect_passes = 8;
         plan.dispatch_items = 1u << 17;
         const std::uint64_t whole = items_of_round(plan);
-        CHECK(shortened(plan, {}, whole).detect_passes == 8);
-        const RunPlan half = shortened(plan, {}, whole / 2);
+        CHECK(shortened(plan, {}, 1, whole).detect_passes == 8);
+        const RunPlan half = shortened(plan, {}, 1, whole / 2);
         CHECK(half.detect_passes < 8);
         CHECK(half.step_budget == 50);
+        CHECK(half.dispatch_items == 1);
+        CHECK(shortened(plan, {}, 1000, 1).dispatch_items == 1000);
         CHECK(items_of_round(half) <= whole / 2 + std::uint64_t{16} * plan.slots);
-        const RunPlan least = shortened(plan, {}, 1);
+        const RunPlan least = shortened(plan, {}, 1, 1);
         CHECK(least.detect_passes == 1);
         CHECK(least.step_budget == 1);
         CHECK(least.dispatch_items == 1);
-        const RunPlan given = shortened(plan, plan, 1);
+        const RunPlan given = shortened(plan, plan, 1, 1);
         CHECK(given.detect_passes == 8);
         CHECK(given.step_budget == 50);
         CHECK(given.dispatch_items == 1u << 17);
@@ -141,6 +178,30 @@ TEST_SUITE("pace") {
             CHECK(longest(device.seconds) < 2);
             CHECK(longest(device.seconds) > 0);
         }
+    }
+
+    TEST_CASE("a later run begins with what is known, and stays short on another mesh") {
+        Bench bench;
+        bench.params = params_for(bench.mesh, 2000);
+        Runner runner = expect(bench.create());
+        SlowDevice device(bench, runner, 1);
+        bench.check_run(runner);
+        const std::size_t first = device.seconds.size();
+        device.forget();
+        bench.check_run(runner);
+        CHECK(device.seconds.size() <= first / 2);
+        CHECK(longest(device.seconds) < 2);
+        const PreparedMesh other = prepared(builtin("torus-knot", 60));
+        for (const double count : {20.0, 2000.0}) {
+            device.forget();
+            device.slower = 10; // Than on the other mesh.
+            expect(runner.sample_and_wait(other, params_for(other, count)));
+            CHECK(longest(device.seconds) < 2);
+        }
+        device.forget();
+        device.slower = 1;
+        bench.check_run(runner);
+        CHECK(longest(device.seconds) < 2);
     }
 
     TEST_CASE("submissions take about the time they are to take") {

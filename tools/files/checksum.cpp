@@ -14,7 +14,7 @@ using Bits = std::uint32_t;
 
 constexpr Bits kDivisor = 0xedb88320; // Without x^32.
 constexpr Bits kOne = Bits{1} << 31;
-constexpr std::size_t kStep = 8;              // Bytes taken at once.
+constexpr std::size_t kStep = 8;                     // Bytes taken at once.
 constexpr std::size_t kBlock = std::size_t{1} << 18; // Bytes that a thread takes at once.
 
 constexpr Bits times_x(Bits a) {

@@ -7,6 +7,7 @@
 
 #include <geodisk/domain.hpp>
 
+#include "files/block_writer.hpp"
 #include "files/part_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "program/failure.hpp"
@@ -44,16 +45,15 @@ Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams
 
 std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
                                const std::vector<Sample>& samples) {
-    std::vector<SampleRow> rows;
-    rows.reserve(samples.size());
-    for (const Sample& sample : samples) {
-        SampleRow row;
+    std::vector<SampleRow> rows(samples.size());
+    for_rows(rows.size(), [&](std::size_t i) {
+        const Sample& sample = samples[i];
+        SampleRow& row = rows[i];
         row.face = sample.face;
         std::copy_n(sample.weights, 3, row.bary);
         mesh.place(row);
         row.radius = mesh.radius(sample.face, sample.weights, min_distance);
-        rows.push_back(row);
-    }
+    });
     return rows;
 }
 

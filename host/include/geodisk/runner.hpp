@@ -112,8 +112,8 @@ struct RunnerOptions {
     /// Measures the device time of each stage by timestamps, if the queue has them.
     bool time_stages = false;
     /// Target length of one submission in seconds; keeps GPU watchdogs quiet, progress and
-    /// cancellation prompt. The first submission is tiny, later ones follow the times measured.
-    /// 0 chooses 0.02, or 0.1 on a CPU.
+    /// cancellation prompt. The first submission of a runner is tiny, later ones follow the times
+    /// measured, also those of earlier runs. 0 chooses 0.02, or 0.1 on a CPU.
     double submission_seconds = 0;
     /// Seconds after which a submission counts as hung. Time in which the process is stopped does
     /// not count. 0 chooses 120, or 600 on a CPU.

@@ -1,6 +1,7 @@
 #include "engine/run/pace.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace geodisk {
 namespace {
@@ -17,6 +18,13 @@ constexpr std::uint64_t kLargestGrowth = 4;
 // Maximum factor by which a submission may be shorter than the one before.
 constexpr double kSteepest = 16;
 
+/// Returns how many items are done in some seconds; all if it is not known how long they take.
+std::uint64_t items_in(double seconds, double per_item) {
+    const double most =
+        per_item > 0 ? std::min(seconds / per_item, static_cast<double>(kMostItems)) : kMostItems;
+    return static_cast<std::uint64_t>(std::max(most, 1.0));
+}
+
 std::uint64_t items_of_step(const RunPlan& plan) {
     return plan.lanes * kItemsPerStep;
 }
@@ -24,12 +32,10 @@ std::uint64_t items_of_step(const RunPlan& plan) {
 } // namespace
 
 std::uint64_t Pace::items() const {
-    const double most =
-        per_step_ > 0 ? kMostSeconds / per_step_ * kItemsPerStep : static_cast<double>(kMostItems);
-    return std::min(items_, static_cast<std::uint64_t>(std::max(most, 1.0)));
+    return std::min(items_, items_in(kMostSeconds, per_item_));
 }
 
-void Pace::took(double seconds, std::uint64_t items, std::uint64_t steps) {
+void Pace::follow(double seconds, std::uint64_t items) {
     if (seconds < target_ / 2 && items >= items_ / 2) {
         const std::uint64_t times = seconds < target_ / (2 * kLargestGrowth) ? kLargestGrowth : 2;
         items_ = std::min(times * items_, kMostItems);
@@ -38,9 +44,37 @@ void Pace::took(double seconds, std::uint64_t items, std::uint64_t steps) {
         items_ = std::max<std::uint64_t>(
             static_cast<std::uint64_t>(part * static_cast<double>(items_)), 1);
     }
+}
+
+void Pace::took(double seconds, std::uint64_t items) {
+    follow(seconds, items);
+    seconds_ += seconds;
+    done_ += static_cast<double>(items);
+}
+
+void Pace::took(double seconds, std::uint64_t items, std::uint64_t steps, std::uint32_t lanes) {
+    follow(seconds, items);
     if (steps > 0) {
-        per_step_ = std::max(per_step_ / 2, seconds / static_cast<double>(steps));
+        const double done = static_cast<double>(steps * kItemsPerStep);
+        per_item_ = std::max(per_item_ / 2, seconds / done);
+        seconds_ += seconds;
+        done_ += done;
+        lanes_ = lanes;
     }
+}
+
+std::uint64_t Pace::begin_run(std::uint64_t least, std::uint32_t lanes) {
+    if (done_ > 0) {
+        known_per_item_ = std::exchange(seconds_, 0) / std::exchange(done_, 0);
+        known_lanes_ = lanes_;
+    }
+    // Fewer lanes take as long for their steps as more lanes do side by side.
+    const double times = std::max(1.0, static_cast<double>(known_lanes_) / std::max(lanes, 1u));
+    per_item_ = known_per_item_ * times;
+    const std::uint64_t most =
+        per_item_ > 0 ? std::max(items_in(target_, per_item_), least) : least;
+    bound(most);
+    return most;
 }
 
 std::uint64_t items_of_round(const RunPlan& plan) {
@@ -48,15 +82,17 @@ std::uint64_t items_of_round(const RunPlan& plan) {
            std::uint64_t{plan.detect_passes} * plan.step_budget * items_of_step(plan);
 }
 
-RunPlan shortened(RunPlan plan, const RunPlan& fixed, std::uint64_t items) {
-    const auto shorten = [items](std::uint32_t& field, std::uint32_t given, std::uint64_t each) {
+RunPlan shortened(RunPlan plan, const RunPlan& fixed, std::uint64_t pass_items,
+                  std::uint64_t round_items) {
+    const auto shorten = [](std::uint32_t& field, std::uint32_t given, std::uint64_t most) {
         if (given == 0) {
-            field = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(items / each, 1, field));
+            field = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most, 1, field));
         }
     };
-    shorten(plan.dispatch_items, fixed.dispatch_items, 1);
-    shorten(plan.detect_passes, fixed.detect_passes, items_of_step(plan) * plan.step_budget);
-    shorten(plan.step_budget, fixed.step_budget, items_of_step(plan) * plan.detect_passes);
+    const std::uint64_t steps = round_items / items_of_step(plan);
+    shorten(plan.dispatch_items, fixed.dispatch_items, pass_items);
+    shorten(plan.detect_passes, fixed.detect_passes, steps / plan.step_budget);
+    shorten(plan.step_budget, fixed.step_budget, steps / plan.detect_passes);
     return plan;
 }
 

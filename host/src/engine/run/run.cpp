@@ -45,7 +45,7 @@ class Run {
     Result<Done> grow(const RunPlan& grown);
     bool fit_samples(Advice& advice) const;
     Task<Result<Done>> enlarge_samples(std::uint32_t capacity);
-    void record_all(VkCommandBuffer commands, Budget& budget);
+    std::uint32_t record_all(VkCommandBuffer commands, Budget& budget);
     void record_samples(VkCommandBuffer commands);
     Task<Result<std::vector<gpu::SampleRec>>> read_samples();
     Job::Impl& job() { return Job::Impl::of(*job_); }
@@ -61,10 +61,11 @@ class Run {
     Submissions submissions_;
     // What goes on in the submission that draws the candidates, or puts the samples in order.
     const Submissions::InOne after_begin_ = [this](VkCommandBuffer commands, Budget& budget) {
-        record_all(commands, budget);
+        return record_all(commands, budget);
     };
     const Submissions::InOne after_finish_ = [this](VkCommandBuffer commands, Budget&) {
         record_samples(commands);
+        return 0u;
     };
     RunReport report_;
 };
@@ -245,13 +246,15 @@ Task<Result<Done>> Run::follow(Advice advice) {
     co_return co_await submissions_.run_rounds(advice.next != Next::go_on);
 }
 
-/// All of the run, if it is small.
-void Run::record_all(VkCommandBuffer commands, Budget& budget) {
-    if (!of_.stages.is_counted() && budget.items >= job_->plan().sample_capacity) {
-        submissions_.record_rounds(commands);
-        record_finish(commands, job(), budget);
-        record_samples(commands);
+/// Records all of the run, if it is small. Returns the rounds in it.
+std::uint32_t Run::record_all(VkCommandBuffer commands, Budget& budget) {
+    if (of_.stages.is_counted() || budget.items < job_->plan().sample_capacity) {
+        return 0;
     }
+    const std::uint32_t rounds = submissions_.record_rounds(commands);
+    record_finish(commands, job(), budget);
+    record_samples(commands);
+    return rounds;
 }
 
 /// All that there may be, so that they come with the control record.
@@ -342,6 +345,7 @@ struct Releaser {
         if (!has_succeeded) {
             runner.submitter->give_up();
             runner.release();
+            runner.paces.clear();
         }
     }
 };

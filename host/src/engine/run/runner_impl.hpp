@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,6 +15,7 @@
 
 #include "engine/job/sampler_impl.hpp"
 #include "engine/job/stage_clock.hpp"
+#include "engine/run/pace.hpp"
 #include "engine/run/run_memory.hpp"
 #include "engine/run/submitter.hpp"
 #include "engine/run/task.hpp"
@@ -38,6 +40,7 @@ struct Runner::Impl {
         std::uint32_t made = 0; ///< RunMemory::made() when it was bound.
     };
     std::array<KeptJob, kDomainKinds> jobs; ///< Indexed by index_of(DomainKind).
+    std::map<KernelVariant, Paces> paces;
     // The run in progress.
     std::optional<Task<Result<SampleSet>>> run;
     Progress progress{};
@@ -75,6 +78,11 @@ struct Runner::Impl {
         settle();
         jobs = {};
         workspace.reset();
+    }
+    /// Returns what is known of the work of these kernels.
+    Paces& paces_of(const KernelVariant& variant) {
+        const Pace unknown(submission_seconds());
+        return paces.try_emplace(variant, Paces{unknown, unknown}).first->second;
     }
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// Submits recordings of a job, as Submitter::submit; StageClock::collect returns their times.

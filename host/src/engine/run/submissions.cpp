@@ -27,13 +27,15 @@ constexpr std::uint64_t kItemsOfNew = std::uint64_t{1} << 18;
 } // namespace
 
 Submissions::Submissions(Runner::Impl& runner, RunMemory& memory, const Domain::Impl& of)
-    : runner_(runner), memory_(memory), of_(of), passes_(runner.submission_seconds()),
-      rounds_(runner.submission_seconds()),
+    : runner_(runner), memory_(memory), of_(of),
       all_steps_(kDisksPerSample * of.all_steps() * std::max(1.0, kLeastSlots / of.samples)) {}
 
 void Submissions::use(Job& job, const RunPlan& plan) {
     job_ = &job;
     plan_ = plan;
+    paces_ = &runner_.paces_of(this->job().variant);
+    items_of_new_ = paces_->passes.begin_run(kItemsOfNew);
+    paces_->rounds.begin_run(Pace::kFirstItems, plan.lanes);
 }
 
 Result<Done> Submissions::submit(const std::function<void(VkCommandBuffer)>& record) {
@@ -61,16 +63,19 @@ Result<double> Submissions::took(Result<Done> end) {
 }
 
 Task<Result<Done>> Submissions::run_passes(Passes record, const InOne& in_one) {
+    Pace& passes = paces_->passes;
     bool is_last = false;
     for (std::uint32_t part = 0; !is_last; ++part) {
-        if (auto short_enough = shorten(passes_.items()); !short_enough) {
+        if (auto short_enough = shorten(); !short_enough) {
             co_return short_enough;
         }
-        Budget budget{kAllDispatches, passes_.items(), kItemsOfNew};
+        Budget budget{kAllDispatches, passes.items(), items_of_new_};
+        const gpu::ControlRec before = control_;
+        std::uint32_t rounds = 0;
         if (auto done = submit([&](VkCommandBuffer commands) {
                 is_last = record(commands, job(), budget);
                 if (is_last && part == 0 && in_one) {
-                    in_one(commands, budget);
+                    rounds = in_one(commands, budget);
                 }
             });
             !done) {
@@ -80,21 +85,32 @@ Task<Result<Done>> Submissions::run_passes(Passes record, const InOne& in_one) {
         if (!seconds) {
             co_return seconds.error();
         }
-        passes_.took(*seconds, passes_.items() - budget.items);
+        passes.took(*seconds, passes.items() - budget.items);
         if (budget.is_in_new) {
-            passes_.bound(kItemsOfNew);
+            passes.bound(items_of_new_);
         }
+        took_rounds(*seconds, rounds, before);
     }
     co_return Done{};
 }
 
-Result<Done> Submissions::shorten(std::uint64_t items) {
-    return job_->set_plan(shortened(plan_, runner_.options.plan, items));
+void Submissions::took_rounds(double seconds, std::uint32_t rounds, const gpu::ControlRec& before) {
+    if (rounds > 0) {
+        const std::uint32_t steps = control_.steps - before.steps;
+        const RunPlan& plan = job_->plan();
+        steps_ += steps;
+        paces_->rounds.took(seconds, rounds * items_of_round(plan), steps, plan.lanes);
+    }
+}
+
+Result<Done> Submissions::shorten() {
+    return job_->set_plan(
+        shortened(plan_, runner_.options.plan, paces_->passes.items(), paces_->rounds.items()));
 }
 
 std::uint32_t Submissions::record_rounds(VkCommandBuffer commands) {
     const RunPlan& plan = job_->plan();
-    std::uint64_t rounds = rounds_.items() / items_of_round(plan);
+    std::uint64_t rounds = paces_->rounds.items() / items_of_round(plan);
     const double disks = kDisksPerSample * of_.samples;
     if (disks * std::max(of_.disk_steps(plan, job().constants.capacity), 1.0) <= kFewSteps) {
         rounds =
@@ -107,7 +123,7 @@ std::uint32_t Submissions::record_rounds(VkCommandBuffer commands) {
 }
 
 Task<Result<Done>> Submissions::run_rounds(bool rewind) {
-    if (auto short_enough = shorten(rounds_.items()); !short_enough) {
+    if (auto short_enough = shorten(); !short_enough) {
         co_return short_enough;
     }
     const gpu::ControlRec before = control_;
@@ -125,8 +141,7 @@ Task<Result<Done>> Submissions::run_rounds(bool rewind) {
     if (!seconds) {
         co_return seconds.error();
     }
-    steps_ += control_.steps - before.steps;
-    rounds_.took(*seconds, rounds * items_of_round(job_->plan()), control_.steps - before.steps);
+    took_rounds(*seconds, rounds, before);
     // Batches that take more than a round: fewer of the other dispatches go idle when a round
     // detects longer.
     const bool is_slow = rounds >= 2 * (control_.iterations - before.iterations);

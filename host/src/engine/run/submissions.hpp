@@ -31,7 +31,8 @@ class Submissions {
     const gpu::ControlRec& control() const { return control_; }
 
     using Passes = bool (*)(VkCommandBuffer, Job::Impl&, Budget&);
-    using InOne = std::function<void(VkCommandBuffer, Budget&)>;
+    /// Records what follows passes that one submission does for. Returns the rounds in it.
+    using InOne = std::function<std::uint32_t(VkCommandBuffer, Budget&)>;
     /// Submits passes in as many parts as the time asks for; where one will do, with what `in_one`
     /// records, if anything.
     Task<Result<Done>> run_passes(Passes record, const InOne& in_one);
@@ -45,8 +46,10 @@ class Submissions {
     Result<Done> submit(const std::function<void(VkCommandBuffer)>& record);
     /// Reads the control record at the end of a submission. Returns the seconds that it took.
     Result<double> took(Result<Done> end);
+    /// Notes the time of a submission with this many rounds.
+    void took_rounds(double seconds, std::uint32_t rounds, const gpu::ControlRec& before);
     /// Sets dispatches within the time there is.
-    Result<Done> shorten(std::uint64_t items);
+    Result<Done> shorten();
     Result<Done> check_progress(const gpu::ControlRec& before);
     Progress how_far() const;
     Job::Impl& job() { return Job::Impl::of(*job_); }
@@ -57,9 +60,10 @@ class Submissions {
     const Domain::Impl& of_;
     Job* job_ = nullptr;
     RunPlan plan_;
-    Pace passes_, rounds_;
-    double submitted_ = 0;   ///< When.
-    std::uint32_t idle_ = 0; ///< Submissions of late that left no trace.
+    Paces* paces_ = nullptr;         ///< Of the job's kernels.
+    std::uint64_t items_of_new_ = 0; ///< Maximum of items of a pass that begins.
+    double submitted_ = 0;           ///< When.
+    std::uint32_t idle_ = 0;         ///< Submissions of late that left no trace.
     gpu::ControlRec control_{};
     double steps_ = 0;     ///< Of all rounds.
     double all_steps_ = 0; ///< That are expected.
