@@ -60,8 +60,10 @@ class Detector {
     /// their distance is below the sum of their radii and `limit` - 1, else if it is below `limit`.
     Detector(const Surface<Real>& surface, const Bins<Real>& bins, const Tolerances& tolerances,
              Real limit)
-        : surface_(surface), bins_(bins), limit_(limit), margin_(tolerances.margin),
-          slack_(tolerances.slack), vertices_(surface.fans.size()) {}
+        : surface_(surface), bins_(bins), limit_(limit), guard_(tolerances.limit - Real{1}),
+          least_margin_(tolerances.margin), slack_(tolerances.slack),
+          base_error_(tolerances.base_error), crossing_error_(tolerances.crossing_error),
+          vertices_(surface.fans.size()) {}
 
     /// Sets the limit of later disks.
     void set_limit(Real limit) { limit_ = limit; }
@@ -147,17 +149,33 @@ class Detector {
     /// Returns true if radii vary.
     bool adaptive() const { return kMayVary && surface_.is_adaptive(); }
 
+    Real error_of(std::uint32_t crossings) const {
+        return base_error_ + static_cast<Real>(crossings) * crossing_error_;
+    }
+
+    /// Begins to spread a source, window or event over a face. Long chains widen limit and margin:
+    /// a path by its own chain, since its distance has that error; the margin by the longest of the
+    /// disk so far, since any path may be the known one.
+    void begin_operation(std::uint32_t chain) {
+        margin_ = std::max(least_margin_, error_of(waiting_.longest_chain()));
+        beyond_guard_ = std::max(error_of(chain) - guard_, Real{0});
+    }
+
+    Real path_limit() const { return limit_ + beyond_guard_; }
+
     /// Returns the distance below which a point with this radius is near the source.
-    Real limit_with(Real radius) const { return (own_radius_ + radius) + (limit_ - Real{1}); }
+    Real limit_with(Real radius) const {
+        return (own_radius_ + radius) + ((limit_ - Real{1}) + beyond_guard_);
+    }
 
     /// Returns the distance beyond which no path through the face leads to a point near the source.
     Real reach_through(std::uint32_t face) const {
-        return adaptive() ? limit_with(surface_.radii[face].bound) : limit_;
+        return adaptive() ? limit_with(surface_.radii[face].bound) : path_limit();
     }
 
     /// Returns the distance beyond which no point of the face is near the source.
     Real reach_into(std::uint32_t face) const {
-        return adaptive() ? limit_with(surface_.radii[face].largest()) : limit_;
+        return adaptive() ? limit_with(surface_.radii[face].largest()) : path_limit();
     }
 
     Real distance_at(std::uint32_t v) const {
@@ -264,8 +282,10 @@ class Detector {
     void spread_from_source(FacePoint<Real> source, const Light& light) {
         const std::uint32_t first = 3 * source.face;
         const auto at = position_in(surface_, first, source);
+        begin_operation(0);
         light.face(first, at.x, at.y, Real{0});
         for (std::uint32_t e = first; e < first + 3; ++e) {
+            begin_operation(0);
             const auto p = position_in(surface_, e, source);
             const Real distance = root(p.x * p.x + p.y * p.y);
             reach(surface_.edges[e].origin, distance, e, kNoEdge, 0,
@@ -320,6 +340,7 @@ class Detector {
             const std::uint32_t e = next_in_face(corner);
             const std::uint32_t back = previous_in_face(corner);
             const Edge<Real>& edge = surface_.edges[e];
+            begin_operation(event.chain);
             reach(edge.origin, event.sigma + surface_.edges[corner].length, e, kNoEdge, 0, false,
                   event.chain + 1);
             reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back,
@@ -394,6 +415,7 @@ class Detector {
         const Real b0 = window.b0;
         const Real b1 = window.b1;
         const Real sigma = window.sigma;
+        begin_operation(window.chain);
         // First, so that memory of the bins and of the face is loaded at the same time.
         light.wedge(h, x, y, b0, b1, sigma);
         const Edge<Real>& edge = surface_.edges[h];
@@ -560,8 +582,12 @@ class Detector {
 
     const Surface<Real>& surface_;
     const Bins<Real>& bins_;
-    Real limit_, margin_, slack_;
-    Real own_radius_ = 0; ///< Radius of the source, if radii vary.
+    Real limit_;
+    const Real guard_, least_margin_, slack_;
+    const Real base_error_, crossing_error_;
+    Real margin_ = 0;       ///< By how much a known path must beat a window in this operation.
+    Real beyond_guard_ = 0; ///< By how much its error exceeds the guard.
+    Real own_radius_ = 0;   ///< Radius of the source, if radii vary.
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
     Waiting<Real> waiting_;

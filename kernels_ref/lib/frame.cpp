@@ -141,8 +141,13 @@ double Frame::guard_for(double error_bound) const {
 Tolerances Frame::tolerances(double error_bound) const {
     const double guard = guard_for(error_bound);
     const double reach = std::max(16.0, up_to_power_of_two(2 + longest_edge));
-    return {static_cast<float>(1 + guard), static_cast<float>(error_bound),
-            static_cast<float>(kCrossingError * reach), guard, error_bound};
+    return {static_cast<float>(1 + guard),
+            static_cast<float>(error_bound),
+            static_cast<float>(kCrossingError * reach),
+            guard,
+            error_bound,
+            static_cast<float>(error_of(0)),
+            static_cast<float>(kCrossingError)};
 }
 
 Frame frame_of(const PreparedMesh& mesh, double min_distance) {

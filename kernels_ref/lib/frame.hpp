@@ -17,6 +17,9 @@ struct Tolerances {
     float slack;        ///< Intervals are widened by this for hits and apexes.
     double guard;       ///< Promised spacing is kept by this much more.
     double error_bound; ///< Bound on the error of a distance.
+    /// What an error that exceeds the bound is computed from.
+    float base_error;
+    float crossing_error;
 };
 
 struct Frame {

@@ -311,6 +311,7 @@ void trip() {
     }
     if (due && !turns_back()) {
         float source_square = place_source();
+        set_margin();
         spread(source_square);
         if (lane.phase != kPhaseSource || lane.cursor == 1u) {
             begin_scan(entry_x(), lane.mode == kModeInside ? lane.y : -lane.y);

@@ -16,17 +16,41 @@ uint cell_word;
 float own_radius;   // of the candidate whose disk this is
 vec4 radii;         // of the face
 
-// Returns the distance below which a candidate with this radius conflicts.
+// By how much a known path must beat a window before that is dropped.
+float margin;
+
+float error_of(uint crossings) {
+    precise float error = job.base_error + float(crossings) * kCrossingError;
+    return error;
+}
+
+// Any path of the disk so far may have the longest chain.
+void set_margin() { margin = max(job.margin, error_of(lane.longest_chain)); }
+
+// Returns by how much the error of the operation in flight exceeds the guard: 0 but for long chains.
+float beyond_guard() {
+    precise float beyond = error_of(lane.chain) - (job.limit - 1.0);
+    return max(beyond, 0.0);
+}
+
+// Returns the distance below which the path in flight leads to a conflict.
+float path_limit() {
+    precise float limit = job.limit + beyond_guard();
+    return limit;
+}
+
+// Returns the same for a candidate with this radius.
 float limit_with(float radius) {
-    precise float limit = (own_radius + radius) + (job.limit - 1.0);
+    precise float guard = (job.limit - 1.0) + beyond_guard();
+    precise float limit = (own_radius + radius) + guard;
     return limit;
 }
 
 // Returns the distance beyond which no path through the face leads to a conflict.
-float reach() { return kAdaptive ? limit_with(radii.w) : job.limit; }
+float reach() { return kAdaptive ? limit_with(radii.w) : path_limit(); }
 
 // Returns the distance beyond which no candidate in the face conflicts.
-float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : job.limit; }
+float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : path_limit(); }
 
 // Loads member by member: for a struct that is assigned as a whole, by an index from its own members,
 // glslang 12 looks for `precise` without end. It does not look into functions.

@@ -14,7 +14,7 @@
 // Returns true if `distance` plus a straight path beats the window's own distance to a point, at this
 // squared distance from its source, by more than the margin.
 bool beats(float distance, float way, float own_square) {
-    precise float rest = ((distance + way) - lane.sigma) + job.margin;
+    precise float rest = ((distance + way) - lane.sigma) + margin;
     precise float square = rest * rest;
     return rest < 0.0 || square < own_square;
 }
@@ -88,7 +88,7 @@ Meeting meet_apex(float sx, vec2 lit) {
 void split_once(inout Meeting m, VertexRow row) {
     if ((job.path_rules & kRuleSplitsOnce) != 0u && m.sees_apex && m.to_left && m.to_right && row.found &&
         row.through == lane.half_edge) {
-        precise float beaten_from = row.distance + job.margin;
+        precise float beaten_from = row.distance + margin;
         precise float left_of = row.crossing - job.slack;
         precise float right_of = row.crossing + job.slack;
         if (m.distance > beaten_from) {

@@ -123,7 +123,7 @@ void scan_some() {
     vec2 lit = entry_interval();
     precise float low = (lit.x - job.slack) - sx;
     precise float high = (lit.y + job.slack) - sx;
-    precise float rest = job.limit - lane.sigma;
+    precise float rest = path_limit() - lane.sigma;
     precise float rest2 = rest * rest;
     Row row0 = load_row(0u);
     Row row1 = load_row(1u);

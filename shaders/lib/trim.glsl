@@ -34,7 +34,7 @@ bool is_as_near(vec2 kept_source, float kept_sigma, float sx, float at) {
 // Returns true if this holds everywhere that the window in flight lights within reach. The difference of
 // the two is largest at an end, or where both sources are collinear with the point.
 bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2 lit) {
-    precise float way = job.limit - lane.sigma;
+    precise float way = path_limit() - lane.sigma;
     precise float first = sx - way;
     precise float last = sx + way;
     float low = max(lit.x, first);

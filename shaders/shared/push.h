@@ -17,7 +17,8 @@ struct JobRec {
     uint seed_high;
     float limit;          // conflict below it: 1 + guard, in units of the minimum distance; in
                           // boxes its square
-    float margin;         // by how much a window must be beaten before it is dropped
+    float margin;         // by how much a window must be beaten before it is dropped; longer chains than
+                          // usual widen both, see lib/operation.glsl
     float slack;          // by how much an interval is widened for hits
     uint path_rules;      // kRule* bits that hold of shortest paths
     uint has_keys;        // 1 if the caller gives keys for all faces: ties go by weights
@@ -26,6 +27,7 @@ struct JobRec {
     uint stop_count;      // enough samples, of all chunks
     uint idle_capacity;   // places that the list of idle candidates holds
     uint buckets;         // ranges of orders by which samples are put in order
+    float base_error;     // bound on the error of a distance, without that of crossings
 };
 
 // One for all kernels but `place`: the plan, which changes when a slice overflows, the chunk, and the
@@ -69,7 +71,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(JobRec) == 64 && offsetof(JobRec, buckets) == 60);
+static_assert(sizeof(JobRec) == 68 && offsetof(JobRec, base_error) == 64);
 // Vulkan promises 128 bytes; a caller's kernels or later ones may want some.
 static_assert(sizeof(Push) <= 96);
 }

@@ -28,7 +28,7 @@ Setting bench() {
 void check_row(const Json& row) {
     for (const char* const key :
          {"triangles", "samples", "candidates", "disks", "windows", "tested", "iterations",
-          "dispatches", "regrown", "most_waiting", "longest_chain", "device_bytes"}) {
+          "dispatches", "regrown", "starts", "most_waiting", "longest_chain", "device_bytes"}) {
         INFO(key);
         CHECK(row[key].is_number_unsigned());
     }

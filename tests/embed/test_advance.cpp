@@ -16,7 +16,7 @@
 namespace geodisk::test {
 namespace {
 
-/// Follows the advice, asking twice for each, until the run is complete or has to start over.
+/// Follows the advice, asking twice for each, until the run is complete.
 /// Returns what was advised, without repeats.
 std::vector<Next> follow(DeviceRun& run, Advice& last) {
     std::vector<Next> steps;
@@ -79,24 +79,6 @@ TEST_SUITE("advance") {
         CHECK(has(steps, Next::larger_pool));
         CHECK(has(steps, Next::larger_samples));
         CHECK(ready_points(run) == float_set(knot.mesh, knot.params, run.plan().error_bound));
-    }
-
-    TEST_CASE("a guard made for shorter chains starts over with a wider one") {
-        const Knot knot;
-        RunPlan plan;
-        plan.error_bound = 1e-7;
-        Advice last;
-        {
-            DeviceRun run(knot.mesh, knot.params, plan);
-            follow(run, last);
-            REQUIRE(last.next == Next::start_over);
-        }
-        CHECK(last.plan.error_bound > plan.error_bound);
-        DeviceRun run(knot.mesh, knot.params, last.plan);
-        const double wider = last.plan.error_bound;
-        follow(run, last);
-        CHECK(last.next == Next::complete);
-        CHECK(ready_points(run) == float_set(knot.mesh, knot.params, wider));
     }
 
     TEST_CASE("records that are not there yet, or of before, say nothing") {

@@ -62,7 +62,7 @@ class DeviceRun {
     void enlarge_samples(std::uint32_t capacity);
     void rewind();
     /// Does what comes next, a round at a time; false if nothing does by itself: the run is
-    /// complete, paused, or to start over.
+    /// complete or paused.
     bool follow(const Advice& advice);
     /// Follows the job's advice for as long. Returns the last.
     Advice follow_all();

@@ -25,7 +25,8 @@ const Offsets kJob{GEODISK_OFFSET(JobRec, capacity),      GEODISK_OFFSET(JobRec,
                    GEODISK_OFFSET(JobRec, slack),         GEODISK_OFFSET(JobRec, path_rules),
                    GEODISK_OFFSET(JobRec, has_keys),      GEODISK_OFFSET(JobRec, first_key_row),
                    GEODISK_OFFSET(JobRec, all_single),    GEODISK_OFFSET(JobRec, stop_count),
-                   GEODISK_OFFSET(JobRec, idle_capacity), GEODISK_OFFSET(JobRec, buckets)};
+                   GEODISK_OFFSET(JobRec, idle_capacity), GEODISK_OFFSET(JobRec, buckets),
+                   GEODISK_OFFSET(JobRec, base_error)};
 
 const Offsets kPush{GEODISK_OFFSET(Push, slots),           GEODISK_OFFSET(Push, lanes),
                     GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),

@@ -1,6 +1,7 @@
 // Loop limits, overflow, impossible requests: what must end in a correct result or a clear error.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "lib/frame.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
+#include "support/replay.hpp"
 
 namespace geodisk::test {
 
@@ -108,16 +110,23 @@ TEST_SUITE("limits") {
         CHECK(within_batches > 0);
     }
 
-    TEST_CASE("a guard too narrow for the chains met is widened and the run repeated") {
-        const PreparedMesh mesh = prepared(builtin("icosphere", 5));
-        const SampleParams params = params_for(mesh, 40);
-        RunnerOptions options;
-        options.plan.error_bound = 0x1p-30;
-        const SampleSet set = sample(mesh, params, options);
-        CHECK(set.report.plan.error_bound > 0x1p-30);
-        CHECK(ref::frame_of(mesh, params).error_of(set.report.longest_chain) <=
-              set.report.plan.error_bound);
-        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+    TEST_CASE("long chains widen limit and margin, and no run is repeated") {
+        for (const TestMesh& shape : {needle_disk(1'200), needle_strip(2'000, 10)}) {
+            const PreparedMesh mesh = prepared(shape);
+            for (const double count : {20.0, 30.0}) {
+                const SampleParams params = params_for(mesh, count);
+                const SampleSet set = sample(mesh, params);
+                const ref::Frame frame = ref::frame_of(mesh, params);
+                CHECK(set.report.starts == 1);
+                CHECK(frame.error_of(set.report.longest_chain) > frame.first_error());
+                CHECK(set.report.guard ==
+                      std::max(frame.tolerances().guard, frame.error_of(set.report.longest_chain)));
+                CHECK(points_of(set) == float_set(mesh, params, frame.first_error()));
+                const ReplayReport judged = replay(mesh, params, frame.first_error());
+                CHECK(judged.wrong == 0);
+                check_deviation("needles", judged);
+            }
+        }
     }
 
     TEST_CASE("sheets of needles upon each other are sampled") {

@@ -145,16 +145,13 @@ Darts thrown(const PreparedMesh& mesh, const SampleParams& params) {
     darts.min_distance = params.min_distance;
     darts.pool = points_of(pool);
     const ref::Frame model = ref::frame_of(mesh, params);
-    for (double bound = model.first_error();; bound *= 2) {
-        darts.tolerances = model.tolerances(bound);
-        ref::RunResult run =
-            ref::throw_darts(surface, pool, darts.tolerances,
-                             params.stop_count != 0 ? params.stop_count : kMostCandidates);
-        darts.ranks = std::move(run.ranks);
-        if (model.error_of(run.longest_chain) <= bound) {
-            return darts;
-        }
-    }
+    darts.tolerances = model.tolerances();
+    ref::RunResult run =
+        ref::throw_darts(surface, pool, darts.tolerances,
+                         params.stop_count != 0 ? params.stop_count : kMostCandidates);
+    darts.ranks = std::move(run.ranks);
+    darts.largest_error = std::max(model.first_error(), model.error_of(run.longest_chain));
+    return darts;
 }
 
 template Darts thrown<float>(const PreparedMesh&, const SampleParams&);
@@ -179,7 +176,7 @@ void check_spacing(const TestMesh& mesh, const std::vector<Point>& samples, doub
 }
 
 void check_covered(const TestMesh& mesh, const Darts& darts) {
-    const double limit = darts.tolerances.limit + darts.tolerances.error_bound;
+    const double limit = darts.tolerances.limit + darts.largest_error;
     std::vector<bool> covered(darts.pool.size(), false);
     for (const std::uint32_t rank : darts.ranks) {
         covered[rank] = true;
@@ -198,7 +195,7 @@ void check_covered(const TestMesh& mesh, const Darts& darts) {
 void check_maximal(const PreparedMesh& mesh, const Darts& darts) {
     const ref::Surface<double> surface(mesh, darts.min_distance);
     const ref::Bins<double> bins(surface, darts.pool);
-    const double guard = darts.tolerances.error_bound;
+    const double guard = darts.largest_error;
     const double limit = darts.tolerances.limit + guard;
     ref::Detector<double> detector(surface, bins, darts.tolerances, limit);
     std::vector<bool> covered(darts.pool.size(), false);

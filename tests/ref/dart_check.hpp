@@ -14,14 +14,14 @@ namespace geodisk::test {
 struct Darts {
     double min_distance;
     ref::Tolerances tolerances;
+    double largest_error;             ///< Of the distances along the longest chain.
     std::vector<Point> pool;          ///< In rank order.
     std::vector<std::uint32_t> ranks; ///< Accepted, ascending.
 
     std::vector<Point> samples() const;
 };
 
-/// ref::throw_darts with the tolerances of a run: those of the first error bound, or a larger one
-/// where a disk took it.
+/// ref::throw_darts with the tolerances of a run.
 template <class Real>
 Darts thrown(const PreparedMesh& mesh, const SampleParams& params);
 

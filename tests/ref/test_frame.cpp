@@ -79,6 +79,7 @@ void check_frames(const PreparedMesh& mesh, const SampleParams& params) {
         const double error = larger * frame.first_error();
         check_tolerances(model.tolerances(error), frame.tolerances(error));
     }
+    CHECK(static_cast<float>(model.error_of(0)) == frame.tolerances().base_error);
     CHECK(has_small_faces(mesh, params) == ref::Surface<float>(mesh, params).one_cell_each);
 }
 

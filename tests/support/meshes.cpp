@@ -319,6 +319,29 @@ TestMesh tetrahedra_beyond_sheet(std::uint32_t parts, double shift, std::uint32_
     return mesh;
 }
 
+TestMesh needle_disk(std::uint32_t needles) {
+    TestMesh mesh;
+    mesh.add_vertex({0, 0, 0});
+    for (std::uint32_t i = 0; i < needles; ++i) {
+        const double angle = 2 * std::numbers::pi * i / needles;
+        mesh.add_vertex({std::cos(angle), std::sin(angle), 0});
+        mesh.triangles.insert(mesh.triangles.end(), {0, 1 + i, 1 + (i + 1) % needles});
+    }
+    return mesh;
+}
+
+TestMesh needle_strip(std::uint32_t needles, double length) {
+    TestMesh mesh;
+    for (std::uint32_t i = 0; i < needles + 2; ++i) {
+        mesh.add_vertex({length * i / needles, i % 2 == 0 ? 0.0 : 1.0, 0});
+    }
+    for (std::uint32_t i = 0; i < needles; ++i) {
+        const std::uint32_t odd = i % 2;
+        mesh.triangles.insert(mesh.triangles.end(), {i, i + 1 + odd, i + 2 - odd});
+    }
+    return mesh;
+}
+
 TestMesh needle_sheets() {
     constexpr double kAside = 3.00001;
     return {{kAside, kAside, kAside,  kAside, 3, 3,       3, 3, kAside, kAside, 2,

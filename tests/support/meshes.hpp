@@ -91,6 +91,12 @@ TestMesh tetrahedra(std::uint32_t parts, double shift);
 /// the tetrahedra late.
 TestMesh tetrahedra_beyond_sheet(std::uint32_t parts, double shift, std::uint32_t cells);
 
+/// A flat disk of needles around its center, with a path over nearly half of them all.
+TestMesh needle_disk(std::uint32_t needles);
+
+/// A flat strip of width 1, of needles across.
+TestMesh needle_strip(std::uint32_t needles, double length);
+
 /// Sheets of needles upon each other, found by a fuzzer: windows that wind around their tips are
 /// narrower than rounding and hardly ever cover one another.
 TestMesh needle_sheets();

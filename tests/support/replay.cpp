@@ -45,17 +45,17 @@ class Distances {
 };
 
 /// `limit_with(q)` is the distance below which candidate q conflicts; `hits` are those that do in
-/// float.
+/// float, where no error exceeds the guard.
 template <class Limit>
-void judge(const Distances& hits, const Distances& truth, const Limit& limit_with,
-           const ref::Tolerances& tolerances, ReplayReport& report) {
+void judge(const Distances& hits, const Distances& truth, const Limit& limit_with, double guard,
+           ReplayReport& report) {
     for (const auto& [q, distance] : hits) {
         if (!truth.has(q)) {
             ++report.wrong;
             continue;
         }
         report.largest_deviation =
-            std::max(report.largest_deviation, std::abs(distance - truth.of(q)) / tolerances.guard);
+            std::max(report.largest_deviation, std::abs(distance - truth.of(q)) / guard);
     }
     for (const auto& [q, distance] : truth) {
         const double limit = limit_with(q);
@@ -63,7 +63,7 @@ void judge(const Distances& hits, const Distances& truth, const Limit& limit_wit
             continue;
         }
         const double gap = std::abs(distance - limit);
-        if (gap > tolerances.guard) {
+        if (gap > guard) {
             ++report.wrong;
         } else {
             ++report.ties;
@@ -75,7 +75,8 @@ void judge(const Distances& hits, const Distances& truth, const Limit& limit_wit
 } // namespace
 
 ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
-    const ref::Tolerances tolerances = ref::frame_of(mesh, params).tolerances(error_bound);
+    const ref::Frame frame = ref::frame_of(mesh, params);
+    const ref::Tolerances tolerances = frame.tolerances(error_bound);
     Side<float> floats(mesh, params, tolerances, tolerances.limit);
     Side<double> doubles(mesh, params, tolerances, tolerances.limit + 2 * tolerances.guard);
     std::vector<bool> decided(floats.pool.size(), false);
@@ -88,7 +89,7 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double
         ++report.accepted;
         Distances hits;
         Distances truth;
-        floats.detector.run(
+        const ref::DiskCount disk = floats.detector.run(
             floats.pool.candidate(rank),
             [&](std::uint32_t place) { return !decided[floats.ranks[place]]; },
             [&](std::uint32_t place, float distance) { hits.note(floats.ranks[place], distance); });
@@ -105,7 +106,8 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double
             };
             return params.radii == nullptr ? limit : radius(rank) + radius(q) + (limit - 1);
         };
-        judge(hits, truth, limit_with, tolerances, report);
+        judge(hits, truth, limit_with, std::max(tolerances.guard, frame.error_of(disk.chain)),
+              report);
         for (const auto& [q, distance] : hits) {
             decided[q] = true;
         }

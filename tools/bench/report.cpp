@@ -50,6 +50,7 @@ void visit_fields(const Measurement& row, const Visit& visit) {
     visit("iterations", run.iterations);
     visit("dispatches", run.dispatches);
     visit("regrown", run.regrown);
+    visit("starts", run.starts);
     visit("most_waiting", run.most_waiting);
     visit("longest_chain", run.longest_chain);
     visit("device_bytes", run.device_bytes);

@@ -149,11 +149,13 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double w
 
     SampleSet best;
     RunSeconds seconds;
+    std::uint32_t starts = 0;
     CountSearch search(wanted);
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
         SampleSet set = sample(task, min_distance, progress);
         ++done.runs;
+        starts += set.report.starts;
         seconds.compile += set.report.seconds.compile;
         seconds.upload += set.report.seconds.upload;
         seconds.sample += set.report.seconds.sample;
@@ -175,6 +177,7 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double w
     check_validation(context());
     done.run = best.report;
     done.run.seconds = seconds;
+    done.run.starts = starts;
     return {std::move(best), std::move(done)};
 }
 

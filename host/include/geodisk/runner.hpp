@@ -51,27 +51,29 @@ struct RunSeconds {
 
 /// How a run went.
 struct RunReport {
-    std::uint32_t candidates = 0;     ///< Candidates decided: all, or up to the last sample of a
-                                      ///< count.
-    std::uint32_t chunks = 0;         ///< Parts in which they were drawn, one or more stages each.
-    std::uint32_t iterations = 0;     ///< Batches of disks.
-    std::uint32_t dispatches = 0;     ///< Dispatches recorded, including empty ones and clears.
-    std::uint32_t disks = 0;          ///< Geodesic disks computed, more than samples. Each chunk
-                                      ///< computes those of earlier samples again.
-    std::uint32_t regrown = 0;        ///< Batches repeated with more memory.
-    std::uint64_t windows = 0;        ///< Windows and vertex events of all disks, or rows of cells
-                                      ///< for straight distances. Other figures of windows, chains
-                                      ///< and vertices are 0 then.
-    std::uint64_t tested = 0;         ///< Candidate distances computed in all disks.
-    std::uint32_t most_waiting = 0;   ///< Maximum of windows, or vertex events, waiting in a disk.
-    std::uint32_t longest_chain = 0;  ///< Maximum of edges crossed by a window of a sample's disk.
-    std::uint32_t most_vertices = 0;  ///< Maximum of vertices reached by a disk.
+    std::uint32_t candidates = 0;    ///< Candidates decided: all, or up to the last sample of a
+                                     ///< count.
+    std::uint32_t chunks = 0;        ///< Parts in which they were drawn, one or more stages each.
+    std::uint32_t iterations = 0;    ///< Batches of disks.
+    std::uint32_t dispatches = 0;    ///< Dispatches recorded, including empty ones and clears.
+    std::uint32_t disks = 0;         ///< Geodesic disks computed, more than samples. Each chunk
+                                     ///< computes those of earlier samples again.
+    std::uint32_t regrown = 0;       ///< Batches repeated with more memory.
+    std::uint32_t starts = 0;        ///< Times the run began: again with less memory on the device,
+                                     ///< or with more room for samples. `seconds` count them all.
+    std::uint64_t windows = 0;       ///< Windows and vertex events of all disks, or rows of cells
+                                     ///< for straight distances. Other figures of windows, chains
+                                     ///< and vertices are 0 then.
+    std::uint64_t tested = 0;        ///< Candidate distances computed in all disks.
+    std::uint32_t most_waiting = 0;  ///< Maximum of windows, or vertex events, waiting in a disk.
+    std::uint32_t longest_chain = 0; ///< Maximum of edges crossed by a window of a sample's disk.
+    std::uint32_t most_vertices = 0; ///< Maximum of vertices reached by a disk.
     std::uint32_t most_conflicts = 0; ///< Maximum of conflicts listed by a disk.
     /// Trips of the main loop of detect in all lanes; a trip takes one window or corner. And their
     /// number if every lane took as many as the busiest lane of its subgroup, which all wait for.
     /// 0 without SamplerOptions::count_trips.
     std::uint64_t trips = 0, lane_trips = 0;
-    double guard = 0;               ///< Conflicts were tested against min_distance * (1 + guard).
+    double guard = 0; ///< Conflicts were tested against at most min_distance * (1 + guard).
     std::uint64_t device_bytes = 0; ///< Memory allocated on the device, in bytes.
     std::uint64_t uploaded = 0;     ///< Bytes uploaded. A mesh that is on the device already counts
                                     ///< with its lengths only.
@@ -142,9 +144,8 @@ class GEODISK_API Runner {
     ~Runner();
 
     /// Returns the set of sequential dart throwing over the same candidates, on every device,
-    /// driver and plan. A buffer that overflows is enlarged and the batch repeated. A run whose
-    /// window chains exceed the guard is repeated with a wider one. Candidates are drawn in chunks
-    /// if they do not fit a binding or the device's memory, or may not be needed.
+    /// driver and plan. A buffer that overflows is enlarged and the batch repeated. Candidates are
+    /// drawn in chunks if they do not fit a binding or the device's memory, or may not be needed.
     ///
     /// Errors: `job_too_large`, `workspace_too_small` and `invalid_argument` as Sampler's
     /// functions; `mesh_rejected` as Job::advance; `out_of_device_memory`, `device_lost`,

@@ -188,7 +188,8 @@ struct RunPlan {
     std::uint32_t dispatch_items = 0; ///< Maximum of faces, candidates, samples or words per
                                       ///< dispatch; at least one work group is done.
     /// Bound on the rounding error of a distance, as a fraction of the minimum distance (at most
-    /// 0.5). On surfaces the guard is this rounded up to a power of two (host/docs/precision.md).
+    /// 0.5). On surfaces the guard is this rounded up to a power of two, and paths over more edges
+    /// than usual widen both for themselves (host/docs/precision.md).
     double error_bound = 0;
 
     /// Returns the size of a lane's slice of the pool, in rows of 16 bytes.
@@ -220,8 +221,7 @@ enum class Next : std::uint32_t {
                     ///< decided.
     larger_pool,    ///< Job::set_plan() with Advice::plan, then record_rewind().
     larger_samples, ///< Job::set_samples() with Advice::sample_capacity, then record_rewind().
-    start_over,     ///< A new job with Advice::plan: window chains were longer than its guard
-                    ///< provides for.
+    start_over,     ///< Never from Job::advance(): a job of geodisk.h needs all buffers again.
     complete,       ///< The samples are complete, Advice::ready of them.
     count,          ///< record_count(), or the rest of it: an exact number of darts is thrown.
     paused,         ///< All candidates below Job::set_end_order() are decided, and the first

@@ -59,10 +59,6 @@ Result<Done> ask_for_buffers(geodisk_job& job, const Advice& advice) {
         needed_by(job, BufferRole::samples) = bytes[0];
         needed_by(job, BufferRole::accepted) = bytes[1];
         needed_by(job, BufferRole::buckets) = bytes[2];
-    } else if (advice.next == Next::start_over) {
-        if (const auto planned = plan_buffers(job, *job.domain->domain, advice.plan); !planned) {
-            return planned.error();
-        }
     } else {
         return Done{};
     }

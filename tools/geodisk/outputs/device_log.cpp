@@ -86,7 +86,8 @@ void DeviceLog::tell_run(const RunReport& run) const {
                            grouped(plan.window_capacity) + " windows and " +
                            grouped(plan.table_capacity / 2) + " vertices, lists of " +
                            grouped(plan.list_capacity) + " conflicts; enlarged " +
-                           counted(run.regrown, "time", "times"));
+                           counted(run.regrown, "time", "times") + ", begun " +
+                           counted(run.starts, "time", "times"));
     print_line("memory", size_text(run.device_bytes) + " on the device, " +
                              size_text(plan.pool_bytes()) + " of it for disks; uploaded " +
                              size_text(run.uploaded));

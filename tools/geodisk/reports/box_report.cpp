@@ -91,7 +91,8 @@ std::string BoxReport::json(double write_seconds) const {
                      {"rows", run.windows},
                      {"tested", run.tested},
                      {"most_conflicts", run.most_conflicts},
-                     {"regrown", run.regrown}});
+                     {"regrown", run.regrown},
+                     {"starts", run.starts}});
     document.update(run_json(done_, stage_seconds({}, done_, {{"write", write_seconds}})));
     return text_of(document);
 }

@@ -121,7 +121,8 @@ Json SampleReport::document(const SecondsByStage& after) const {
                      {"tested", run.tested},
                      {"most_waiting", run.most_waiting},
                      {"longest_chain", run.longest_chain},
-                     {"regrown", run.regrown}});
+                     {"regrown", run.regrown},
+                     {"starts", run.starts}});
     document.update(run_json(result_.done, seconds(after)));
     return document;
 }

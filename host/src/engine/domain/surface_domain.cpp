@@ -265,6 +265,7 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     job.limit = tolerances.limit;
     job.margin = tolerances.margin;
     job.slack = tolerances.slack;
+    job.base_error = static_cast<float>(error.error_of(0));
     const auto has_keys = [](const PlacedSurface& s) { return !s.params.face_keys.empty(); };
     job.has_keys = std::all_of(surfaces_.begin(), surfaces_.end(), has_keys) ? 1 : 0;
     job.first_key_row =

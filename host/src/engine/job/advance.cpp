@@ -184,10 +184,6 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         begin_stages(first, count);
         return next(Next::begin);
     }
-    advice.plan = widened(plan, error, control.longest_chain);
-    if (advice.plan.error_bound != plan.error_bound) {
-        return next(Next::start_over);
-    }
     advice.candidates = candidates(control);
     is_count_due = is_enough && control.settled < constants.stop_count && !is_stop_counted;
     return next(Next::complete);

@@ -259,13 +259,6 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
     return grown;
 }
 
-RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain) {
-    if (error.error_of(longest_chain) > plan.error_bound) {
-        plan.error_bound = error.error_of(2 * longest_chain);
-    }
-    return plan;
-}
-
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report) {
     const Domain::Impl& of = Domain::Impl::of(domain);

@@ -3,8 +3,6 @@
 
 #include <geodisk/sampler.hpp>
 
-#include "engine/domain/tolerances.hpp"
-
 namespace geodisk {
 
 /// Returns `plan` with every field that is not zero in `wanted` replaced.
@@ -19,10 +17,6 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
 /// Implements Sampler::workspace_needs.
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report);
-
-/// Returns the plan to start over with: a larger `error_bound` if ControlRec::longest_chain was too
-/// long for the plan's, else the same plan.
-RunPlan widened(RunPlan plan, const ErrorModel& error, std::uint32_t longest_chain);
 
 /// Returns the sample capacity that a run needs to continue: the samples so far and all of a batch.
 std::uint64_t least_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept;

@@ -120,10 +120,8 @@ Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
             return advice;
         }
         plan = *larger;
-        plan.error_bound = std::max(plan.error_bound, before.error_bound);
         plan.sample_capacity = std::max(plan.sample_capacity, before.sample_capacity);
-    } else if (advice->next == Next::larger_samples || advice->next == Next::start_over) {
-        plan.error_bound = advice->plan.error_bound;
+    } else if (advice->next == Next::larger_samples) {
         plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
     } else {
         ready = advice->ready;

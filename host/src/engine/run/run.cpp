@@ -20,17 +20,19 @@ namespace {
 /// One run: its memory, its job and its submissions.
 class Run {
   public:
-    /// Takes at most so many bytes on the device. `before` tells of earlier starts of the run.
+    /// Takes at most so many bytes on the device. `before` reports earlier starts of the run.
     Run(Runner::Impl& runner, const Domain& domain, std::uint64_t most_bytes,
         const RunReport& before)
         : runner_(runner), domain_(domain), most_bytes_(most_bytes), of_(Domain::Impl::of(domain)),
           memory_(*runner.workspace), kept_(runner.jobs[index_of(of_.kernels.domain)]),
           job_(kept_.job), submissions_(runner, memory_, of_) {
         report_.seconds = before.seconds;
+        report_.starts = before.starts + 1;
     }
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
-    /// The samples, or none where the run is to start over with the plan as it is then.
+    /// Returns the samples, or nothing if the run must start over with room for
+    /// `plan.sample_capacity` samples.
     Task<Result<std::optional<SampleSet>>> go(RunPlan& plan);
     const RunReport& report() const { return report_; }
 
@@ -102,7 +104,6 @@ Result<Done> Run::prepare(const RunPlan& plan) {
         runner_.clock->reset();
     }
     submissions_.use(*job_, plan);
-    report_.guard = of_.guard_for(plan.error_bound);
     return Done{};
 }
 
@@ -171,7 +172,7 @@ Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
     co_return set;
 }
 
-/// Until the samples are there, or the run has to start over.
+/// Samples until the run is complete, or `larger_samples` does not fit and it must start over.
 Task<Result<Advice>> Run::sample() {
     for (;;) {
         // What is free is asked for only where it matters.
@@ -181,11 +182,8 @@ Task<Result<Advice>> Run::sample() {
             // A single disk that is too large for the pool may take all that the device has.
             advice = job_->advance(control(), pool_bytes(~std::uint64_t{0}));
         }
-        if (!advice || advice->next == Next::complete || advice->next == Next::start_over) {
-            co_return advice;
-        }
-        if (advice->next == Next::larger_samples && !fit_samples(*advice)) {
-            advice->next = Next::start_over;
+        if (!advice || advice->next == Next::complete ||
+            (advice->next == Next::larger_samples && !fit_samples(*advice))) {
             co_return advice;
         }
         if (auto done = co_await follow(*advice); !done) {
@@ -307,12 +305,11 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     report_.seconds.upload += runner_.now() - start;
     start = runner_.now();
     const auto advice = co_await sample();
+    report_.seconds.sample += runner_.now() - start;
     if (!advice) {
         co_return advice.error();
     }
-    report_.seconds.sample += runner_.now() - start;
-    if (advice->next == Next::start_over) {
-        plan.error_bound = advice->plan.error_bound;
+    if (advice->next == Next::larger_samples) {
         plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
         co_return std::optional<SampleSet>();
     }
@@ -329,6 +326,8 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     report_.candidates = static_cast<std::uint32_t>(*darts);
     report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
     take_counts(control(), report_);
+    report_.guard = std::max(of_.guard_for(submissions_.plan().error_bound),
+                             job().error.error_of(report_.longest_chain));
     report_.device_bytes = memory_.bytes();
     report_.plan = submissions_.plan();
     if (runner_.clock) {
@@ -359,7 +358,6 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
     Releaser releaser{runner};
     std::uint64_t most = runner.bytes_allowed();
     std::uint32_t samples = 0; // That there has to be room for.
-    double error_bound = 0;
     RunReport before;
     for (;;) {
         const auto fitting = fit_within(runner, domain, most, samples);
@@ -367,7 +365,6 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
             co_return fitting.error();
         }
         RunPlan plan = fitting->plan;
-        plan.error_bound = std::max(plan.error_bound, error_bound);
         runner.keep();
         Run run(runner, domain, most, before);
         auto set = co_await run.go(plan);
@@ -375,10 +372,9 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
             releaser.has_succeeded = true;
             co_return std::move(**set);
         }
-        if (set) { // To start over, with a wider guard or more room for samples.
+        before = run.report();
+        if (set) {
             samples = plan.sample_capacity;
-            error_bound = plan.error_bound;
-            before = run.report();
             continue;
         }
         if (!runner.workspace->was_short()) {
