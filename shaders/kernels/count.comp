@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // Counts the candidates of each face.
 // reads: faces, fans (keys, radii)   writes: starts (counts), cells (counts of faces of one cell)
-// spec: local size, rounding, adaptive
+// spec: local size, rounding, adaptive, many rows
 
 #include "../lib/prelude.glsl"
-#include "../lib/job.glsl"
 #include "../lib/candidate.glsl"
 #include "../lib/half_edge.glsl"
 #include "../lib/cells.glsl"
+#include "../lib/many_rows.glsl"
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 
@@ -20,9 +20,11 @@ float mean_count(uint face) {
 }
 
 void counted(uint face, uint number) {
-    uint word = load_cells(face);
-    if (job.all_single == 0u && single_cell(word)) {
-        atomicAdd(cells[(word & kFirstCellMask) + 1u], number);
+    if (kManyRows) {
+        uint word = load_cells(face);
+        if (single_cell(word)) {
+            atomicAdd(cells[(word & kFirstCellMask) + 1u], number);
+        }
     }
 }
 

@@ -2,11 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 // Draws the candidates, sorted by cell in larger faces, and begins the chunk.
 // reads: faces, fans (keys, radii), starts   writes: weights, orders, cells, control
-// spec: rounding, adaptive
+// spec: rounding, adaptive, many rows, keyed
 
 #include "../lib/prelude.glsl"
-#include "../lib/job.glsl"
 #include "../lib/face_cell.glsl"
+#include "../lib/many_rows.glsl"
 #include "../lib/each_drawn.glsl"
 
 GEODISK_BUFFER(kBindCells, coherent, uint, cells);
@@ -17,13 +17,14 @@ GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 
 void visit(Unit unit, uint number) {
     Candidate c = draw_candidate(unit.owner, unit.stage, number - unit.first);
-    uint word = load_cells(unit.owner);
     uint place = number;
-    if (!single_cell(word)) {
-        place = atomicAdd(cells[cell_of(c, word) + 1u], 1u);
-    } else if (job.all_single == 0u &&
-               number + 1u == word_at(starts, (unit.owner + 1u) * push.stages)) {
-        cells[(word & kFirstCellMask) + 1u] = number + 1u;
+    if (kManyRows) {
+        uint word = load_cells(unit.owner);
+        if (!single_cell(word)) {
+            place = atomicAdd(cells[cell_of(c, word) + 1u], 1u);
+        } else if (number + 1u == word_at(starts, (unit.owner + 1u) * push.stages)) {
+            cells[(word & kFirstCellMask) + 1u] = number + 1u;
+        }
     }
     weights[2u * place] = c.weight1;
     weights[2u * place + 1u] = c.weight2;

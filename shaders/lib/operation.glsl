@@ -4,6 +4,7 @@
 #define GEODISK_OPERATION_GLSL
 
 #include "job.glsl"
+#include "many_rows.glsl"
 
 // The face, seen from half_edge.
 Edge edge;
@@ -66,7 +67,7 @@ void load_face() {
     load_into(right, face, next_corner(corner), lengths);
     load_into(left, face, previous_corner(corner), lengths);
     apex = apex_of(edge, left);
-    cell_word = job.all_single != 0u ? kSingleCell << kFaceCornerShift | face * push.stages : lengths.w;
+    cell_word = kManyRows ? lengths.w : kSingleCell << kFaceCornerShift | face * push.stages;
     if (kAdaptive) {
         radii = face_radii(face);
     }

@@ -4,6 +4,7 @@
 #define GEODISK_SCAN_GLSL
 
 #include "job.glsl"
+#include "many_rows.glsl"
 #include "strip.glsl"
 
 uint own_place;
@@ -40,7 +41,7 @@ void begin_scan(float sx, float sy) {
     uint row0 = cell_at(low_y, grid.rows, grid.per_unit);
     uint row1 = cell_at(high_y, grid.rows, grid.per_unit);
     // If all faces have one cell, each has an entry per stage.
-    uint entries = job.all_single != 0u ? push.stages : 1u;
+    uint entries = kManyRows ? 1u : push.stages;
     lane.scan_columns = (cell_at(high_x, grid.columns, grid.per_unit) - column + 1u) * entries;
     lane.scan_stride = grid.columns * entries;
     lane.scan_row = grid.first + row0 * grid.columns + column;
@@ -65,8 +66,6 @@ struct Row {
     uint first;
     uint end;
 };
-
-layout(constant_id = kSpecManyRows) const bool kManyRows = false;
 
 const Strip kNoStrip = Strip(0u, 0u, 0u);
 

@@ -23,7 +23,6 @@ struct JobRec {
     uint path_rules;      // kRule* bits that hold of shortest paths
     uint has_keys;        // 1 if the caller gives keys for all faces: ties go by weights
     uint first_key_row;   // of the fans: where the keys begin
-    uint all_single;      // 1 where all faces are of one cell, whose table is then that of starts
     uint stop_count;      // enough samples, of all chunks
     uint idle_capacity;   // places that the list of idle candidates holds
     uint buckets;         // ranges of orders by which samples are put in order
@@ -71,7 +70,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(JobRec) == 68 && offsetof(JobRec, base_error) == 64);
+static_assert(sizeof(JobRec) == 64 && offsetof(JobRec, base_error) == 60);
 // Vulkan promises 128 bytes; a caller's kernels or later ones may want some.
 static_assert(sizeof(Push) <= 96);
 }

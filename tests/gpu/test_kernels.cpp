@@ -126,7 +126,7 @@ std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& 
     const auto weights = run.read<std::uint32_t>(BufferRole::weights, std::size_t{2} * count);
     const auto orders = run.read<std::uint32_t>(BufferRole::orders, count);
     const std::vector<std::uint32_t>& starts = twin.pool.bins.starts;
-    if (run.constants().all_single == 0) {
+    if (run.constants().cells != 0) {
         CHECK(run.read<std::uint32_t>(BufferRole::cells, starts.size()) == starts);
     }
     std::vector<std::uint32_t> ranks(count);

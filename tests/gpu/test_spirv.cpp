@@ -95,6 +95,9 @@ TEST_SUITE("spirv") {
         CHECK(has(Kernel::detect, gpu::kSpecManyRows));
         CHECK(has(Kernel::detect, gpu::kSpecLanesApart));
         CHECK(has(Kernel::draw, gpu::kSpecAdaptive));
+        CHECK(has(Kernel::draw, gpu::kSpecManyRows));
+        CHECK(has(Kernel::count, gpu::kSpecManyRows));
+        CHECK_FALSE(has(Kernel::bin, gpu::kSpecManyRows));
         CHECK(has(Kernel::grid_detect, gpu::kSpecDimension));
         CHECK(has(Kernel::resolve, gpu::kSpecSlotLocalSize));
         CHECK_FALSE(has(Kernel::resolve, gpu::kSpecLocalSize));

@@ -270,7 +270,6 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     job.has_keys = std::all_of(surfaces_.begin(), surfaces_.end(), has_keys) ? 1 : 0;
     job.first_key_row =
         static_cast<std::uint32_t>((fan_bytes(surfaces_) + radii_bytes(surfaces_)) / kRowBytes);
-    job.all_single = cells_ == 0 ? 1 : 0;
     job.vertices = vertex_count(surfaces_);
     job.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
     for (const PlacedSurface& surface : surfaces_) {

@@ -37,13 +37,13 @@ std::uint32_t buffer_of(std::uint32_t binding) {
 }
 
 /// The buffer behind a binding; the scan kernels work on whatever is bound as cells.
-std::size_t bound_as(SetRole role, std::uint32_t binding, bool all_single) {
+std::size_t bound_as(SetRole role, std::uint32_t binding, bool has_cells) {
     const std::uint32_t buffer = buffer_of(binding);
     if (buffer == gpu::kBindCells) {
         switch (role) {
         case SetRole::workspace:
         case SetRole::cell_scan:
-            return all_single ? gpu::kBindStarts : gpu::kBindCells;
+            return has_cells ? gpu::kBindCells : gpu::kBindStarts;
         case SetRole::start_scan:
             return gpu::kBindStarts;
         case SetRole::bucket_scan:
@@ -58,9 +58,9 @@ bool read_as_texels(std::size_t buffer) {
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const KernelBinding& binding : interface_of(static_cast<Kernel>(k), true).bindings) {
             for (std::size_t role = 0; role < 2 * kSetRoles; ++role) {
-                const bool all_single = role >= kSetRoles;
+                const bool has_cells = role >= kSetRoles;
                 if (binding.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
-                    bound_as(static_cast<SetRole>(role % kSetRoles), binding.number, all_single) ==
+                    bound_as(static_cast<SetRole>(role % kSetRoles), binding.number, has_cells) ==
                         buffer) {
                     return true;
                 }
@@ -286,7 +286,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     }
     number = next_number();
     const bool has_sets = sets_for == variant.domain;
-    const bool had_single = constants.all_single != 0;
+    const bool had_cells = has_cells();
     most_slots = new_plan.slots;
     most_lanes = new_plan.lanes;
     most_steps = of.most_steps(sampler->report, variant);
@@ -309,7 +309,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     of.set_constants(constants, new_plan);
     apply_plan(new_plan);
     begin_first_stages();
-    const bool is_bound = has_sets && had_single == (constants.all_single != 0);
+    const bool is_bound = has_sets && had_cells == has_cells();
     if (!is_bound) {
         sets_for.reset(); // Until all is bound.
     }
@@ -440,8 +440,7 @@ void Job::Impl::write_buffer(std::size_t buffer) const {
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const KernelBinding& binding : bindings_of(k)) {
             for (std::size_t role = 0; role < kSetRoles; ++role) {
-                if (bound_as(static_cast<SetRole>(role), binding.number,
-                             constants.all_single != 0) == buffer) {
+                if (bound_as(static_cast<SetRole>(role), binding.number, has_cells()) == buffer) {
                     geodisk::write_buffer(sampler->device, sampler->vk, sets[role][k],
                                           binding.number, binding.type, info, views[buffer]);
                 }

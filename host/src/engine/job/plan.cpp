@@ -282,7 +282,7 @@ Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
     needs.bytes[gpu::kBindList] = ranges * (gpu::kListRange + 1) * 4;
     needs.bytes[gpu::kBindSums] =
         blocks_of(std::max({starts, cells + 2, std::uint64_t{buckets} + 2})) * 4;
-    needs.bytes[gpu::kBindConstants] = sizeof(gpu::JobRec);
+    needs.bytes[gpu::kBindConstants] = (sizeof(gpu::JobRec) + 15) / 16 * 16; // As std140 pads it.
     const auto samples = sample_bytes(plan.sample_capacity, buckets);
     needs.bytes[gpu::kBindSamples] = samples[0];
     needs.bytes[gpu::kBindAccepted] = samples[1];

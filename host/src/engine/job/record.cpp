@@ -256,7 +256,7 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     Recorder recorder(commands, job, job.begun, budget);
     const gpu::Push& push = job.push;
     const DomainKernels own = kernels_of(job.variant.domain);
-    const bool has_cells = job.constants.all_single == 0;
+    const bool has_cells = job.has_cells();
     recorder.stage(Stage::count);
     recorder.change([&] { recorder.write_constants(); });
     recorder.change([&] {

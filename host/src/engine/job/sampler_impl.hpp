@@ -88,6 +88,8 @@ struct Job::Impl {
     ErrorModel error;
     RunPlan plan;
     gpu::JobRec constants{}; ///< On the device once record_begin() is recorded.
+    /// True unless all faces have one cell: the table of cells is then that of starts.
+    bool has_cells() const { return constants.cells != 0; }
     gpu::Push push{};
     Cursor begun, finished, counted; ///< Positions in record_begin, record_finish, record_count.
     std::uint32_t generation = 0;    ///< See ControlRec.
