@@ -167,16 +167,31 @@ TEST_SUITE("pace") {
         CHECK(given.dispatch_items == 1u << 17);
     }
 
+    TEST_CASE("steps fit a submission by the time of earlier ones, or if they are few") {
+        Pace pace(0.1);
+        CHECK(pace.fits(100));
+        CHECK_FALSE(pace.fits(1000));
+        pace.took(0.001, pace.items(), 100, 16);
+        CHECK(pace.fits(9'000));
+        CHECK_FALSE(pace.fits(11'000));
+        pace.begin_run(1, 16);
+        CHECK(pace.fits(9'000));
+        CHECK_FALSE(pace.fits(11'000));
+    }
+
     TEST_CASE("no submission is longer than two seconds, on a device however slow") {
-        Bench bench;
-        bench.params = params_for(bench.mesh, 60);
-        for (const double slower : {1.0, 30.0, 300.0}) {
-            CAPTURE(slower);
-            Runner runner = expect(bench.create());
-            SlowDevice device(bench, runner, slower);
-            bench.check_run(runner);
-            CHECK(longest(device.seconds) < 2);
-            CHECK(longest(device.seconds) > 0);
+        for (const double count : {5.0, 60.0, 120.0, 300.0, 600.0}) {
+            Bench bench;
+            bench.params = params_for(bench.mesh, count);
+            for (const double slower : {1.0, 30.0, 300.0}) {
+                CAPTURE(count);
+                CAPTURE(slower);
+                Runner runner = expect(bench.create());
+                SlowDevice device(bench, runner, slower);
+                bench.check_run(runner);
+                CHECK(longest(device.seconds) < 2);
+                CHECK(longest(device.seconds) > 0);
+            }
         }
     }
 

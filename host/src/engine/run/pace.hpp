@@ -30,6 +30,10 @@ class GEODISK_API Pace {
     /// short even if all lanes are busy in all dispatches.
     void took(double seconds, std::uint64_t items, std::uint64_t steps, std::uint32_t lanes);
 
+    /// Returns true if this many steps fit one submission: by the time of earlier ones, or if there
+    /// are none, because they are few.
+    bool fits(double steps) const;
+
     /// Limits the next submission, if its work is of another kind.
     void bound(std::uint64_t items) { items_ = std::min(items_, items); }
 

@@ -11,9 +11,8 @@ namespace geodisk {
 namespace {
 
 constexpr std::uint64_t kMostRounds = 256;
-// About those of a run that recomputes few; and that are so few that one submission does for them.
+// About those of a run that recomputes few.
 constexpr double kDisksPerSample = 1.5;
-constexpr double kFewSteps = 1024;
 // Rounds that list candidates, or end a batch.
 constexpr std::uint64_t kRoundsBeside = 6;
 constexpr std::uint32_t kMostPasses = 64;
@@ -111,8 +110,10 @@ Result<Done> Submissions::shorten() {
 std::uint32_t Submissions::record_rounds(VkCommandBuffer commands) {
     const RunPlan& plan = job_->plan();
     std::uint64_t rounds = paces_->rounds.items() / items_of_round(plan);
-    const double disks = kDisksPerSample * of_.samples;
-    if (disks * std::max(of_.disk_steps(plan, job().constants.capacity), 1.0) <= kFewSteps) {
+    // A batch computes a disk per slot, however few are samples.
+    const double disks = std::max<double>(kDisksPerSample * of_.samples, plan.slots);
+    const double steps = disks * std::max(of_.disk_steps(plan, job().constants.capacity), 1.0);
+    if (paces_->rounds.fits(steps)) {
         rounds =
             std::max(rounds, kRoundsBeside + 2 * static_cast<std::uint64_t>(disks) / plan.slots);
     }
