@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "mesh/vertex_sets.hpp"
+#include <geodisk/vertex_sets.hpp>
 
 namespace geodisk::tools {
 

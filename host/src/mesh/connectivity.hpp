@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geodisk/mesh.hpp"
-#include "mesh/vertex_sets.hpp"
+#include "geodisk/vertex_sets.hpp"
 
 namespace geodisk {
 

@@ -1,8 +1,8 @@
 // A mesh whose vertices are joined in sets.
 #pragma once
 
+#include "geodisk/vertex_sets.hpp"
 #include "geodisk/weld.hpp"
-#include "mesh/vertex_sets.hpp"
 
 namespace geodisk {
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <utility>
 
+#include "geodisk/vertex_sets.hpp"
 #include "mesh/checks.hpp"
 #include "mesh/joined_vertices.hpp"
 #include "mesh/position_table.hpp"
-#include "mesh/vertex_sets.hpp"
 #include "support/guard.hpp"
 
 namespace geodisk {

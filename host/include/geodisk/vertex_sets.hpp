@@ -1,4 +1,4 @@
-// Disjoint sets of vertices, as a forest with one tree per set.
+// VertexSets: vertices joined in sets, such as the parts of a mesh.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,16 @@
 
 namespace geodisk {
 
-/// Disjoint sets of vertices, each represented by its lowest one. Initially each vertex is a set.
+/// Disjoint sets of vertices, as a forest with one tree per set. The lowest vertex represents a
+/// set.
 class VertexSets {
   public:
+    /// Starts with a set per vertex.
     explicit VertexSets(std::size_t count) : parents_(count) {
         std::iota(parents_.begin(), parents_.end(), 0u);
     }
 
+    /// Returns the lowest vertex of the set that `v` is in.
     std::uint32_t lowest(std::uint32_t v) {
         while (parents_[v] != v) {
             parents_[v] = parents_[parents_[v]];
