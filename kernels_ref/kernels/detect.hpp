@@ -36,8 +36,8 @@ struct DiskCount {
 struct EndlessDisk : std::runtime_error {
     explicit EndlessDisk(std::uint32_t face)
         : std::runtime_error("the geodesic disk of a point on face " + std::to_string(face) +
-                             " does not end in any bearable time: it holds edges of many faces all "
-                             "over it, or very many triangles far smaller than the distance") {}
+                             " could not be computed: it holds too many edges of more than two "
+                             "faces, or too many triangles far smaller than the distance") {}
 };
 
 /// Returns the tolerances of distances in double precision, which only cover its rounding.

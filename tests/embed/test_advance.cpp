@@ -129,7 +129,7 @@ TEST_SUITE("advance") {
         bad = good;
         bad.overflow = gpu::kOverflowEndless;
         bad.endless_face = 8;
-        check(bad, Status::mesh_rejected, "on face 7 does not end");
+        check(bad, Status::mesh_rejected, "on face 7 could not be computed");
         bad.overflow = gpu::kOverflowCandidates;
         check(bad, Status::internal, "candidates");
         bad.overflow = gpu::kOverflowSamples;

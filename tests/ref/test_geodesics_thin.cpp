@@ -132,8 +132,7 @@ TEST_CASE("sheets of needles upon each other take few windows") {
     }
 }
 
-TEST_CASE(
-    "a disk that does not end in any bearable time is an error, and the next one is as ever") {
+TEST_CASE("a disk that does not end is an error, and the next one is as ever") {
     const PreparedMesh surface = prepared(all_triangles(24));
     const double reach = 0.5;
     const std::vector<Point> points = random_points(surface, 1, 20);

@@ -8,11 +8,11 @@
 
 namespace geodisk {
 
-/// Searches for the distance by trial: sample at a distance, report the count, and get the next
-/// distance to try. Begin with distance_for_count().
+/// Finds the distance by trial. Sample at distance_for_count(), pass the number of samples to
+/// note(), and repeat with the distance that it returns. Sample without `stop_count`, or the counts
+/// are too low.
 ///
-/// The same counts lead to the same distances on every machine. Sample without `stop_count` during
-/// the search, or the counts are too low.
+/// The same counts lead to the same distances on every machine.
 class CountSearch {
   public:
     /// Starts a search for `wanted` samples, at least 1.

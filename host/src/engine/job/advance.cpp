@@ -42,9 +42,10 @@ Result<Done> check_overflow(const gpu::ControlRec& control, std::uint32_t capaci
         return Error{
             Status::mesh_rejected,
             "the geodesic disk of a candidate on face " + std::to_string(face) +
-                " does not end in any bearable time: it holds edges of many faces all over it, or "
-                "very many triangles far smaller than the minimum distance; coarsen the mesh there "
-                "or lower the distance",
+                " could not be computed: it holds too many edges of more than two faces, or too "
+                "many "
+                "triangles far smaller than the minimum distance; coarsen the mesh there or lower "
+                "the distance",
             face};
     }
     return Done{};
