@@ -110,6 +110,44 @@ TEST_SUITE("reuse") {
         }
     }
 
+    TEST_CASE(
+        "a mesh that does not fit the staging is uploaded in pieces, by the caller's threads") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 7));
+        SampleParams params = params_for(mesh, 20000);
+        params.stop_count = 40;
+        std::size_t blocks = 0;
+        Bench bench;
+        RunnerOptions options;
+        options.threads.user = &blocks;
+        options.threads.parallel_for = [](void* user, std::size_t count,
+                                          void (*work)(void*, std::size_t), void* context) {
+            for (std::size_t block = count; block-- > count / 3;) { // Leaves some out.
+                work(context, block);
+            }
+            *static_cast<std::size_t*>(user) += count;
+        };
+        Runner runner = expect(bench.create(options));
+        const SampleSet set = expect(runner.sample_and_wait(mesh, params));
+        CHECK(set.report.uploaded > std::uint64_t{32} << 20);
+        CHECK(blocks > 64);
+        DeviceRun whole(mesh, params);
+        whole.follow_all();
+        REQUIRE(set.samples.size() == 40);
+        const auto records = whole.read<gpu::SampleRec>(BufferRole::samples, 40);
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            CHECK(set.samples[i].face == records[i].face);
+            CHECK(set.samples[i].weights[1] == records[i].weight1);
+        }
+        // Cancelled with a piece in flight, then again.
+        runner.release_memory();
+        std::uint32_t calls = 0;
+        const auto cancelled =
+            runner.sample_and_wait(mesh, params, [&calls](const Progress&) { return ++calls < 2; });
+        REQUIRE_FALSE(cancelled);
+        CHECK(cancelled.error().status == Status::cancelled);
+        CHECK(points_of(expect(runner.sample_and_wait(mesh, params))) == points_of(set));
+    }
+
     TEST_CASE("a run that fails, or is cancelled, leaves nothing to the next") {
         Bench bench;
         Runner runner = expect(bench.create());

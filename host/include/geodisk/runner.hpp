@@ -14,6 +14,7 @@
 #include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/sampler.hpp>
+#include <geodisk/threads.hpp>
 
 namespace geodisk {
 
@@ -111,6 +112,8 @@ struct RunnerOptions {
     /// Plan whose non-zero fields replace the runner's choice. For tuning and tests: none changes
     /// the samples, except `error_bound`, which decides ties.
     RunPlan plan;
+    /// Threads that write the data to upload.
+    ThreadOptions threads;
     /// Measures the device time of each stage by timestamps, if the queue has them.
     bool time_stages = false;
     /// Target length of one submission in seconds; keeps GPU watchdogs quiet, progress and

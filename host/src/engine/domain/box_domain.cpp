@@ -118,11 +118,17 @@ std::size_t GridDomain::upload_size(BufferRole role) const {
     return role == BufferRole::axes ? box_.extents.size() * sizeof(gpu::AxisRec) : 0;
 }
 
-Result<Done> GridDomain::write_upload(const RunPlan& plan, BufferRole, std::size_t,
-                                      std::span<std::byte> out) const {
-    const BoxGrid drawn = grid(capacity_for(stages, plan.stages), plan.error_bound);
-    std::memcpy(out.data(), drawn.axes.data(), out.size());
-    return Done{};
+Result<UploadParts> GridDomain::upload_parts(const RunPlan& plan, BufferRole role) const {
+    UploadParts parts;
+    if (role == BufferRole::axes) {
+        const BoxGrid drawn = grid(capacity_for(stages, plan.stages), plan.error_bound);
+        parts.push_back({sizeof(gpu::AxisRec), box_.extents.size(),
+                         [axes = drawn.axes](std::size_t begin, std::size_t end, std::byte* out) {
+                             std::memcpy(out, axes.data() + begin,
+                                         (end - begin) * sizeof(gpu::AxisRec));
+                         }});
+    }
+    return parts;
 }
 
 BoxDomain::BoxDomain(const BoxParams& box)

@@ -22,8 +22,7 @@ class GridDomain : public Domain::Impl {
     const char* name_of(BufferRole role) const override;
     void set_constants(gpu::JobRec& job, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
-    Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
-                              std::span<std::byte> out) const override;
+    Result<UploadParts> upload_parts(const RunPlan& plan, BufferRole role) const override;
     double guard_for(double error_bound) const override { return error_bound; }
 
   protected:

@@ -4,13 +4,17 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include <geodisk/radius_field.hpp>
 
 #include "constants.h"
 #include "engine/domain/stages.hpp"
 #include "records.h"
+#include "support/blocks.hpp"
 
 namespace geodisk {
 namespace {
@@ -95,48 +99,91 @@ bool shared_by_many(const PreparedMesh& mesh, std::uint32_t h) {
 }
 
 template <class Record>
-void store(std::span<std::byte> out, std::size_t index, const Record& record) {
-    std::memcpy(out.data() + index * sizeof(Record), &record, sizeof record);
+void store(std::byte*& out, const Record& record) {
+    std::memcpy(out, &record, sizeof record);
+    out += sizeof record;
+}
+
+std::uint32_t first_half_edge(const PlacedSurface& surface) {
+    return 3 * surface.first_face;
+}
+
+/// Calls `visit(surface, i)` for each element `begin` to `end` of those numbered through all
+/// surfaces; those of a surface begin at `first_of(surface)`, and i counts from there.
+template <class FirstOf, class Visit>
+void for_elements(PlacedSurfaces surfaces, std::size_t begin, std::size_t end,
+                  const FirstOf& first_of, const Visit& visit) {
+    auto surface = std::ranges::upper_bound(surfaces, begin, {}, first_of) - 1;
+    while (begin < end) {
+        const auto next = surface + 1;
+        const std::size_t first = first_of(*surface);
+        const std::size_t last =
+            next == surfaces.end() ? end : std::min<std::size_t>(end, first_of(*next));
+        for (; begin < last; ++begin) {
+            visit(*surface, static_cast<std::uint32_t>(begin - first));
+        }
+        surface = next;
+    }
+}
+
+/// Appends a part of `records` records: `record_of(surface, i)` is that of element i, as
+/// for_elements() counts them. Where there are more records than the `count` elements, the last are
+/// zero.
+template <class FirstOf, class RecordOf>
+void add_part(UploadParts& parts, PlacedSurfaces surfaces, std::size_t records, std::size_t count,
+              const FirstOf& first_of, const RecordOf& record_of) {
+    using Record = std::invoke_result_t<RecordOf, const PlacedSurface&, std::uint32_t>;
+    parts.push_back(
+        {sizeof(Record), records, [=](std::size_t begin, std::size_t end, std::byte* out) {
+             const std::size_t last = std::min(end, count);
+             for_elements(surfaces, begin, last, first_of,
+                          [&](const PlacedSurface& surface, std::uint32_t i) {
+                              store(out, record_of(surface, i));
+                          });
+             std::memset(out, 0, (end - std::max(begin, last)) * sizeof(Record));
+         }});
 }
 
 /// Returns a link to a half-edge, numbered through all surfaces.
 std::uint32_t placed_around(const PlacedSurface& surface, std::uint32_t around) {
-    return around + (3 * surface.first_face << 1);
+    return around + (first_half_edge(surface) << 1);
 }
 
-/// Writes, for several surfaces, the keys of faces, the surface of each face, and a record per
-/// surface.
-void write_parts(PlacedSurfaces surfaces, std::span<std::byte> out) {
-    const auto parts = out.subspan(face_count(surfaces) * sizeof(std::uint32_t));
-    const auto records = parts.subspan(face_count(surfaces) * sizeof(std::uint32_t));
-    for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-        const PlacedSurface& surface = surfaces[i];
-        const SampleParams& params = surface.params;
-        for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
-            store(out, surface.first_face + f, params.face_keys.empty() ? f : params.face_keys[f]);
-            store(parts, surface.first_face + f, i);
-        }
-        store(records, i,
-              gpu::PartRec{static_cast<std::uint32_t>(params.seed),
-                           static_cast<std::uint32_t>(params.seed >> 32),
-                           stage_intensity(surface.stages, 0), surface.stages.pool_stages(),
-                           static_cast<float>(params.min_distance / 2), surface.first_face, 0, 0});
-    }
+std::uint32_t key_of(const PlacedSurface& surface, std::uint32_t face) {
+    const auto keys = surface.params.face_keys;
+    return keys.empty() ? face : keys[face];
+}
+
+gpu::PartRec part_of(const PlacedSurface& surface) {
+    const SampleParams& params = surface.params;
+    return {static_cast<std::uint32_t>(params.seed),
+            static_cast<std::uint32_t>(params.seed >> 32),
+            stage_intensity(surface.stages, 0),
+            surface.stages.pool_stages(),
+            static_cast<float>(params.min_distance / 2),
+            surface.first_face,
+            0,
+            0};
 }
 
 } // namespace
 
-Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
+Result<FaceCells> count_cells(PlacedSurfaces surfaces) {
     FaceCrowding crowding;
     for (const PlacedSurface& surface : surfaces) {
         crowding.add(*surface.mesh, surface.params, surface.stages);
     }
     if (crowding.is_small()) {
-        return 0u;
+        return FaceCells{};
     }
     std::uint64_t cells = 0;
+    std::vector<std::uint32_t> firsts;
+    firsts.reserve(block_count(face_count(surfaces)));
     for (const PlacedSurface& surface : surfaces) {
         for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
+            if ((surface.first_face + f) % kBlock == 0) {
+                firsts.push_back(static_cast<std::uint32_t>(cells));
+            }
             const Grid grid = face_grid(*surface.mesh, surface.params, f, surface.frame.unit);
             cells += grid.columns * grid.rows; // Cannot overflow: at most 2^62 is added to 2^30.
             if (cells > gpu::kFirstCellMask) {
@@ -150,7 +197,9 @@ Result<std::uint32_t> count_cells(PlacedSurfaces surfaces) {
             }
         }
     }
-    return cells == face_count(surfaces) ? 0 : static_cast<std::uint32_t>(cells);
+    return cells == face_count(surfaces)
+               ? FaceCells{}
+               : FaceCells{static_cast<std::uint32_t>(cells), std::move(firsts)};
 }
 
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
@@ -183,97 +232,132 @@ std::size_t key_bytes(PlacedSurfaces surfaces) {
     return (bytes + kRowBytes - 1) / kRowBytes * kRowBytes;
 }
 
-void write_half_edges(PlacedSurfaces surfaces, std::span<std::byte> out) {
-    for (const PlacedSurface& surface : surfaces) {
-        const PreparedMesh& mesh = *surface.mesh;
-        const auto own = out.subspan(std::size_t{surface.first_face} * gpu::kFaceRows * kRowBytes);
-        for (std::uint32_t h = 0; h < mesh.half_edges().size(); ++h) {
-            const HalfEdge& e = mesh.half_edges()[h];
-            const bool bends = (mesh.fans()[e.origin].flags & gpu::kFanBends) != 0;
-            const Direction angle = e.angle();
-            store(own, h,
-                  gpu::HalfEdgeRec{direction(angle.cosine), direction(angle.sine),
-                                   (e.origin + surface.first_vertex) |
-                                       (bends ? gpu::kOriginBends : 0u) |
-                                       (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u),
-                                   placed_around(surface, e.around)});
-        }
-    }
+void add_half_edges(PlacedSurfaces surfaces, UploadParts& parts) {
+    const std::size_t count = std::size_t{3} * face_count(surfaces);
+    add_part(parts, surfaces, count, count, first_half_edge,
+             [](const PlacedSurface& surface, std::uint32_t h) {
+                 const PreparedMesh& mesh = *surface.mesh;
+                 const HalfEdge& e = mesh.half_edges()[h];
+                 const bool bends = (mesh.fans()[e.origin].flags & gpu::kFanBends) != 0;
+                 const Direction angle = e.angle();
+                 return gpu::HalfEdgeRec{direction(angle.cosine), direction(angle.sine),
+                                         (e.origin + surface.first_vertex) |
+                                             (bends ? gpu::kOriginBends : 0u) |
+                                             (shared_by_many(mesh, h) ? gpu::kManyFaces : 0u),
+                                         placed_around(surface, e.around)};
+             });
 }
 
-void write_lengths(PlacedSurfaces surfaces, bool one_cell_each, std::span<std::byte> out) {
-    std::uint32_t first_cell = 0;
-    for (const PlacedSurface& surface : surfaces) {
-        const auto own = out.subspan(surface.first_face * sizeof(gpu::FaceLengthsRec));
-        for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
-            const Grid grid = one_cell_each
-                                  ? Grid{1, 1, 0}
-                                  : face_grid(*surface.mesh, surface.params, f, surface.frame.unit);
-            const bool single = grid.columns * grid.rows == 1;
-            const HalfEdge* const edges = &surface.mesh->half_edges()[std::size_t{3} * f];
-            store(own, f,
-                  gpu::FaceLengthsRec{scaled(edges[0].length, surface.frame.unit),
-                                      scaled(edges[1].length, surface.frame.unit),
-                                      scaled(edges[2].length, surface.frame.unit),
-                                      first_cell | (single ? gpu::kSingleCell : grid.corner)
-                                                       << gpu::kFaceCornerShift});
-            first_cell += static_cast<std::uint32_t>(grid.columns * grid.rows);
-        }
-    }
+void add_lengths(PlacedSurfaces surfaces, const FaceCells& cells, UploadParts& parts) {
+    const auto grid_of = [&cells](const PlacedSurface& surface, std::uint32_t f) {
+        return cells.count == 0 ? Grid{1, 1, 0}
+                                : face_grid(*surface.mesh, surface.params, f, surface.frame.unit);
+    };
+    const auto first_face = [](const PlacedSurface& surface) { return surface.first_face; };
+    const auto write = [=, &cells](std::size_t begin, std::size_t end, std::byte* out) {
+        // The cells of faces in the same block, before the first one.
+        const std::size_t block = cells.count == 0 ? begin : begin / kBlock * kBlock;
+        std::uint32_t first_cell =
+            cells.count == 0 ? static_cast<std::uint32_t>(begin) : cells.firsts[begin / kBlock];
+        for_elements(
+            surfaces, block, end, first_face, [&](const PlacedSurface& surface, std::uint32_t f) {
+                const Grid grid = grid_of(surface, f);
+                const bool single = grid.columns * grid.rows == 1;
+                const HalfEdge* const edges = &surface.mesh->half_edges()[std::size_t{3} * f];
+                if (surface.first_face + f >= begin) {
+                    store(out,
+                          gpu::FaceLengthsRec{scaled(edges[0].length, surface.frame.unit),
+                                              scaled(edges[1].length, surface.frame.unit),
+                                              scaled(edges[2].length, surface.frame.unit),
+                                              first_cell | (single ? gpu::kSingleCell : grid.corner)
+                                                               << gpu::kFaceCornerShift});
+                }
+                first_cell += static_cast<std::uint32_t>(grid.columns * grid.rows);
+            });
+    };
+    parts.push_back({sizeof(gpu::FaceLengthsRec), face_count(surfaces), write});
 }
 
-void write_fans(PlacedSurfaces surfaces, std::span<std::byte> out) {
+void add_fans(PlacedSurfaces surfaces, UploadParts& parts) {
     struct CornerRec {
         std::uint32_t half_edge, angles;
     };
     const FanRows rows(surfaces);
-    const auto corners = out.subspan(rows.fans * kRowBytes);
-    const auto angles = corners.subspan(rows.corners * kRowBytes);
-    std::memset(out.data(), 0, out.size());
-    for (const PlacedSurface& surface : surfaces) {
-        const PreparedMesh& mesh = *surface.mesh;
-        const std::uint32_t first_half_edge = 3 * surface.first_face;
-        for (std::size_t v = 0; v < mesh.fans().size(); ++v) {
-            const VertexFan& fan = mesh.fans()[v];
-            store(out, surface.first_vertex + v,
-                  gpu::FanRec{fan.first_corner + surface.first_corner, fan.corner_count,
-                              fan.total_angle, fan.flags});
-        }
-        for (std::size_t i = 0; i < mesh.corners().size(); ++i) {
-            const std::uint32_t h = mesh.corners()[i];
-            store(corners, surface.first_corner + i,
-                  CornerRec{h + first_half_edge, mesh.half_edges()[h].fan_angles});
-        }
-        for (std::size_t h = 0; h < mesh.half_edges().size(); ++h) {
-            store(angles, first_half_edge + h, mesh.half_edges()[h].fan_angles);
-        }
-    }
+    const std::size_t half_edges = std::size_t{3} * face_count(surfaces);
+    add_part(
+        parts, surfaces, rows.fans, rows.fans,
+        [](const PlacedSurface& surface) { return surface.first_vertex; },
+        [](const PlacedSurface& surface, std::uint32_t v) {
+            const VertexFan& fan = surface.mesh->fans()[v];
+            return gpu::FanRec{fan.first_corner + surface.first_corner, fan.corner_count,
+                               fan.total_angle, fan.flags};
+        });
+    add_part(
+        parts, surfaces, rows.corners * kRowBytes / sizeof(CornerRec), half_edges,
+        [](const PlacedSurface& surface) { return surface.first_corner; },
+        [](const PlacedSurface& surface, std::uint32_t i) {
+            const std::uint32_t h = surface.mesh->corners()[i];
+            return CornerRec{h + first_half_edge(surface),
+                             surface.mesh->half_edges()[h].fan_angles};
+        });
+    add_part(parts, surfaces, rows.angles * kRowBytes / sizeof(std::uint32_t), half_edges,
+             first_half_edge, [](const PlacedSurface& surface, std::uint32_t h) {
+                 return surface.mesh->half_edges()[h].fan_angles;
+             });
 }
 
-Result<Done> write_radii(PlacedSurfaces surfaces, std::span<std::byte> out) {
+Result<Done> add_radii(PlacedSurfaces surfaces, UploadParts& parts) {
+    std::vector<float> all;
     for (const PlacedSurface& surface : surfaces) {
         const SampleParams& params = surface.params;
         const auto bounds = params.radii->reach_bounds(*surface.mesh, params.min_distance);
         if (!bounds) {
             return bounds.error();
         }
-        for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
-            gpu::RadiiRec record = radii_of(params, f);
-            record.bound = (*bounds)[f];
-            store(out, surface.first_face + f, record);
-        }
+        all.insert(all.end(), bounds->begin(), bounds->end());
     }
+    const std::uint32_t count = face_count(surfaces);
+    add_part(
+        parts, surfaces, count, count,
+        [](const PlacedSurface& surface) { return surface.first_face; },
+        [bounds = std::make_shared<const std::vector<float>>(std::move(all))](
+            const PlacedSurface& surface, std::uint32_t f) {
+            gpu::RadiiRec record = radii_of(surface.params, f);
+            record.bound = (*bounds)[surface.first_face + f];
+            return record;
+        });
     return Done{};
 }
 
-void write_keys(PlacedSurfaces surfaces, std::span<std::byte> out) {
-    std::ranges::fill(out, std::byte{0}); // Where the last row ends early.
-    if (surfaces.size() > 1) {
-        write_parts(surfaces, out);
+/// Adds, for several surfaces, the keys of faces, the surface of each face, and a record per
+/// surface; for one, its keys, if any.
+void add_keys(PlacedSurfaces surfaces, UploadParts& parts) {
+    const std::size_t bytes = key_bytes(surfaces);
+    if (bytes == 0) {
         return;
     }
-    const auto keys = std::as_bytes(surfaces[0].params.face_keys);
-    std::ranges::copy(keys, out.begin());
+    const std::uint32_t faces = face_count(surfaces);
+    const auto first_face = [](const PlacedSurface& surface) { return surface.first_face; };
+    if (surfaces.size() == 1) {
+        add_part(parts, surfaces, bytes / sizeof(std::uint32_t), faces, first_face, key_of);
+        return;
+    }
+    add_part(parts, surfaces, faces, faces, first_face, key_of);
+    add_part(parts, surfaces, faces, faces, first_face,
+             [surfaces](const PlacedSurface& surface, std::uint32_t) {
+                 return static_cast<std::uint32_t>(&surface - surfaces.data());
+             });
+    parts.push_back({sizeof(gpu::PartRec), surfaces.size(),
+                     [surfaces](std::size_t begin, std::size_t end, std::byte* out) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                             store(out, part_of(surfaces[i]));
+                         }
+                     }});
+    const std::size_t written = 2 * faces * sizeof(std::uint32_t) + parts.back().bytes();
+    parts.push_back({bytes - written, bytes > written ? 1u : 0u,
+                     [rest = bytes - written](std::size_t, std::size_t, std::byte* out) {
+                         std::memset(out, 0, rest); // Where the last row ends early.
+                     }});
 }
 
 } // namespace geodisk

@@ -11,6 +11,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "engine/domain/tolerances.hpp"
+#include "engine/domain/upload_parts.hpp"
 #include "engine/kernels/kernel_table.hpp"
 #include "push.h"
 
@@ -76,9 +77,9 @@ struct Domain::Impl {
     virtual std::size_t upload_size(BufferRole role) const = 0;
     /// Returns how many of them, from the first on, depend on `meshes` alone.
     virtual std::size_t mesh_bytes(BufferRole) const { return 0; }
-    /// Writes the bytes to upload from byte `from` on: 0 or mesh_bytes().
-    virtual Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
-                                      std::span<std::byte> out) const = 0;
+    /// Returns what to upload to a buffer. One part ends at mesh_bytes(). The domain must outlive
+    /// it.
+    virtual Result<UploadParts> upload_parts(const RunPlan& plan, BufferRole role) const = 0;
     virtual double guard_for(double error_bound) const = 0;
     virtual void coordinates(const gpu::SampleRec&, std::span<double>) const {}
 };

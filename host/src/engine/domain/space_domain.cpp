@@ -170,27 +170,29 @@ std::size_t SpaceDomain::upload_size(BufferRole role) const {
                                        : GridDomain::upload_size(role);
 }
 
-Result<Done> SpaceDomain::write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
-                                       std::span<std::byte> out) const {
+Result<UploadParts> SpaceDomain::upload_parts(const RunPlan& plan, BufferRole role) const {
     if (role != BufferRole::corners) {
-        return GridDomain::write_upload(plan, role, from, out);
+        return GridDomain::upload_parts(plan, role);
     }
-    std::fill(out.begin(), out.end(), std::byte{0});
-    for (std::size_t corner = 0; corner < view_.triangles.size(); ++corner) {
-        const std::uint32_t vertex = view_.triangles[corner];
-        const std::size_t row = corner / 3 * gpu::kSpaceRows + corner % 3;
-        std::memcpy(out.data() + row * 16, frame_.vertices[vertex].data(), 12);
-        std::memcpy(out.data() + (row + 3) * 16, frame_.normals[vertex].data(), 12);
-    }
+    constexpr std::size_t kRow = 16, kFaceBytes = gpu::kSpaceRows * kRow;
     const double unit = working_distance(mesh_, params_);
-    for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
-        std::byte* const row = out.data() + std::size_t{face} * gpu::kSpaceRows * 16;
-        const float area = face_area(mesh_, face, unit);
-        const std::uint32_t key = params_.face_keys.empty() ? face : params_.face_keys[face];
-        std::memcpy(row + 12, &area, 4);
-        std::memcpy(row + 28, &key, 4);
-    }
-    return Done{};
+    const auto write = [this, unit](std::size_t begin, std::size_t end, std::byte* out) {
+        std::memset(out, 0, (end - begin) * kFaceBytes);
+        for (std::size_t face = begin; face < end; ++face, out += kFaceBytes) {
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const std::uint32_t vertex = view_.triangles[3 * face + corner];
+                std::byte* const row = out + corner * kRow;
+                std::memcpy(row, frame_.vertices[vertex].data(), 12);
+                std::memcpy(row + 3 * kRow, frame_.normals[vertex].data(), 12);
+            }
+            const auto own = static_cast<std::uint32_t>(face);
+            const float area = face_area(mesh_, own, unit);
+            const std::uint32_t key = params_.face_keys.empty() ? own : params_.face_keys[face];
+            std::memcpy(out + 12, &area, 4);
+            std::memcpy(out + 28, &key, 4);
+        }
+    };
+    return UploadParts{{kFaceBytes, mesh_.face_count(), write}};
 }
 
 } // namespace geodisk

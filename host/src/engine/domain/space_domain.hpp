@@ -39,8 +39,7 @@ class SpaceDomain : public GridDomain {
         return role == BufferRole::corners ? "corners" : GridDomain::name_of(role);
     }
     std::size_t upload_size(BufferRole role) const override;
-    Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
-                              std::span<std::byte> out) const override;
+    Result<UploadParts> upload_parts(const RunPlan& plan, BufferRole role) const override;
 
   private:
     MeshView view_;

@@ -151,16 +151,16 @@ Result<Domain> Domain::surfaces(std::span<const SurfacePart> parts) noexcept {
 
 Result<std::unique_ptr<const Domain::Impl>>
 SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
-    const auto cells = count_cells(surfaces);
+    auto cells = count_cells(surfaces);
     if (!cells) {
         return cells.error();
     }
     return std::unique_ptr<const Impl>(
-        std::make_unique<SurfaceDomain>(std::move(surfaces), *cells));
+        std::make_unique<SurfaceDomain>(std::move(surfaces), std::move(*cells)));
 }
 
-SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t cells)
-    : surfaces_(std::move(surfaces)), cells_(cells) {
+SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells)
+    : surfaces_(std::move(surfaces)), cells_(std::move(cells)) {
     stages = stages_of(surfaces_);
     for (const PlacedSurface& surface : surfaces_) {
         const PreparedMesh& mesh = *surface.mesh;
@@ -177,7 +177,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t 
     kernels.adaptive = has_radii(surfaces_);
     kernels.several = surfaces_.size() > 1;
     kernels.keyed = !kernels.several && !surfaces_[0].params.face_keys.empty();
-    kernels.many_rows = cells_ != 0;
+    kernels.many_rows = cells_.count != 0;
     samples_per_measure = samples_per_area();
     // Several have neither, and seeds of their own.
     const SampleParams& params = surfaces_[0].params;
@@ -245,7 +245,7 @@ std::uint32_t SurfaceDomain::most_steps(const DeviceReport& report,
 }
 
 std::uint64_t SurfaceDomain::cells(std::uint32_t, double) const {
-    return cells_;
+    return cells_.count;
 }
 
 void SurfaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
@@ -300,23 +300,21 @@ std::size_t SurfaceDomain::mesh_bytes(BufferRole role) const {
     }
 }
 
-Result<Done> SurfaceDomain::write_upload(const RunPlan&, BufferRole role, std::size_t from,
-                                         std::span<std::byte> out) const {
-    const std::size_t of_mesh = from == 0 ? mesh_bytes(role) : 0;
-    const auto rest = out.subspan(of_mesh);
+Result<UploadParts> SurfaceDomain::upload_parts(const RunPlan&, BufferRole role) const {
+    UploadParts parts;
     if (role == BufferRole::faces) {
-        if (of_mesh > 0) {
-            write_half_edges(surfaces_, out.first(of_mesh));
+        add_half_edges(surfaces_, parts);
+        add_lengths(surfaces_, cells_, parts);
+    } else if (role == BufferRole::fans) {
+        add_fans(surfaces_, parts);
+        if (has_radii(surfaces_)) {
+            if (auto added = add_radii(surfaces_, parts); !added) {
+                return added.error();
+            }
         }
-        write_lengths(surfaces_, cells_ == 0, rest);
-        return Done{};
+        add_keys(surfaces_, parts);
     }
-    if (of_mesh > 0) {
-        write_fans(surfaces_, out.first(of_mesh));
-    }
-    const std::size_t of_radii = radii_bytes(surfaces_);
-    write_keys(surfaces_, rest.subspan(of_radii));
-    return of_radii == 0 ? Result<Done>(Done{}) : write_radii(surfaces_, rest.first(of_radii));
+    return parts;
 }
 
 } // namespace geodisk

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/domain/device_mesh.hpp"
 #include "engine/domain/domain_impl.hpp"
 #include "engine/domain/placed_surface.hpp"
 #include "engine/domain/tolerances.hpp"
@@ -13,7 +14,7 @@ namespace geodisk {
 /// Meshes and what is asked of each, which pool_size() finds no fault with; all must outlive it.
 class SurfaceDomain : public Domain::Impl {
   public:
-    SurfaceDomain(std::vector<PlacedSurface> surfaces, std::uint32_t cells);
+    SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells);
     static Result<std::unique_ptr<const Impl>> make(std::vector<PlacedSurface> surfaces);
 
     std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
@@ -31,8 +32,7 @@ class SurfaceDomain : public Domain::Impl {
     void set_constants(gpu::JobRec& job, const RunPlan& plan) const override;
     std::size_t upload_size(BufferRole role) const override;
     std::size_t mesh_bytes(BufferRole role) const override;
-    Result<Done> write_upload(const RunPlan& plan, BufferRole role, std::size_t from,
-                              std::span<std::byte> out) const override;
+    Result<UploadParts> upload_parts(const RunPlan& plan, BufferRole role) const override;
     double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
 
   private:
@@ -40,9 +40,9 @@ class SurfaceDomain : public Domain::Impl {
 
     std::vector<PlacedSurface> surfaces_;
     double first_error_ = 0;
-    std::uint32_t cells_; ///< Of all faces; 0 where each has one.
-    double full_ = 0;     ///< Samples that full surfaces hold, at least two each: no disk covers
-                          ///< more than all faces.
+    FaceCells cells_;
+    double full_ = 0; ///< Samples that full surfaces hold, at least two each: no disk covers
+                      ///< more than all faces.
 };
 
 } // namespace geodisk

@@ -101,7 +101,18 @@ Result<Done> Sampler::write_upload(const Domain& domain, const RunPlan& plan, Bu
             return Error{Status::invalid_argument,
                          "not a buffer that is uploaded, or not of its size"};
         }
-        return Domain::Impl::of(domain).write_upload(plan, role, from, out);
+        const auto parts = Domain::Impl::of(domain).upload_parts(plan, role);
+        if (!parts) {
+            return parts.error();
+        }
+        std::size_t at = 0;
+        for (const UploadPart& part : *parts) {
+            if (at >= from) {
+                part.write(0, part.records, out.data() + (at - from));
+            }
+            at += part.bytes();
+        }
+        return Done{};
     });
 }
 

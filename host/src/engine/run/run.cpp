@@ -1,6 +1,8 @@
 #include "engine/run/run.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +15,7 @@
 #include "engine/run/run_memory.hpp"
 #include "engine/run/run_result.hpp"
 #include "engine/run/submissions.hpp"
+#include "support/blocks.hpp"
 
 namespace geodisk {
 namespace {
@@ -39,6 +42,10 @@ class Run {
   private:
     Result<Done> prepare(const RunPlan& plan);
     Task<Result<Done>> upload();
+    Task<Result<Done>> stage(BufferRole role, std::size_t at, const UploadPart& part);
+    void write_staged();
+    Task<Result<Done>> submit_piece();
+    Task<Result<Done>> end_piece();
     Task<Result<Advice>> sample();
     Task<Result<Done>> follow(Advice advice);
     Task<Result<std::uint64_t>> candidates(Advice advice);
@@ -69,6 +76,15 @@ class Run {
         record_samples(commands);
         return 0u;
     };
+    struct StagedRecords {
+        const UploadPart* part;
+        std::size_t begin, count;
+        std::size_t place; ///< Among all that are staged.
+        std::byte* out;
+    };
+    std::vector<StagedRecords> staged_; ///< Yet to be written.
+    std::size_t staged_records_ = 0;
+    bool has_piece_ = false; ///< A piece of the upload is in flight.
     RunReport report_;
 };
 
@@ -107,38 +123,85 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     return Done{};
 }
 
-/// With the first submission where there is room in the staging, else in some of their own.
+/// Stages what the device lacks. Submits it in pieces if it does not fit; the last piece goes with
+/// the first submission of the job.
 Task<Result<Done>> Run::upload() {
+    std::array<UploadParts, kBufferRoles> all;
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         const auto role = static_cast<BufferRole>(i);
-        const std::size_t from =
+        const std::size_t held =
             memory_.holds(role, of_.meshes) ? runner_.sampler.mesh_bytes(domain_, role) : 0;
-        const std::size_t size = runner_.sampler.upload_size(domain_, role) - from;
-        std::span<std::byte> staged = memory_.stage(role, from, size);
-        if (staged.empty() && size > 0) {
-            auto before = runner_.submitter->submit(
-                [&](VkCommandBuffer commands) { memory_.record_uploads(commands); });
-            if (before) {
-                before = co_await runner_.submitter->ended();
-            }
-            if (!before) {
-                co_return before;
-            }
-            staged = memory_.stage(role, from, size);
+        auto parts = of_.upload_parts(job_->plan(), role);
+        if (!parts) {
+            co_return parts.error();
         }
-        std::vector<std::byte> large(staged.empty() ? size : 0);
-        auto written = size > 0
-                           ? runner_.sampler.write_upload(domain_, job_->plan(), role,
-                                                          staged.empty() ? large : staged, from)
-                           : Result<Done>(Done{});
-        if (!written) {
-            co_return written;
-        }
-        if (auto uploaded = co_await memory_.upload(role, from, large); !uploaded) {
-            co_return uploaded;
+        all[i] = std::move(*parts);
+        std::size_t at = 0;
+        for (const UploadPart& part : all[i]) {
+            if (at >= held) {
+                if (auto staged = co_await stage(role, at, part); !staged) {
+                    co_return staged;
+                }
+            }
+            at += part.bytes();
         }
         memory_.set_held(role, of_.meshes);
-        report_.uploaded += size;
+    }
+    write_staged();
+    co_return co_await end_piece();
+}
+
+/// Stages a part of the data of a buffer, from byte `at` of it on.
+Task<Result<Done>> Run::stage(BufferRole role, std::size_t at, const UploadPart& part) {
+    for (std::size_t done = 0; done < part.records;) {
+        const std::size_t count = std::min(part.records - done, memory_.room() / part.record_bytes);
+        if (count == 0) {
+            if (auto submitted = co_await submit_piece(); !submitted) {
+                co_return submitted;
+            }
+            continue;
+        }
+        const std::size_t bytes = count * part.record_bytes;
+        const auto out = memory_.stage(role, at + done * part.record_bytes, bytes);
+        staged_.push_back({&part, done, count, staged_records_, out.data()});
+        staged_records_ += count;
+        report_.uploaded += bytes;
+        done += count;
+    }
+    co_return Done{};
+}
+
+/// Writes what is staged.
+void Run::write_staged() {
+    for_blocks(runner_.options.threads, staged_records_, [&](std::size_t begin, std::size_t end) {
+        auto range = std::ranges::upper_bound(staged_, begin, {}, &StagedRecords::place) - 1;
+        for (; begin < end; ++range) {
+            const std::size_t first = begin - range->place;
+            const std::size_t last = std::min(range->count, end - range->place);
+            range->part->write(range->begin + first, range->begin + last,
+                               range->out + first * range->part->record_bytes);
+            begin = range->place + last;
+        }
+    });
+    staged_.clear();
+    staged_records_ = 0;
+}
+
+/// Submits what is staged once the piece before is uploaded.
+Task<Result<Done>> Run::submit_piece() {
+    write_staged();
+    auto before = co_await end_piece();
+    if (before) {
+        before = runner_.submitter->submit(
+            [&](VkCommandBuffer commands) { memory_.record_uploads(commands); });
+        has_piece_ = bool(before);
+    }
+    co_return before;
+}
+
+Task<Result<Done>> Run::end_piece() {
+    if (std::exchange(has_piece_, false)) {
+        co_return co_await runner_.submitter->ended();
     }
     co_return Done{};
 }

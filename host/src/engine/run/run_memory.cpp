@@ -120,6 +120,9 @@ Result<Done> RunMemory::allocate(const WorkspaceNeeds& needs, std::uint64_t uplo
         free_all();
         reserved = reserve(needs, staging);
     }
+    const VkDeviceSize all = staging_.size() - std::min(staging_.size(), kHeadBytes);
+    stage_begin_ = kHeadBytes;
+    stage_bytes_ = upload_bytes <= all ? all : all / 2;
     return reserved;
 }
 
@@ -152,10 +155,7 @@ void RunMemory::set_held(BufferRole role, const std::vector<std::uint64_t>& mesh
 }
 
 std::span<std::byte> RunMemory::stage(BufferRole role, VkDeviceSize to, std::size_t size) {
-    const VkDeviceSize from = kHeadBytes + staged_;
-    if (size == 0 || from + size > staging_.size()) {
-        return {};
-    }
+    const VkDeviceSize from = stage_begin_ + staged_;
     uploads_.push_back({role, from, to, size});
     staged_ += size;
     return staging_.bytes().subspan(from, size);
@@ -173,6 +173,9 @@ void RunMemory::record_uploads(VkCommandBuffer commands) {
     }
     uploads_.clear();
     staged_ = 0;
+    if (kHeadBytes + 2 * stage_bytes_ <= staging_.size()) {
+        stage_begin_ = stage_begin_ == kHeadBytes ? kHeadBytes + stage_bytes_ : kHeadBytes;
+    }
 }
 
 Task<Result<Done>> RunMemory::upload(BufferRole role, VkDeviceSize to,

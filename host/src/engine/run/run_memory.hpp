@@ -47,9 +47,13 @@ class RunMemory {
     bool holds(BufferRole role, const std::vector<std::uint64_t>& meshes) const;
     /// Notes that a buffer holds the data of these meshes, now or after the next record_uploads.
     void set_held(BufferRole role, const std::vector<std::uint64_t>& meshes);
-    /// Returns where to write the data to upload from a byte of the buffer on; empty if there is no
-    /// room. The next record_uploads uploads it.
+    /// Returns the bytes that stage() has room for.
+    std::size_t room() const { return stage_bytes_ - staged_; }
+    /// Returns where to write data to upload from a byte of the buffer on; there must be room. The
+    /// next record_uploads uploads it.
     std::span<std::byte> stage(BufferRole role, VkDeviceSize to, std::size_t size);
+    /// Records the upload of what is staged. Where the uploads of a run do not fit the staging,
+    /// stage() then fills its other half, and this submission must end before the next but one.
     void record_uploads(VkCommandBuffer commands);
     /// Uploads data at once, in as many parts as necessary.
     Task<Result<Done>> upload(BufferRole role, VkDeviceSize to, std::span<const std::byte> bytes);
@@ -98,8 +102,9 @@ class RunMemory {
                                                                 ///< holds.
     DeviceBuffer staging_; ///< The control record, then uploads or samples.
     std::vector<Upload> uploads_;
-    VkDeviceSize staged_ = 0;
-    VkDeviceSize samples_ = 0; ///< Bytes of samples that were read.
+    VkDeviceSize stage_begin_ = 0, stage_bytes_ = 0; ///< Part of the staging that stage() fills.
+    VkDeviceSize staged_ = 0;                        ///< Bytes in it.
+    VkDeviceSize samples_ = 0;                       ///< Bytes of samples that were read.
     std::uint32_t made_ = 0;
     bool was_short_ = false;
 };
