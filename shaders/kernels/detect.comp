@@ -198,6 +198,17 @@ void take_event(uvec4 row) {
     lane.phase = kPhaseFan;
 }
 
+// Ends a disk that does not end. It is an error only if its candidate is accepted: until that is known,
+// candidates after it are not active.
+void put_aside() {
+    overflow &= ~kOverflowEndless;
+    lane.longest_chain = kEndless;
+    lane.idle_conflicts = 0u;
+    lane.active_conflicts = 0u;
+    lane.phase = kPhaseComplete;
+    atomicMin(control.first_left, slots[lane.slot].order + 1u);
+}
+
 // Takes what comes next of all that waits. Once there were very many windows the disk begins again,
 // trimming, with those listed that it has found.
 void take_next() {
@@ -208,7 +219,7 @@ void take_next() {
         } else {
             overflow |= kOverflowTrims;
         }
-    } else if (is_endless()) {
+    } else if (is_endless() || (trims() && is_void(lane.slot))) {
         overflow |= kOverflowEndless;
     } else if (holds_window()) {
         take_held();
@@ -337,6 +348,9 @@ void step() {
         trip();
         ++trips;
     }
+    if (overflow == kOverflowEndless) {
+        put_aside();
+    }
     if (lane.phase == kPhaseBlock) {
         block_conflicts();
     }
@@ -357,10 +371,7 @@ void work_on(uint index) {
         }
     }
     if (overflow != 0u) {
-        atomicOr(control.overflow, overflow);
-        if ((overflow & kOverflowEndless) != 0u) {
-            atomicMax(control.endless_face, own_face + 1u);
-        }
+        atomicOr(control.overflow, overflow & ~kOverflowEndless);
     }
     save_lane();
 }

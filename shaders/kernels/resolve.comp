@@ -97,10 +97,21 @@ void note_chain(uint slot) {
     }
 }
 
+// A candidate whose disk does not end is an error once nothing rejects it.
+void check_disk(uint slot) {
+    if (slots[slot].longest_chain == kEndless) {
+        atomicMax(control.endless_face, slots[slot].face + 1u);
+        atomicOr(control.overflow, kOverflowEndless);
+    }
+}
+
 void finish(uint slot, bool is_rejected) {
     uint place = slots[slot].place;
     slots[slot].phase = kSlotDecided;
     ++decided;
+    if (!is_rejected) {
+        check_disk(slot);
+    }
     if (place == kNoPlace) {
         note_chain(slot);
         return;

@@ -36,12 +36,14 @@ GEODISK_CONST uint kSingleCell = 3u;
 GEODISK_CONST uint kOverflowWindows = 1u;
 GEODISK_CONST uint kOverflowVertices = 2u;
 GEODISK_CONST uint kOverflowConflicts = 4u;
-// An error: a disk does not end. A window has crossed kLongestChain edges, or the disk, since it trims, has
+// An error: the disk of a sample does not end. A window has crossed kLongestChain edges, or the disk, since it trims, has
 // pushed kMostWindows and kMostPerVertex for each vertex, of up to kUntrimmedVertices.
 GEODISK_CONST uint kOverflowEndless = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
 GEODISK_CONST uint kMostWindows = 262144u;
 GEODISK_CONST uint kMostPerVertex = 4096u;
+// Stands for the longest chain of a disk that does not end.
+GEODISK_CONST uint kEndless = 0xffffffffu;
 
 // Bits of Push::path_rules. No edge has three faces, see split_once() in lib/propagate.glsl.
 GEODISK_CONST uint kRuleSplitsOnce = 1u;

@@ -120,7 +120,7 @@ struct ControlRec {
     uint incomplete;       // slots whose disk is not complete
     uint undecided;        // slots neither accepted nor rejected
     uint overflow;         // kOverflow* bits
-    uint endless_face;     // with kOverflowEndless: 1 plus a face of a candidate whose disk it is
+    uint endless_face;     // with kOverflowEndless: 1 plus the face of the sample
     uint done;             // 1 once no idle candidate is left, or stop_count accepted
     uint counted_order;    // highest order that count_orders counts
     uint below;            // candidates up to that order

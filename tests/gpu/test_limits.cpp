@@ -2,11 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "constants.h"
 #include "device_run.hpp"
+#include "kernels/detect.hpp"
 #include "lib/frame.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
@@ -151,6 +153,41 @@ TEST_SUITE("limits") {
         const std::string face = "face " + std::to_string(set.error().element) + " ";
         CHECK(set.error().message.find(face + "could not be computed") != std::string::npos);
         CHECK(runner.sample_and_wait(prepared(builtin("cube", 1)), params_for(mesh, 3)));
+    }
+
+    TEST_CASE("a disk that does not end is an error only if it is a sample's, whatever is active") {
+        const PreparedMesh mesh = prepared(shared_mesh("cases/endless_by_batches.obj").value());
+        std::set<bool> outcomes;
+        for (const std::uint64_t seed : {1u, 2u}) {
+            CAPTURE(seed);
+            SampleParams params;
+            params.min_distance = 0.21213203435597458;
+            params.seed = seed;
+            std::optional<Points> want;
+            try {
+                want = float_set(mesh, params, ref::frame_of(mesh, params).first_error());
+            } catch (const ref::EndlessDisk&) {
+            }
+            outcomes.insert(want.has_value());
+            std::set<std::uint64_t> faces;
+            for (const std::uint32_t slots : {8u, 512u}) {
+                CAPTURE(slots);
+                RunnerOptions options;
+                options.plan.slots = slots;
+                Context& context = shared_context();
+                Runner runner = expect(Runner::create(context.device(), context.queue(), options));
+                const auto set = runner.sample_and_wait(mesh, params);
+                REQUIRE(static_cast<bool>(set) == want.has_value());
+                if (set) {
+                    CHECK(points_of(*set) == *want);
+                } else {
+                    CHECK(set.error().status == Status::mesh_rejected);
+                    faces.insert(set.error().element);
+                }
+            }
+            CHECK(faces.size() == (want ? 0 : 1));
+        }
+        CHECK(outcomes.size() == 2);
     }
 
     TEST_CASE("disks that begin to trim late, among many vertices, end") {
