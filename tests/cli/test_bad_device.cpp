@@ -138,6 +138,12 @@ TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
     INFO(once.err);
     CHECK(once.status == 0);
     CHECK(contains(once.out, "2 ok, 0 failed"));
+    // The runs beside are done again as well.
+    const Outcome beside =
+        run(folder, {"batch", "list.txt", "-n", "300", "--jobs", "2", "-o", "beside"}, *setting);
+    INFO(beside.err);
+    CHECK(beside.status == 0);
+    CHECK(contains(beside.out, "2 ok, 0 failed"));
 
     setting->environment.back().second = "2"; // Again where it is tried once more.
     const Outcome twice = run(folder, joined(batch, {"-o", "twice"}), *setting);
@@ -145,7 +151,7 @@ TEST_CASE("a batch goes on when its device is lost, and opens it anew") {
     CHECK(twice.status == 1);
     CHECK(contains(twice.err, "builtin:torus-knot:24: "));
     CHECK(contains(twice.out, "1 ok, 1 failed"));
-    for (const char* const file : {"once/cube.ply", "twice/cube.ply"}) {
+    for (const char* const file : {"once/cube.ply", "beside/cube.ply", "twice/cube.ply"}) {
         CHECK(bytes_of(folder / file) == bytes_of(folder / "cube.ply"));
     }
     CHECK(contains(bytes_of(folder / "twice/batch.jsonl"), "\"exit_code\":7"));

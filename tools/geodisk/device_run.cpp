@@ -1,6 +1,7 @@
 #include "geodisk/device_run.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -87,15 +88,29 @@ void check_run(const Error& error, bool bounded) {
     }
 }
 
-RunDevice::RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics)
-    : device_(std::move(device)), options_(runner), graphics_(graphics), log_(device_.verbose) {
+RunDevice::RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics,
+                     std::shared_ptr<SharedDevice> shared)
+    : device_(std::move(device)), options_(runner), graphics_(graphics), log_(device_.verbose),
+      shared_(std::move(shared)) {
     options_.time_stages = log_.is_enabled();
 }
 
 void RunDevice::open(ProgressLine& progress) {
-    if (opened_) {
+    if (opened_ && !opened_->device->is_lost) {
         return;
     }
+    opened_.reset();
+    const std::scoped_lock lock(shared_->mutex);
+    std::shared_ptr<OpenDevice>& device = shared_->open;
+    if (device == nullptr || device->is_lost) {
+        device.reset();
+        device = open_shared(progress);
+    }
+    Runner runner = take(Runner::create(device->sampler, device->context.queue(), device->options));
+    opened_.emplace(Opened{device, std::move(runner)});
+}
+
+std::shared_ptr<OpenDevice> RunDevice::open_shared(ProgressLine& progress) {
     Stopwatch watch;
     Context context = open_device(device_, graphics_, progress);
     open_seconds_ = watch.seconds();
@@ -104,11 +119,17 @@ void RunDevice::open(ProgressLine& progress) {
     watch = Stopwatch();
     RunnerOptions options = options_;
     options.sampler.tuning = load_tuning(context.report()).value_or(Tuning());
-    Runner runner = take(Runner::create(context.device(), context.queue(), options));
+    auto sampler =
+        std::make_shared<const Sampler>(take(Sampler::create(context.device(), options.sampler)));
     compile_seconds_ = watch.seconds();
     progress.clear();
-    log_.tell_device(context.report(), runner.sampler().tuning(), open_seconds_, compile_seconds_);
-    opened_.emplace(Opened{std::move(context), options, std::move(runner)});
+    log_.tell_device(context.report(), sampler->tuning(), open_seconds_, compile_seconds_);
+    return std::make_shared<OpenDevice>(std::move(context), options, std::move(sampler));
+}
+
+void RunDevice::close() {
+    opened_->device->is_lost = true; // It refuses all further work.
+    opened_.reset();
 }
 
 double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
@@ -128,7 +149,7 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
     if (!result) {
         const Error& error = result.error();
         if (error.status == Status::device_lost) {
-            opened_.reset(); // It refuses all further work.
+            close();
         }
         check_run(error, options_.device_bytes != 0);
     }

@@ -1,8 +1,11 @@
 // Runs on a device, for the commands that sample.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 #include <geodisk/context.hpp>
@@ -52,14 +55,29 @@ class DeviceLost : public UserError {
 /// and DeviceLost.
 void check_run(const Error& error, bool bounded);
 
+/// A device that is open, and the kernels compiled there.
+struct OpenDevice {
+    Context context;
+    RunnerOptions options; ///< With the tuning that is kept for the device.
+    std::shared_ptr<const Sampler> sampler;
+    std::atomic<bool> is_lost = false;
+};
+
+/// A device that several RunDevice share, for runs side by side. One of them opens it.
+struct SharedDevice {
+    std::mutex mutex;
+    std::shared_ptr<OpenDevice> open; ///< Null if it is not open.
+};
+
 /// A device for one run after another. Of one thread at a time.
 class RunDevice {
   public:
     /// The device can draw as well, where `graphics` is set. Nothing is opened yet.
-    RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics = false);
+    RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics = false,
+              std::shared_ptr<SharedDevice> shared = std::make_shared<SharedDevice>());
 
     /// Opens the device and checks that it computes as it must, where that is not done or the
-    /// device was lost since. Throws UserError.
+    /// device was lost since, also by a run beside. Throws UserError.
     void open(ProgressLine& progress);
 
     /// Opens the device where need be, compiles there what the domain needs, and samples it. Where
@@ -76,23 +94,26 @@ class RunDevice {
     double compile(const Domain& domain, ProgressLine& progress);
 
     // Of a device that is open.
-    const Context& context() const { return opened_->context; }
+    const Context& context() const { return opened_->device->context; }
     Runner& runner() { return opened_->runner; }
     /// Its runner's, with the tuning that is kept for the device.
-    const RunnerOptions& options() const { return opened_->options; }
+    const RunnerOptions& options() const { return opened_->device->options; }
 
   private:
     struct Opened {
-        Context context;
-        RunnerOptions options;
+        std::shared_ptr<OpenDevice> device;
         Runner runner;
     };
+    std::shared_ptr<OpenDevice> open_shared(ProgressLine& progress);
+    /// After the device was lost.
+    void close();
     SampleSet sample(const Task& task, double min_distance, ProgressLine& progress);
 
     DeviceOptions device_;
     RunnerOptions options_;
     bool graphics_;
     DeviceLog log_;
+    std::shared_ptr<SharedDevice> shared_;
     std::optional<Opened> opened_;
     double open_seconds_ = 0, compile_seconds_ = 0; ///< That no run has told of yet.
 };

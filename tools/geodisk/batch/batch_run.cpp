@@ -36,17 +36,26 @@ void open_again(RunDevice& device, ProgressLine& progress) {
 
 SampleResult sample_on(DevicePool& pool, const SampleJob& job, const MeshInput& mesh,
                        ProgressLine& progress) {
-    const auto sample = [&] {
-        const DevicePool::Loan loan = pool.borrow();
+    const auto sample = [&](const DevicePool::Loan& loan) {
         open_again(loan.device(), progress);
         return sample_mesh(job, mesh, loan.device(), progress);
     };
+    const auto sample_beside = [&] {
+        try {
+            return sample(pool.borrow());
+        } catch (const UserError& error) {
+            if (error.code() != ExitCode::out_of_memory || !pool.is_shared()) {
+                throw;
+            }
+        }
+        return sample(pool.borrow_whole()); // Where it has all memory.
+    };
     try {
-        return sample();
+        return sample_beside();
     } catch (const DeviceLost&) {
         check_interrupted();
     }
-    return sample();
+    return sample_beside();
 }
 
 void make_folder_of(const Path& file) {

@@ -1,6 +1,7 @@
 #include "geodisk/batch/device_pool.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <span>
 
 #include <geodisk/context.hpp>
@@ -54,41 +55,81 @@ std::vector<std::string> chosen_devices(const std::vector<std::string>& options)
 }
 
 DevicePool::DevicePool(const std::vector<std::string>& devices, bool validates,
-                       const RunnerOptions& runner) {
+                       const RunnerOptions& runner, std::size_t runs) {
     for (const std::string& name : devices) {
-        free_.push_back(&devices_.emplace_back(DeviceOptions{name, validates}, runner));
+        Device& device = devices_.emplace_back();
+        const auto shared = std::make_shared<SharedDevice>();
+        for (std::size_t i = 0; i < runs; ++i) {
+            device.free.push_back(
+                &device.runs.emplace_back(DeviceOptions{name, validates}, runner, false, shared));
+        }
     }
-    std::ranges::reverse(free_); // The first is taken first.
 }
 
 void DevicePool::open(ProgressLine& progress) {
-    for (RunDevice& device : devices_) {
-        device.open(progress);
+    for (Device& device : devices_) {
+        for (RunDevice& run : device.runs) {
+            run.open(progress);
+        }
     }
 }
 
 std::vector<std::string> DevicePool::names() const {
     std::vector<std::string> names;
-    for (const RunDevice& device : devices_) {
-        names.push_back(device.context().report().name);
+    for (const Device& device : devices_) {
+        names.push_back(device.runs.front().context().report().name);
     }
     return names;
 }
 
 DevicePool::Loan DevicePool::borrow() {
     std::unique_lock lock(mutex_);
-    returned_.wait(lock, [&] { return !free_.empty(); });
-    RunDevice* const device = free_.back();
-    free_.pop_back();
-    return {*this, *device};
+    // The device with the fewest runs, the first of these.
+    const auto best = [&] {
+        return std::ranges::max_element(devices_, {}, [](const Device& device) {
+            return device.is_lent_whole ? 0 : device.free.size();
+        });
+    };
+    returned_.wait(lock, [&] {
+        const auto device = best();
+        return waiting_ == 0 && !device->is_lent_whole && !device->free.empty();
+    });
+    Device& device = *best();
+    RunDevice* const run = device.free.back();
+    device.free.pop_back();
+    return {*this, device, *run, false};
 }
 
-void DevicePool::give_back(RunDevice& device) {
+DevicePool::Loan DevicePool::borrow_whole() {
+    std::unique_lock lock(mutex_);
+    const auto idle = [&] {
+        return std::ranges::find_if(devices_, [](const Device& device) {
+            return !device.is_lent_whole && device.free.size() == device.runs.size();
+        });
+    };
+    ++waiting_;
+    returned_.wait(lock, [&] { return idle() != devices_.end(); });
+    --waiting_;
+    Device& device = *idle();
+    device.is_lent_whole = true;
+    for (RunDevice& run : device.runs) {
+        run.release_memory();
+    }
+    lock.unlock();
+    returned_.notify_all(); // For who waits for another device.
+    return {*this, device, device.runs.front(), true};
+}
+
+void DevicePool::give_back(Device& device, RunDevice& run, bool is_whole) {
     {
         const std::scoped_lock lock(mutex_);
-        free_.push_back(&device);
+        if (is_whole) {
+            device.is_lent_whole = false;
+        } else {
+            device.free.push_back(&run);
+        }
     }
-    returned_.notify_one();
+    returned_.notify_all();
 }
 
 } // namespace geodisk::tools

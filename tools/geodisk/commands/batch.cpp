@@ -47,8 +47,11 @@ Exit status:
   143  terminated (SIGTERM), or 128 + signal for SIGHUP and SIGQUIT
 Files of meshes that are done stay, whatever the status; --resume continues after them.)";
 
-/// Enough that one reads and writes while the device samples another.
-constexpr int kJobsPerDevice = 2;
+/// Enough that some read and write while the device samples others.
+constexpr int kJobsPerDevice = 4;
+/// Side by side, so that a device has work while the host looks at what came of it. With --memory,
+/// which is for each run, there is one.
+constexpr std::size_t kRunsPerDevice = 2;
 
 /// What of the shard is not done yet.
 std::vector<const BatchItem*> items_to_do(const std::vector<BatchItem>& items, const Shard& shard,
@@ -81,8 +84,9 @@ void make_folder(const std::string& folder) {
 void run_items(const BatchOptions& options, const std::vector<const BatchItem*>& items,
                LineLog& log, BatchResult& result) {
     ProgressLine progress(options.sample.out.quiet);
-    DevicePool pool(chosen_devices(options.devices), options.sample.run.device.validate,
-                    items.front()->job.runner);
+    const RunnerOptions& runner = items.front()->job.runner;
+    DevicePool pool(chosen_devices(options.devices), options.sample.run.device.validate, runner,
+                    runner.device_bytes == 0 ? kRunsPerDevice : 1);
     pool.open(progress);
     result.devices = pool.names();
     result.jobs = options.jobs != 0 ? options.jobs : kJobsPerDevice * static_cast<int>(pool.size());

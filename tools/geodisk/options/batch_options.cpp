@@ -91,7 +91,7 @@ void add_batch_options(Command command, BatchOptions& options) {
     const char* const group = "Batch";
     command
         .add_option("--jobs", options.jobs, "K",
-                    "Meshes in work at the same time, 1 to 32 (default 2 per\n"
+                    "Meshes in work at the same time, 1 to 32 (default 4 per\n"
                     "device)",
                     group)
         .takes_range(1, kMostJobs);
