@@ -71,8 +71,31 @@ TEST_CASE("a count that no distance gives ends with the nearest") {
     CHECK(below.tries == 7);
     CHECK((below.count == 1100 || below.count == 900));
     const Found few = search(3, 1, [](double) { return 10u; });
-    CHECK(few.tries == 7);
+    CHECK(few.tries <= 2);
     CHECK(few.count == 10);
+}
+
+TEST_CASE("a second try finds what the first shows") {
+    // Along thin parts; on an area with fewer samples than expected, or a few more.
+    const auto by_length = [](double d) { return rounded(1000 / d); };
+    const auto by_area = [](double d) { return rounded(1000 / (d * d)); };
+    for (const double first : {0.5, 0.7}) {
+        CHECK(search(1000, first, by_length).tries == 2);
+    }
+    for (const double first : {0.97, 1.1, 1.3, 2.0}) {
+        CHECK(search(1000, first, by_area).tries == 2);
+    }
+    // As many small parts as wanted, and a large one.
+    const auto by_parts = [](double d) { return rounded(800 + 200 / (d * d)); };
+    CHECK(search(1000, 0.5, by_parts).tries <= 4);
+}
+
+TEST_CASE("few samples are near by chance, which the second try does not make up for") {
+    CountSearch search(30);
+    const auto next = search.note(1, 32);
+    REQUIRE(next);
+    CHECK(*next > 1.01);
+    CHECK(*next < std::sqrt(32.0 / 30.0));
 }
 
 TEST_CASE("one of few samples more is near, one more than one is not") {

@@ -19,8 +19,8 @@ class CountSearch {
     explicit CountSearch(double wanted) noexcept : wanted_(wanted) {}
 
     /// Records the number of samples that a distance gave. Returns the distance to try next, or
-    /// nothing when the search has ended: the count is within 5 % of `wanted` or differs by one, or
-    /// this was the seventh try.
+    /// nothing when the search has ended: the count is within 5 % of `wanted` or differs by one, a
+    /// larger distance gives no fewer samples, or this was the seventh try.
     GEODISK_API std::optional<double> note(double distance, std::uint64_t count) noexcept;
 
     /// Returns true if the latest try is the best so far.

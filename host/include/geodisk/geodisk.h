@@ -813,8 +813,9 @@ GEODISK_C_API geodisk_status geodisk_count_search_create(double wanted,
                                                          geodisk_count_search **search,
                                                          geodisk_error *error);
 /* Records the number of samples that a distance gave. Writes to `next` the distance to try next, or
- * 0 when the search has ended: the count is within 5 % of `wanted` or differs by one, or this was
- * the seventh try. Writes to `is_nearest` whether this try is the best so far. */
+ * 0 when the search has ended: the count is within 5 % of `wanted` or differs by one, a larger
+ * distance gives no fewer samples, or this was the seventh try. Writes to `is_nearest` whether this
+ * try is the best so far. */
 GEODISK_C_API geodisk_status geodisk_count_search_note(geodisk_count_search *search,
                                                        double distance, uint64_t count,
                                                        double *next, int32_t *is_nearest,
