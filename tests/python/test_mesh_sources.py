@@ -111,6 +111,8 @@ def test_the_format_is_told(tmp_path):
     write_obj(tmp_path / "cube.txt", CUBE, SIDES)
     expected = geodisk.sample(CUBE, SIDES, min_distance=0.3)
     assert same(geodisk.sample(tmp_path / "cube.txt", mesh_format="obj", min_distance=0.3), expected)
+    many = geodisk.sample_many([tmp_path / "cube.txt"], mesh_format="obj", min_distance=0.3)
+    assert same(many[0], expected)
     with pytest.raises(geodisk.MeshRejected, match="or give mesh_format"):
         geodisk.Mesh(tmp_path / "cube.txt")
     with pytest.raises(geodisk.InvalidArgument, match="mesh_format: 'doc' is none of"):
@@ -146,6 +148,8 @@ def test_columns_of_triangles(tmp_path):
     samples = geodisk.sample(path, columns=names, min_distance=0.3)
     assert samples.columns["node"].tolist() == samples.face_index.tolist()
     assert set(geodisk.sample(path, columns="mesh,node", min_distance=1).columns) == {"mesh", "node"}
+    many = geodisk.sample_many([path, path], columns=names, min_distance=[0.3, 0.5])
+    assert [one.columns["node"].tolist() for one in many] == [one.face_index.tolist() for one in many]
     assert samples[3].columns["node"] == samples.face_index[3]
     assert samples[::2].columns["node"].tolist() == samples.face_index[::2].tolist()
     assert pickle.loads(pickle.dumps(mesh)).columns["mesh"].tolist() == [0, 1, 1]
@@ -163,6 +167,8 @@ def test_columns_of_triangles(tmp_path):
         geodisk.Mesh(CASES / "sphere.stl", columns=["mesh"])
     with pytest.raises(TypeError, match="give columns and mesh_format to it"):
         geodisk.sample(mesh, columns=["mesh"], min_distance=1)
+    with pytest.raises(TypeError, match="^mesh 1: .*give columns and mesh_format to it"):
+        geodisk.sample_many([path, mesh], columns=["mesh"], min_distance=1)
     with pytest.raises(geodisk.InvalidArgument, match="'x' is none of"):
         geodisk.Samples(np.zeros((2, 3)), columns={"x": [1, 2]})
 

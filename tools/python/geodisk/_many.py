@@ -97,6 +97,8 @@ def sample_many(
     pool_ratio: float = 20,
     weld: bool | float = False,
     keep_seams: bool = False,
+    columns: str | Sequence[str] = (),
+    mesh_format: str | None = None,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> list[Samples]:
@@ -113,7 +115,7 @@ def sample_many(
         As for :func:`sample`.
     density, radius_factor, face_keys : sequence with one per mesh, or None
         As for :func:`sample`; None for a mesh without.
-    pool_ratio, weld, keep_seams, device, progress
+    pool_ratio, weld, keep_seams, columns, mesh_format, device, progress
         As for :func:`sample`, for all meshes.
 
     Returns
@@ -149,7 +151,7 @@ def sample_many(
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
         return _Job(
-            _mesh_of(given[i], weld, keep_seams),
+            _mesh_of(given[i], weld, keep_seams, columns, mesh_format),
             distance_of(*of_mesh),
             of_mesh[2],
             integer(seeds[i], "seed", 2**64 - 1),
@@ -207,12 +209,19 @@ def _named(index: int, make: Any) -> Any:
         raise type(error)(f"mesh {index}: {error}") from error
 
 
-def _mesh_of(given: Any, weld: bool | float, keep_seams: bool) -> Mesh:
+def _mesh_of(
+    given: Any,
+    weld: bool | float,
+    keep_seams: bool,
+    columns: str | Sequence[str],
+    mesh_format: str | None,
+) -> Mesh:
+    vertices, faces = given, None
     if isinstance(given, (tuple, list)):
         if len(given) != 2:
             raise TypeError("a mesh is a pair of vertices and faces, or brings its faces")
-        return mesh_of(given[0], given[1], None, weld, keep_seams)
-    return mesh_of(given, None, None, weld, keep_seams)
+        vertices, faces = given
+    return mesh_of(vertices, faces, None, weld, keep_seams, columns, mesh_format)
 
 
 def _each(values: Any, name: str, n: int) -> list[Any]:
