@@ -9,7 +9,9 @@ namespace {
 // Items per step of a lane (several windows and candidates), and per slot (selected and resolved).
 constexpr std::uint64_t kItemsPerStep = 16;
 constexpr std::uint64_t kItemsPerSlot = 16;
-// Steps that are short on a device 300 times as slow as lavapipe, with all that comes with them.
+// Steps of a small job, which may all go into one submission.
+constexpr double kSmallJob = 1024;
+// As many are short on a device 300 times as slow as lavapipe, with all that comes with them.
 constexpr double kFewSteps = 160;
 // Upper limit of a submission in seconds: the shortest watchdogs allow two.
 constexpr double kMostSeconds = 1;
@@ -66,7 +68,8 @@ void Pace::took(double seconds, std::uint64_t items, std::uint64_t steps, std::u
 }
 
 bool Pace::fits(double steps) const {
-    return per_item_ > 0 ? steps * kItemsPerStep * per_item_ <= target_ : steps <= kFewSteps;
+    return per_item_ > 0 ? steps <= kSmallJob && steps * kItemsPerStep * per_item_ <= kMostSeconds
+                         : steps <= kFewSteps;
 }
 
 std::uint64_t Pace::begin_run(std::uint64_t least, std::uint32_t lanes) {

@@ -13,8 +13,10 @@ namespace geodisk {
 /// Starts tiny, then follows the times of submissions. Continues from run to run.
 class GEODISK_API Pace {
   public:
-    /// Items of the first submission while nothing is known.
+    /// Items of the first submission while nothing is known: of passes, and of rounds, whose lanes
+    /// may all be busy.
     static constexpr std::uint64_t kFirstItems = std::uint64_t{1} << 14;
+    static constexpr std::uint64_t kFirstItemsOfRounds = 2560;
 
     /// `target` is the length of a submission in seconds.
     explicit Pace(double target) : target_(target) {}
@@ -30,8 +32,8 @@ class GEODISK_API Pace {
     /// short even if all lanes are busy in all dispatches.
     void took(double seconds, std::uint64_t items, std::uint64_t steps, std::uint32_t lanes);
 
-    /// Returns true if this many steps fit one submission: by the time of earlier ones, or if there
-    /// are none, because they are few.
+    /// Returns true if all steps of a small job fit one submission: by the time of earlier ones, or
+    /// if there are none, because they are few.
     bool fits(double steps) const;
 
     /// Limits the next submission, if its work is of another kind.

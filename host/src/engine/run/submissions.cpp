@@ -34,7 +34,7 @@ void Submissions::use(Job& job, const RunPlan& plan) {
     plan_ = plan;
     paces_ = &runner_.paces_of(this->job().variant);
     items_of_new_ = paces_->passes.begin_run(kItemsOfNew);
-    paces_->rounds.begin_run(Pace::kFirstItems, plan.lanes);
+    paces_->rounds.begin_run(Pace::kFirstItemsOfRounds, plan.lanes);
 }
 
 Result<Done> Submissions::submit(const std::function<void(VkCommandBuffer)>& record) {
