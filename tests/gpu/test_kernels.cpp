@@ -268,10 +268,11 @@ SamplerOptions on_native_gpu() {
             Events::nearest};
 }
 
-/// Capacities so large that no disk overflows.
+/// Capacities so large that no disk overflows, for so few lanes that every device binds the pool.
 RunPlan roomy_plan(std::uint32_t slots) {
     RunPlan plan;
     plan.slots = slots;
+    plan.lanes = std::min(slots, 16u);
     plan.window_capacity = 4096;
     plan.table_capacity = 8192;
     plan.list_capacity = 1024;
