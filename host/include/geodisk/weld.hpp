@@ -8,6 +8,7 @@
 #include "geodisk/export.hpp"
 #include "geodisk/mesh_view.hpp"
 #include "geodisk/status.hpp"
+#include "geodisk/threads.hpp"
 
 namespace geodisk {
 
@@ -61,8 +62,10 @@ struct NearSeams {
 /// 1/10,000 of the bounding box of all borders. Ignores edges that coincide exactly, and finds
 /// nothing where the surface itself is that narrow. Takes the time of sorting the borders.
 ///
-/// Errors: those of weld() for the mesh; `out_of_host_memory`.
-GEODISK_API Result<NearSeams> find_near_seams(const MeshView& mesh) noexcept;
+/// Errors: those of weld() for the mesh; `invalid_argument` for wrong thread options;
+/// `out_of_host_memory`.
+GEODISK_API Result<NearSeams> find_near_seams(const MeshView& mesh,
+                                              const ThreadOptions& threads = {}) noexcept;
 
 /// Returns, for every vertex, the mean of `values` over all vertices that it is joined with. Use it
 /// for data that differs between the two sides of a seam. `values` has one element per vertex,

@@ -14,6 +14,7 @@
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/seams.hpp"
+#include "support/blocks.hpp"
 #include "support/guard.hpp"
 
 namespace geodisk {
@@ -156,13 +157,28 @@ class EdgeGrid {
         }
     }
 
-    /// Calls `visit` for each edge with the gap to the nearest edge whose ends are close, in mesh
-    /// units; 0 if there is none. Neighbouring edges are visited together.
-    template <class Visit>
-    void visit_gaps(const Visit& visit) const {
-        for (const Member& member : members_) {
-            visit(mesh_.in_mesh_units(gap_of(member.edge)));
+    /// Gaps of edges to the nearest edge whose ends are close.
+    struct Gaps {
+        std::uint64_t edges = 0; ///< Number of edges with a gap.
+        double largest = 0;      ///< In mesh units.
+    };
+    /// Finds the gaps of all edges, on several threads. Neighbouring edges are visited together.
+    Gaps find_gaps(const ThreadOptions& threads) const {
+        std::vector<Gaps> found(block_count(members_.size()));
+        for_blocks(threads, members_.size(), [&](std::size_t begin, std::size_t end) {
+            Gaps& own = found[begin / kBlock];
+            for (std::size_t i = begin; i < end; ++i) {
+                const double gap = mesh_.in_mesh_units(gap_of(members_[i].edge));
+                own.edges += gap > 0 ? 1 : 0;
+                own.largest = std::max(own.largest, gap);
+            }
+        });
+        Gaps all;
+        for (const Gaps& gaps : found) {
+            all.edges += gaps.edges;
+            all.largest = std::max(all.largest, gaps.largest);
         }
+        return all;
     }
 
   private:
@@ -308,9 +324,12 @@ Result<Done> choose_epsilon(const MeshView& mesh, double least, NearSeams& seams
 
 } // namespace
 
-Result<NearSeams> find_near_seams(const MeshView& mesh) noexcept {
+Result<NearSeams> find_near_seams(const MeshView& mesh, const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<NearSeams> {
         if (auto checked = check_mesh(mesh); !checked) {
+            return checked.error();
+        }
+        if (auto checked = check_threads(threads); !checked) {
             return checked.error();
         }
         NearSeams seams;
@@ -319,10 +338,9 @@ Result<NearSeams> find_near_seams(const MeshView& mesh) noexcept {
         if (!scaled.is_sized()) {
             return seams;
         }
-        EdgeGrid(scaled, std::move(borders)).visit_gaps([&seams](double gap) {
-            seams.edges += gap > 0 ? 1 : 0;
-            seams.gap = std::max(seams.gap, gap);
-        });
+        const EdgeGrid::Gaps gaps = EdgeGrid(scaled, std::move(borders)).find_gaps(threads);
+        seams.edges = gaps.edges;
+        seams.gap = gaps.largest;
         if (seams.edges > 0) {
             const double least =
                 std::max(kRounding * seams.gap, kLeastEpsilon * scaled.longest_side());
