@@ -292,8 +292,10 @@ void add_fans(PlacedSurfaces surfaces, UploadParts& parts) {
             return gpu::FanRec{fan.first_corner + surface.first_corner, fan.corner_count,
                                fan.total_angle, fan.flags};
         });
+    // Triangles that take no part have no corners.
+    const std::size_t corners = surfaces.back().first_corner + surfaces.back().mesh->corners().size();
     add_part(
-        parts, surfaces, rows.corners * kRowBytes / sizeof(CornerRec), half_edges,
+        parts, surfaces, rows.corners * kRowBytes / sizeof(CornerRec), corners,
         [](const PlacedSurface& surface) { return surface.first_corner; },
         [](const PlacedSurface& surface, std::uint32_t i) {
             const std::uint32_t h = surface.mesh->corners()[i];
