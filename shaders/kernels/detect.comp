@@ -35,7 +35,13 @@ GEODISK_CONTROL;
 #include "../lib/waiting.glsl"
 #include "../lib/vertex_table.glsl"
 #include "../lib/propagate.glsl"
+#include "../lib/fan_light.glsl"
 #include "../lib/trim.glsl"
+
+void note_conflict(uint place, bool is_active, bool conflicts) {
+    list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active, conflicts);
+}
+
 #include "../lib/scan.glsl"
 #include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
@@ -110,43 +116,6 @@ void clear_table() {
     }
 }
 
-// Half-edge and angles of a corner of the fans.
-uvec2 fan_corner(uint i) {
-    uvec4 row = row_at(fans, job.vertices + (i >> 1));
-    return (i & 1u) == 0u ? row.xy : row.zw;
-}
-
-uint corner_angles(uint h) {
-    uint corners = 3u * job.faces;
-    return row_at(fans, job.vertices + ((corners + 1u) >> 1) + (h >> 2))[h & 3u];
-}
-
-// Whether a shortest path that came in through corner entered_by may go on into `corner`: it must
-// keep an angle of pi on both sides, or on one side of an open fan.
-bool in_shadow(uvec2 corner) {
-    if (lane.entered_by == kWholeFan || (lane.fan_flags & kFanIrregular) != 0u) {
-        return true;
-    }
-    uint from_start = lane.entry_angles & 0xffffu;
-    uint from_end = from_start + (lane.entry_angles >> 16);
-    uint start = corner.y & 0xffffu;
-    uint end = start + (corner.y >> 16);
-    uint turned_left = end - from_start;
-    uint turned_right = from_end - start;
-    // In steps of angles a needle may begin where its neighbour does: either may be the first.
-    bool is_other = corner.x != lane.entered_by;
-    bool may_come_before = start < from_start || (start == from_start && is_other);
-    bool may_come_behind = start >= from_start;
-    uint needed = kAnglePi - kAngleTolerance;
-    if ((lane.fan_flags & kFanOpen) != 0u) {
-        return (may_come_before && turned_right >= needed) ||
-               (may_come_behind && turned_left >= needed);
-    }
-    uint around = is_other ? lane.fan_angle : 0u;
-    return (may_come_before && turned_left + around >= needed && turned_right >= needed) ||
-           (may_come_behind && turned_left >= needed && turned_right + around >= needed);
-}
-
 // The window with these rows is in flight.
 void cross_from(uvec4 row0, uvec4 row1) {
     lane.half_edge = row0.x >> 1;
@@ -212,7 +181,7 @@ void put_aside() {
 // Takes what comes next of all that waits. Once there were very many windows the disk begins again,
 // trimming, with those listed that it has found.
 void take_next() {
-    if (makes_many()) {
+    if (!trims() && makes_many(kUntrimmedWindows, lane.vertices, lane.pushed)) {
         if (kTrims) {
             lane.trims = lane.pushed;
             begin_windows();

@@ -34,6 +34,14 @@
 #define own_row_at(name, i) name[i]
 #endif
 
+// Rows that all invocations of a work group write and read, with a barrier between: written as name[i],
+// read with own_row_at.
+#ifdef GEODISK_TEXELS
+#define GEODISK_GROUP_ROWS(number, texels_number, name) GEODISK_OWN_ROWS(number, texels_number, name)
+#else
+#define GEODISK_GROUP_ROWS(number, texels_number, name) GEODISK_BUFFER(number, coherent, uvec4, name)
+#endif
+
 // Words that are read with word_before, before any invocation of the dispatch writes them.
 #ifdef GEODISK_TEXELS
 #define GEODISK_WORDS_BEFORE(number, texels_number, name)                                          \

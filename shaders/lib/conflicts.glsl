@@ -2,6 +2,8 @@
 #ifndef GEODISK_CONFLICTS_GLSL
 #define GEODISK_CONFLICTS_GLSL
 
+#include "lists.glsl"
+
 // Returns the row of a slot's list that holds this entry.
 uvec4 list_row_at(uint slot, uint at) { return row_at(pool, list_row(slot) + (at >> 2)); }
 

@@ -7,6 +7,7 @@ layout(constant_id = kSpecTrims) const bool kTrims = false;
 // The nearer child of a window is taken next and need not go through the pool: stores cost most of a
 // trip on lavapipe. Not in kernels that are short of registers.
 const bool kHolds = !kTrims && !kAdaptive;
+const bool kRemembers = kTrims;
 
 LaneRec lane;
 uint overflow;     // kOverflow* bits

@@ -3,7 +3,7 @@
 #ifndef GEODISK_LIST_GLSL
 #define GEODISK_LIST_GLSL
 
-uint list_first; // first row of this slot's list
+#include "lists.glsl"
 
 // Lists a conflict; the counts are those so far. The place of a candidate that is not listed is written
 // too, where the next one goes: on lavapipe a store is a branch per lane, which should not depend on

@@ -1,5 +1,6 @@
 // Tests the candidates of a face that the operation in flight can reach. Cells are visited row by row,
 // some candidates per trip of the main loop, so that a long list never exceeds the bound on iterations.
+// The kernel says what becomes of a candidate: note_conflict(place, is_active, conflicts).
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 
@@ -167,8 +168,7 @@ void scan_some() {
         precise float to = high * dy;
         float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
         bool conflicts = squared(dx, dy) < limit2 && (inside || (at >= from && at <= to));
-        list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active(strip, bit),
-                      conflicts);
+        note_conflict(place, is_active(strip, bit), conflicts);
     }
 }
 

@@ -161,7 +161,8 @@ void begin_batch() {
     control.groups_x = groups_of_slots(used);
     control.groups_y = 1u;
     control.groups_z = 1u;
-    control.detect_x = groups_of_slots(min(used, push.lanes));
+    uint lanes = min(used, push.lanes);
+    control.detect_x = (lanes + push.lanes_per_group - 1u) / push.lanes_per_group;
     control.detect_y = 1u;
     control.detect_z = 1u;
 }

@@ -18,9 +18,4 @@ uint first_row(uint lane) {
     return (lane & ~(kPoolBlock - 1u)) * push.lane_rows + (lane & (kPoolBlock - 1u));
 }
 
-uint list_row(uint slot) { return push.first_list_row + slot * (push.list_capacity >> 2); }
-
-// Returns where this active conflict is in a list of this capacity.
-uint active_entry(uint capacity, uint number) { return capacity - 1u - number; }
-
 #endif

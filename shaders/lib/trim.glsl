@@ -10,6 +10,7 @@
 #define GEODISK_TRIM_GLSL
 
 #include "job.glsl"
+#include "many_windows.glsl"
 
 bool window_taken; // in this trip
 
@@ -52,13 +53,6 @@ bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2
     return kept_low <= low && kept_high >= high && is_as_near(kept_source, kept_sigma, sx, low) &&
            is_as_near(kept_source, kept_sigma, sx, high) &&
            is_as_near(kept_source, kept_sigma, sx, on_line);
-}
-
-// Returns true if the disk must restart to trim.
-bool makes_many() {
-    uint vertices = min(lane.vertices, kUntrimmedVertices);
-    uint each = kUntrimmedEach + (vertices >> kUntrimmedShift);
-    return !trims() && lane.pushed > kUntrimmedWindows + vertices * each;
 }
 
 // Converts a position on the edge to one from its lower vertex, if that is its end.

@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 19u;
+GEODISK_CONST uint kAbi = 20u;
 
 // If radii vary: maximum of proposals per candidate. It takes the first that is kept, or the last.
 GEODISK_CONST uint kMostProposals = 1024u;
@@ -98,11 +98,27 @@ GEODISK_CONST uint kPhaseCross = 5u;    // carries a window into the next face o
 GEODISK_CONST uint kPhaseBlock = 6u;    // the disk is complete; adds blocks to the active ones in it
 GEODISK_CONST uint kPhaseComplete = 7u;
 
+// Phases of a work group that computes a disk in waves; `cursor` of its record is the next of what the
+// phase goes through.
+GEODISK_CONST uint kGroupIdle = 0u;    // has no slot
+GEODISK_CONST uint kGroupSource = 1u;  // windows of the candidate
+GEODISK_CONST uint kGroupSort = 2u;    // windows: lists those of the wave
+GEODISK_CONST uint kGroupPropose = 3u; // windows of the wave: proposes the distances of vertices
+GEODISK_CONST uint kGroupScan = 4u;    // scans: tests candidates
+GEODISK_CONST uint kGroupSettle = 5u;  // proposals: keeps the shortest, makes events
+GEODISK_CONST uint kGroupSpread = 6u;  // windows of the wave: makes those of the next
+GEODISK_CONST uint kGroupLight = 7u;   // events: lights the fans of vertices
+GEODISK_CONST uint kGroupNextWave = 8u;
+GEODISK_CONST uint kGroupBlock = 9u;   // active conflicts: adds blocks
+GEODISK_CONST uint kGroupClear = 10u;  // vertices of the table
+GEODISK_CONST uint kGroupComplete = 11u;
+
 // Phases of a slot.
 GEODISK_CONST uint kSlotReady = 0u;     // waits for its disk
 GEODISK_CONST uint kSlotListed = 1u;    // the disk is complete, and the active ones in it have blocks
 GEODISK_CONST uint kSlotDecided = 2u;
 
+GEODISK_CONST uint kNoSlot = 0xffffffffu;
 // Place of a sample of an earlier chunk, whose disk only rejects.
 GEODISK_CONST uint kNoPlace = 0xffffffffu;
 
@@ -144,6 +160,18 @@ GEODISK_CONST uint kIterationsPerStep =
 GEODISK_CONST uint kMostLevels = 26u;
 GEODISK_CONST uint kHeapIterationsPerStep = kTripsPerStep * 3u * (kMostLevels + 1u);
 GEODISK_CONST uint kTrimIterationsPerStep = kTripsPerStep * 5u * (kMostLevels + 1u);
+// Disks in waves: what a lane goes through of a phase in a step, and corners of a fan that one event
+// lights. Waves after which their step doubles, in case the first face was far smaller than others.
+GEODISK_CONST uint kItemsPerStep = 32u;
+GEODISK_CONST uint kCornersPerEvent = 16u;
+GEODISK_CONST uint kWavesPerStep = 256u;
+// Such a step counts as so many of a lane that works alone.
+GEODISK_CONST uint kGroupStepCost = 16u;
+// All phases: vertices looked up to propose and to spread, candidates scanned, windows left and pushed,
+// corners lit.
+GEODISK_CONST uint kIterationsPerGroupStep =
+    1u + kItemsPerStep * (2u + (1u + 2u * (kMostProbes + 1u)) + (1u + kScanPerTrip) + 1u +
+                          (1u + 2u * (kMostProbes + 1u) + 5u) + (1u + kCornersPerEvent) + 2u);
 // Candidates that an invocation of resolve may hold to decide, and list entries that it visits per
 // dispatch.
 GEODISK_CONST uint kMostAtHand = 8u;
@@ -168,6 +196,7 @@ GEODISK_CONST uint kIterationsPerGridTrip =
 // 2^-kUntrimmedShift v) windows and events, for v up to kUntrimmedVertices. Disks of real meshes mostly
 // have about v sqrt(v).
 GEODISK_CONST uint kUntrimmedWindows = 1024u;
+GEODISK_CONST uint kUntrimmedInGroups = 65536u; // in place of kUntrimmedWindows
 GEODISK_CONST uint kUntrimmedEach = 32u;
 GEODISK_CONST uint kUntrimmedShift = 2u;
 GEODISK_CONST uint kUntrimmedVertices = 65536u;
@@ -184,6 +213,10 @@ GEODISK_CONST uint kAxisRows = 2u;
 GEODISK_CONST uint kPlacedRows = 3u; // of a sample in the caller's buffer
 GEODISK_CONST uint kPartWords = 8u;  // words of a surface, if there are several
 GEODISK_CONST uint kLaneRows = 11u;
+// Of a disk in waves: the record of its work group, of a window, and of a vertex.
+GEODISK_CONST uint kGroupRows = 7u;
+GEODISK_CONST uint kItemRows = 2u;
+GEODISK_CONST uint kGroupVertexRows = 2u;
 GEODISK_CONST uint kWindowRows = 2u;
 GEODISK_CONST uint kKeptRows = 2u;
 // Rows of a lane for trimming: all windows that it keeps.
@@ -204,6 +237,7 @@ GEODISK_CONST uint kSpecManyRows = 11u; // faces have several rows of cells
 GEODISK_CONST uint kSpecSlotLocalSize = 4u; // of kernels over slots and lanes
 GEODISK_CONST uint kSpecKeyed = 13u; // faces are drawn by keys of the caller
 GEODISK_CONST uint kSpecLanesApart = 12u; // pool blocks of one lane
+GEODISK_CONST uint kSpecGroupLanes = 14u; // local size of group_detect: lanes that compute one disk
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.
 GEODISK_CONST uint kWideLanes = 128u;

@@ -33,7 +33,8 @@ struct JobRec {
 // part of a pass.
 struct Push {
     uint slots;           // most candidates active at a time
-    uint lanes;           // invocations that compute their disks
+    uint lanes;           // invocations that compute their disks, or work groups
+    uint lanes_per_group; // of detect; 1 where a work group computes a disk together
     uint window_capacity; // windows one lane can hold, and events; a power of two
     uint table_capacity;  // vertex table of one lane, a power of two
     uint list_capacity;   // conflicts one slot can list

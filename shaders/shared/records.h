@@ -91,6 +91,20 @@ struct LaneRec {
     uint held_around; float held_x; float held_y; float held_b0;
 };
 
+// State of a work group that computes a disk in waves, at the head of its slice. It lets group_detect stop at
+// any step and continue.
+struct GroupRec {
+    uint slot; uint phase; uint cursor; uint turn; // kGroup*; progress; which lists are this wave's
+    uint items; uint next_items; uint events; uint next_events; // of this wave and of the next
+    uint scans; uint next_scans; uint scan_turn; uint proposals;
+    uint taken; uint longest_before; uint spare0; uint spare1; // of this wave; chain when it began
+    // Windows nearer than `end` belong to the wave, which goes so far beyond the nearest; of the next wave
+    // the nearest distance, as a word; waves.
+    float end; float step; uint nearest; uint waves;
+    uint idle_conflicts; uint active_conflicts; uint conflicts; uint vertices; // so far
+    uint tested; uint pushed; uint most_waiting; uint longest_chain; // as of LaneRec
+};
+
 // State of the run. The leading words are the indirect sizes of select, detect and resolve. The words
 // before `accepted` start from zero with every chunk.
 struct ControlRec {
@@ -160,6 +174,7 @@ static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 176 && offsetof(LaneRec, held_b0) == 172);
+static_assert(sizeof(GroupRec) == 112 && offsetof(GroupRec, longest_chain) == 108);
 static_assert(sizeof(ControlRec) == 228 && offsetof(ControlRec, lane_trips_high) == 224);
 } // namespace geodisk::gpu
 #endif

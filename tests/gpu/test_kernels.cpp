@@ -12,6 +12,7 @@
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "kernels/detect.hpp"
+#include "kernels/group_detect.hpp"
 #include "kernels/pool.hpp"
 #include "kernels/resolve.hpp"
 #include "sets.hpp"
@@ -28,20 +29,34 @@ struct Twin {
     ref::Pool<float> pool;
     std::vector<std::uint32_t> ranks; ///< By place of the twin.
     ref::Detector<float> detector;
+    ref::GroupDetector<float> group;
+    DisksBy disks_by;
     std::vector<std::uint8_t> states;
 
-    Twin(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+    Twin(const PreparedMesh& mesh, const SampleParams& params, const RunPlan& plan,
+         std::uint32_t first, std::uint32_t count)
+        : Twin(mesh, params, ref::frame_of(mesh, params).tolerances(plan.error_bound), first,
+               count) {
+        disks_by = plan.disks_by;
+    }
+
+    Twin(const PreparedMesh& mesh, const SampleParams& params, const ref::Tolerances& tolerances,
          std::uint32_t first, std::uint32_t count)
         : surface(mesh, params), pool(ref::draw_stages(surface, params, first, count)),
-          ranks(pool.ranks()),
-          detector(surface, pool.bins, ref::frame_of(mesh, params).tolerances(error_bound),
-                   ref::frame_of(mesh, params).tolerances(error_bound).limit),
+          ranks(pool.ranks()), detector(surface, pool.bins, tolerances, tolerances.limit),
+          group(surface, pool.bins, tolerances, tolerances.limit), disks_by(DisksBy::lanes),
           states(pool.size(), ref::kIdle) {}
+
+    template <class Wanted, class Hit>
+    ref::DiskCount run(const ref::FacePoint<float>& source, Wanted&& wanted, Hit&& hit) {
+        return disks_by == DisksBy::groups ? group.run(source, wanted, hit)
+                                           : detector.run(source, wanted, hit);
+    }
 
     /// `conflicts` are those of higher rank, `above` the active ones of lower rank.
     ref::DiskCount disk(std::uint32_t rank, std::vector<std::uint32_t>& conflicts,
                         std::vector<std::uint32_t>& above) {
-        const auto count = detector.run(
+        const auto count = run(
             pool.candidate(rank),
             [&](std::uint32_t q) { return ranks[q] != rank && states[ranks[q]] <= ref::kActive; },
             [&](std::uint32_t q, float) {
@@ -56,7 +71,7 @@ struct Twin {
 
     /// The idle candidates in the disk of a sample of earlier stages.
     ref::DiskCount disk(const gpu::SampleRec& sample, std::vector<std::uint32_t>& conflicts) {
-        const auto count = detector.run(
+        const auto count = run(
             {sample.face, sample.weight1, sample.weight2},
             [&](std::uint32_t q) { return states[ranks[q]] == ref::kIdle; },
             [&](std::uint32_t q, float) { conflicts.push_back(ranks[q]); });
@@ -284,19 +299,26 @@ struct Part {
 };
 
 /// Without parts, all stages at once.
-void step_through(const PreparedMesh& mesh, const SampleParams& params,
-                  const SamplerOptions& options, const RunPlan& plan,
-                  std::vector<Part> parts = {}) {
+void step_through_by(DisksBy disks_by, const PreparedMesh& mesh, const SampleParams& params,
+                     const SamplerOptions& options, RunPlan plan, std::vector<Part> parts) {
+    CAPTURE(disks_by == DisksBy::groups);
     expect(pool_size(mesh, params));
     if (parts.empty()) {
         parts = {{0, stages_of(mesh, params).pool_stages()}};
+    }
+    plan.disks_by = disks_by;
+    if (disks_by == DisksBy::groups) {
+        plan.trims = false;
+        plan.window_capacity = 16384;
+        plan.list_capacity = std::max(plan.list_capacity, 4096u); // A path found is a conflict.
+        plan.lanes = 8;
     }
     DeviceRun run(mesh, params, plan, options);
     std::vector<gpu::SampleRec> samples;
     Totals totals;
     for (const Part& part : parts) {
         run.set_stages(part.first, part.count);
-        Twin twin(mesh, params, run.plan().error_bound, part.first, part.count);
+        Twin twin(mesh, params, run.plan(), part.first, part.count);
         if (options.events == Events::oldest) {
             twin.detector.take_oldest_first();
         }
@@ -307,6 +329,14 @@ void step_through(const PreparedMesh& mesh, const SampleParams& params,
         run.finish();
         compare_samples(run, twin, samples);
     }
+}
+
+/// Disks by lanes and by groups.
+void step_through(const PreparedMesh& mesh, const SampleParams& params,
+                  const SamplerOptions& options, const RunPlan& plan,
+                  const std::vector<Part>& parts = {}) {
+    step_through_by(DisksBy::lanes, mesh, params, options, plan, parts);
+    step_through_by(DisksBy::groups, mesh, params, options, plan, parts);
 }
 
 void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
@@ -384,7 +414,7 @@ TEST_SUITE("kernels") {
                               Case{tetrahedra(4, 0), 100}}) {
             const PreparedMesh mesh = prepared(c.mesh);
             for (const SamplerOptions& options : {on_cpu(), kOnGpu, on_native_gpu()}) {
-                step_through(mesh, params_for(mesh, c.count), options, plan);
+                step_through_by(DisksBy::lanes, mesh, params_for(mesh, c.count), options, plan, {});
             }
         }
     }

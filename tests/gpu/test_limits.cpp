@@ -124,6 +124,9 @@ TEST_SUITE("limits") {
                 CHECK(set.report.guard ==
                       std::max(frame.tolerances().guard, frame.error_of(set.report.longest_chain)));
                 CHECK(points_of(set) == float_set(mesh, params, frame.first_error()));
+                RunnerOptions by_groups;
+                by_groups.plan.disks_by = DisksBy::groups;
+                CHECK(points_of(sample(mesh, params, by_groups)) == points_of(set));
                 const ReplayReport judged = replay(mesh, params, frame.first_error());
                 CHECK(judged.wrong == 0);
                 check_deviation("needles", judged);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <tuple>
 
 #include "device_run.hpp"
@@ -105,6 +106,10 @@ TEST_SUITE("pipeline") {
                 from_the_start.sampler.tuning.pool_block = 4;
                 from_the_start.sampler.tuning.reads = Reads::storage;
                 from_the_start.sampler.rounding = Rounding::emulated;
+                RunnerOptions by_groups; // Until a disk has too many windows for that.
+                by_groups.plan.disks_by = DisksBy::groups;
+                const SampleSet at_last_by_lanes = sample(mesh, params, by_groups);
+                CHECK(points_of(at_last_by_lanes) == points_of(base));
                 for (const RunnerOptions& options : {few, from_the_start}) {
                     const SampleSet set = sample(mesh, params, options);
                     CHECK(points_of(set) == points_of(base));
@@ -233,6 +238,7 @@ TEST_SUITE("invariance") {
         const auto same = [&](const RunnerOptions& options) {
             return points_of(sample(mesh, params, options)) == want;
         };
+        std::set<std::uint64_t> windows; // By groups of any size.
         for (const std::uint32_t slots : {8u, 9u, 64u, 1000u}) {
             RunnerOptions options;
             options.plan.slots = slots;
@@ -257,7 +263,20 @@ TEST_SUITE("invariance") {
             options.plan.step_budget = steps;
             CAPTURE(steps);
             CHECK(same(options));
+            options.plan.disks_by = DisksBy::groups;
+            CHECK(same(options));
         }
+        for (const std::uint32_t group_lanes : {1u, 4u, 8u, 64u}) {
+            RunnerOptions options;
+            options.plan.disks_by = DisksBy::groups;
+            options.plan.lanes = group_lanes;
+            options.sampler.tuning.group_lanes = group_lanes;
+            CAPTURE(group_lanes);
+            const SampleSet set = sample(mesh, params, options);
+            CHECK(points_of(set) == want);
+            windows.insert(set.report.windows);
+        }
+        CHECK(windows.size() == 1);
         for (const std::uint32_t stages : {1u, 2u, 3u}) {
             RunnerOptions options;
             options.plan.stages = stages;
@@ -310,6 +329,8 @@ TEST_SUITE("invariance") {
         tight.plan.window_capacity = 2;
         tight.plan.table_capacity = 4;
         tight.plan.list_capacity = 4;
+        CHECK(same(tight));
+        tight.plan.disks_by = DisksBy::groups;
         tight.pool_bytes = 1u << 20;
         const SampleSet regrown = sample(mesh, params, tight);
         CHECK(points_of(regrown) == want);

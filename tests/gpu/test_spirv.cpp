@@ -94,6 +94,8 @@ TEST_SUITE("spirv") {
         };
         CHECK(has(Kernel::detect, gpu::kSpecManyRows));
         CHECK(has(Kernel::detect, gpu::kSpecLanesApart));
+        CHECK(has(Kernel::group_detect, gpu::kSpecGroupLanes));
+        CHECK_FALSE(has(Kernel::group_detect, gpu::kSpecPoolBlock));
         CHECK(has(Kernel::draw, gpu::kSpecAdaptive));
         CHECK(has(Kernel::draw, gpu::kSpecManyRows));
         CHECK(has(Kernel::count, gpu::kSpecManyRows));

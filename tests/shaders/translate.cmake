@@ -20,7 +20,7 @@ endfunction()
 
 file(GLOB kernels "${KERNELS}/*.spv")
 list(LENGTH kernels count)
-if(count LESS 46)
+if(count LESS 48)
     message(FATAL_ERROR "only ${count} kernels in ${KERNELS}")
 endif()
 foreach(kernel IN LISTS kernels)
@@ -31,7 +31,7 @@ foreach(kernel IN LISTS kernels)
     endif()
     translate(directx "${kernel}" --hlsl --shader-model 60)
     # Float operations that must stay separate do.
-    if(kernel MATCHES "/detect(_texels)?\\.spv$" AND
+    if(kernel MATCHES "/(group_)?detect(_texels)?\\.spv$" AND
        NOT (metal MATCHES "optnone" AND directx MATCHES "precise float"))
         message(FATAL_ERROR "${kernel}: precise is lost")
     endif()

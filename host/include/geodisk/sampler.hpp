@@ -74,6 +74,8 @@ struct Tuning {
     /// fewer batches take fewer dispatches.
     std::uint32_t batches = 0;
     Reads reads = Reads::automatic;
+    /// Invocations that compute a disk together (DisksBy::groups); a power of two, as the sizes.
+    std::uint32_t group_lanes = 0;
 };
 /// Maximum of Tuning::pool_block.
 inline constexpr std::uint32_t kMostPoolBlock = 128;
@@ -162,11 +164,19 @@ struct WorkspaceLayout {
     GEODISK_API Workspace in(VkBuffer buffer, VkDeviceSize offset = 0) const noexcept;
 };
 
+/// Who computes a disk. The samples are the same.
+enum class DisksBy : std::uint32_t {
+    automatic,
+    lanes,  ///< An invocation. Best for small disks, since a device then computes many at a time.
+    groups, ///< The invocations of a work group together, in waves.
+};
+
 /// How a job is divided into work. Only `error_bound` can change the samples, and only if a
 /// distance lies within the guard of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time, at least kLeastSlots.
-    std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another.
+    std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another;
+                                       ///< or work groups, as `disks_by` says.
     std::uint32_t window_capacity = 0; ///< Maximum of waiting windows in a lane, and of vertex
                                        ///< events; a power of two.
     std::uint32_t table_capacity = 0;  ///< Rows of a lane's vertex table, at most half full; a
@@ -185,8 +195,10 @@ struct RunPlan {
     bool trims = false; ///< Disks of very many windows trim them, and windows that cross very many
                         ///< edges do not come back to a face. Takes 129 KiB more per lane and
                         ///< kernels that are compiled when a job first needs them.
-    std::uint32_t dispatch_items = 0; ///< Maximum of faces, candidates, samples or words per
-                                      ///< dispatch; at least one work group is done.
+    DisksBy disks_by = DisksBy::automatic; ///< A plan has chosen. For `groups` the kernel is
+                                           ///< compiled when a job first needs it.
+    std::uint32_t dispatch_items = 0;      ///< Maximum of faces, candidates, samples or words per
+                                           ///< dispatch; at least one work group is done.
     /// Bound on the rounding error of a distance, as a fraction of the minimum distance (at most
     /// 0.5). On surfaces the guard is this rounded up to a power of two, and paths over more edges
     /// than usual widen both for themselves (host/docs/precision.md).

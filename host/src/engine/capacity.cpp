@@ -48,9 +48,12 @@ std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t b
     return {records, records, (VkDeviceSize{buckets} + 2 + capacity) * 4};
 }
 
+std::uint32_t cpu_threads() noexcept {
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
 std::uint32_t cpu_lanes(const DeviceReport& report) {
-    return std::max(1u, std::thread::hardware_concurrency()) *
-           std::max(1u, report.limits.subgroup_size);
+    return cpu_threads() * std::max(1u, report.limits.subgroup_size);
 }
 
 double samples_to_expect(double full, std::uint32_t throws, std::uint32_t stop_count) noexcept {

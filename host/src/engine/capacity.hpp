@@ -26,6 +26,9 @@ std::uint32_t bucket_count(std::uint32_t capacity) noexcept;
 /// Returns the bytes of the buffers samples, accepted and buckets.
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept;
 
+/// Returns the number of threads that a CPU runs at the same time.
+std::uint32_t cpu_threads() noexcept;
+
 /// Returns the number of invocations that a CPU runs at the same time.
 std::uint32_t cpu_lanes(const DeviceReport& report);
 

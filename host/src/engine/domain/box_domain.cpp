@@ -14,11 +14,6 @@
 namespace geodisk {
 namespace {
 
-// As in surface_domain.cpp; some iterations of a dispatch come before the trips.
-constexpr std::uint32_t kLlvmpipeTrips =
-    (65535 - 64 - gpu::kListPerDispatch) / gpu::kIterationsPerGridTrip;
-constexpr std::uint32_t kDefaultTrips = 1024;
-
 /// Returns the volume of the unit ball in R^n.
 double ball_volume(double n) {
     constexpr double kPi = 3.14159265358979323846;
@@ -86,10 +81,6 @@ double GridDomain::disk_steps(const RunPlan& plan, std::uint32_t candidates) con
 
 double GridDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {
     return std::ceil(disk_steps(plan, candidates) / plan.step_budget);
-}
-
-std::uint32_t GridDomain::most_steps(const DeviceReport& report, const KernelVariant&) const {
-    return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE ? kLlvmpipeTrips : kDefaultTrips;
 }
 
 std::uint64_t GridDomain::cells(std::uint32_t candidates, double error_bound) const {

@@ -14,8 +14,6 @@ class GridDomain : public Domain::Impl {
                     const DeviceReport& report) const override;
     double disk_steps(const RunPlan& plan, std::uint32_t candidates) const override;
     double detect_passes(const RunPlan& plan, std::uint32_t candidates) const override;
-    std::uint32_t most_steps(const DeviceReport& report,
-                             const KernelVariant& variant) const override;
     std::uint64_t cells(std::uint32_t candidates, double error_bound) const override;
     void add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
                    const RunPlan& plan) const override;

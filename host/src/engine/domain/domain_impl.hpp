@@ -55,12 +55,9 @@ struct Domain::Impl {
     /// Returns the steps of a disk, if this many candidates are drawn at once.
     virtual double disk_steps(const RunPlan& plan, std::uint32_t candidates) const = 0;
     /// Returns the expected steps of the disks of all samples; 0 if unknown.
-    virtual double all_steps() const { return 0; }
+    virtual double all_steps(const RunPlan&) const { return 0; }
     /// Returns the dispatches of detect that should complete most batches.
     virtual double detect_passes(const RunPlan& plan, std::uint32_t candidates) const = 0;
-    /// Returns the maximum of steps that one dispatch of detect may safely take.
-    virtual std::uint32_t most_steps(const DeviceReport& report,
-                                     const KernelVariant& variant) const = 0;
     /// Returns the words of the table of cells minus two; 0 if the starts of units serve as the
     /// table.
     virtual std::uint64_t cells(std::uint32_t candidates, double error_bound) const = 0;

@@ -16,10 +16,12 @@
 namespace geodisk {
 namespace {
 
-// llvmpipe ends all loops of a shader after so many iterations per SIMD group, silently.
-constexpr std::uint32_t kLlvmpipeIterations = 65535;
-// Elsewhere the budget keeps a dispatch well under the watchdogs.
-constexpr std::uint32_t kDefaultSteps = 128;
+// Faces per disk from which on work groups of a GPU compute them, each a disk at a time. On a CPU
+// one disk at a time keeps a thread busy, where else it takes as many as its SIMD groups have
+// lanes; but a disk then takes so much more of its time.
+constexpr double kGroupFaces = 64;
+constexpr double kCpuGroupFaces = 512;
+constexpr double kGroupCost = 1.7;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
@@ -28,9 +30,26 @@ constexpr double kLeastList = 8;
 constexpr std::uint64_t kMostHalfEdges = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMostVertices = gpu::kVertexMask;
 
-/// Steps of a disk that covers so many faces, by measurement.
-double steps_over(double faces) {
-    return (12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces)) / gpu::kTripsPerStep;
+/// Windows and corners of a disk that covers so many faces, by measurement.
+double trips_over(double faces) {
+    return 12 + 2.5 * faces + 0.3 * faces * std::sqrt(faces);
+}
+
+/// Steps of a disk that covers so many faces; those of a group are about its rounds.
+double steps_over(double faces, const RunPlan& plan) {
+    return plan.disks_by == DisksBy::groups ? gpu::kGroupStepCost * (4 + 1.4 * std::sqrt(faces))
+                                            : trips_over(faces) / gpu::kTripsPerStep;
+}
+
+/// Returns true if work groups are to compute the disks, given the slots.
+bool suits_groups(double faces, std::uint32_t slots, const DeviceReport& report) {
+    if (report.type != VK_PHYSICAL_DEVICE_TYPE_CPU) {
+        return faces >= kGroupFaces;
+    }
+    const std::uint32_t threads = cpu_threads();
+    const std::uint32_t per_thread = cpu_lanes(report) / threads;
+    const std::uint32_t busy = std::min((slots + per_thread - 1) / per_thread, threads);
+    return faces >= kCpuGroupFaces && std::min(slots, threads) > kGroupCost * busy;
 }
 
 /// The stages of all: each has those of its own.
@@ -197,22 +216,30 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
     const double faces = faces_per_disk();
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    // A CPU runs as many lanes as it has; a GPU is to have one for every slot.
-    plan.lanes = cpu ? std::min(plan.slots, cpu_lanes(report)) : plan.slots;
-    // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
-    plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces);
+    if (suits_groups(faces, plan.slots, report)) {
+        plan.disks_by = DisksBy::groups;
+        plan.pool_block = 1;
+        plan.lanes = cpu ? std::min(plan.slots, cpu_threads()) : plan.slots;
+        plan.window_capacity = pow2_at_least(128 + 4 * faces);
+    } else {
+        plan.disks_by = DisksBy::lanes;
+        // A CPU runs as many lanes as it has; a GPU is to have one for every slot.
+        plan.lanes = cpu ? std::min(plan.slots, cpu_lanes(report)) : plan.slots;
+        // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
+        plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces);
+    }
     plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces);
     plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * candidates / full_));
     plan.error_bound = first_error_;
 }
 
-double SurfaceDomain::disk_steps(const RunPlan&, std::uint32_t) const {
-    return steps_over(faces_per_disk());
+double SurfaceDomain::disk_steps(const RunPlan& plan, std::uint32_t) const {
+    return steps_over(faces_per_disk(), plan);
 }
 
-double SurfaceDomain::all_steps() const {
+double SurfaceDomain::all_steps(const RunPlan& plan) const {
     if (!kernels.adaptive) {
-        return samples * steps_over(faces_per_disk());
+        return samples * steps_over(faces_per_disk(), plan);
     }
     double steps = 0;
     for (const PlacedSurface& surface : surfaces_) {
@@ -222,7 +249,7 @@ double SurfaceDomain::all_steps() const {
         for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
             const double faces = largest / surface.params.radii->densities()[face];
             steps += expected_in_face(mesh, surface.params, face, room) *
-                     steps_over(std::min<double>(faces, mesh.face_count()));
+                     steps_over(std::min<double>(faces, mesh.face_count()), plan);
         }
     }
     return steps * samples / full_;
@@ -230,18 +257,8 @@ double SurfaceDomain::all_steps() const {
 
 double SurfaceDomain::detect_passes(const RunPlan& plan, std::uint32_t candidates) const {
     const double disks = std::ceil(static_cast<double>(plan.slots) / plan.lanes);
-    return disks * disk_steps(plan, candidates) / plan.step_budget + 2;
-}
-
-std::uint32_t SurfaceDomain::most_steps(const DeviceReport& report,
-                                        const KernelVariant& variant) const {
-    if (report.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE) {
-        return kDefaultSteps;
-    }
-    const std::uint32_t in_heaps = variant.trims        ? gpu::kTrimIterationsPerStep
-                                   : variant.event_heap ? gpu::kHeapIterationsPerStep
-                                                        : 0;
-    return kLlvmpipeIterations / (gpu::kIterationsPerStep + in_heaps);
+    const double each = plan.disks_by == DisksBy::groups ? gpu::kGroupStepCost : 1;
+    return disks * disk_steps(plan, candidates) / each / plan.step_budget + 2;
 }
 
 std::uint64_t SurfaceDomain::cells(std::uint32_t, double) const {

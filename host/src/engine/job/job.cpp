@@ -14,6 +14,7 @@
 #include "engine/job/job_checks.hpp"
 #include "engine/job/plan.hpp"
 #include "engine/job/sampler_impl.hpp"
+#include "engine/kernels/loop_bounds.hpp"
 #include "records.h"
 #include "support/guard.hpp"
 #include "vk/descriptors.hpp"
@@ -94,6 +95,7 @@ Job::Impl::~Impl() {
 
 Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_plan) {
     const bool has_slices = wanted.domain == DomainKind::surface;
+    wanted.groups = for_plan.disks_by == DisksBy::groups && has_slices;
     wanted.trims = for_plan.trims && has_slices;
     wanted.lanes_apart = for_plan.pool_block != sampler->choices.tuning.pool_block && has_slices;
     const auto pipelines = sampler->pipelines.of(wanted);
@@ -112,9 +114,10 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;
     push.lanes = has_lane_per_slot ? plan.slots : plan.lanes;
+    push.lanes_per_group = variant.groups ? 1 : sampler->choices.tuning.slot_local_size;
     push.lane_rows = plan.lane_rows();
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
-    push.step_budget = std::min(plan.step_budget, most_steps);
+    push.step_budget = std::min(plan.step_budget, most_steps(sampler->report, variant));
     push.sample_capacity = plan.sample_capacity;
     push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, kMostGroups);
 }
@@ -289,7 +292,6 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     const bool had_cells = has_cells();
     most_slots = new_plan.slots;
     most_lanes = new_plan.lanes;
-    most_steps = of.most_steps(sampler->report, variant);
     has_lane_per_slot = of.has_lane_per_slot;
     stages = of.stages;
     samples_per_measure = of.samples_per_measure;

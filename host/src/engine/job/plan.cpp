@@ -13,6 +13,7 @@
 #include "engine/job/buffer_ranges.hpp"
 #include "engine/job/plan.hpp"
 #include "engine/job/sampler_impl.hpp"
+#include "engine/kernels/loop_bounds.hpp"
 #include "push.h"
 #include "records.h"
 #include "support/guard.hpp"
@@ -163,12 +164,20 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.stages, wanted.stages);
     replace(plan.idle_capacity, wanted.idle_capacity);
     replace(plan.dispatch_items, wanted.dispatch_items);
+    if (wanted.disks_by != DisksBy::automatic) {
+        plan.disks_by = wanted.disks_by;
+        plan.pool_block = wanted.disks_by == DisksBy::groups ? 1 : plan.pool_block;
+    }
     plan.trims = plan.trims || wanted.trims;
     plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
 }
 
 std::uint32_t RunPlan::lane_rows() const noexcept {
+    if (disks_by == DisksBy::groups) {
+        return gpu::kGroupRows + (2 * gpu::kItemRows + 6) * window_capacity +
+               gpu::kGroupVertexRows * table_capacity + (table_capacity / 2 + 3) / 4;
+    }
     return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity +
            (trims ? gpu::kTrimRows + (window_capacity + 3) / 4 : 0);
 }
@@ -227,7 +236,9 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan.dispatch_items =
             report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuDispatchItems : kDispatchItems;
         of.plan_disks(plan, candidates, report);
-        plan.step_budget = of.most_steps(report, impl_->variant_for(domain));
+        KernelVariant variant = impl_->variant_for(domain);
+        variant.groups = plan.disks_by == DisksBy::groups;
+        plan.step_budget = most_steps(report, variant);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
         fit(plan, pool_bytes);
         if (plan.lanes == 0) {
@@ -248,7 +259,12 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
     grow(gpu::kOverflowWindows, grown.window_capacity);
     grow(gpu::kOverflowVertices, grown.table_capacity);
     grow(gpu::kOverflowConflicts, grown.list_capacity);
-    grown.trims = plan.trims || (overflow & gpu::kOverflowTrims) != 0;
+    if ((overflow & gpu::kOverflowTrims) != 0) {
+        grown.trims = true;
+        // Groups do not trim.
+        grown.lanes = plan.disks_by == DisksBy::groups ? plan.slots : plan.lanes;
+        grown.disks_by = DisksBy::lanes;
+    }
     pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
     fit(grown, pool_bytes);
     const bool same =

@@ -362,9 +362,10 @@ void add_select(Recorder& recorder, Job::Impl& job) {
 
 void add_detect(Recorder& recorder, Job::Impl& job) {
     recorder.stage(Stage::detect);
+    const Kernel kernel =
+        job.variant.groups ? Kernel::group_detect : kernels_of(job.variant.domain).detect;
     for (std::uint32_t pass = 0; pass < job.plan.detect_passes; ++pass) {
-        recorder.dispatch_indirect(kernels_of(job.variant.domain).detect,
-                                   offsetof(gpu::ControlRec, detect_x));
+        recorder.dispatch_indirect(kernel, offsetof(gpu::ControlRec, detect_x));
     }
 }
 

@@ -81,7 +81,6 @@ struct Job::Impl {
     std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
     std::uint32_t most_lanes = 0; ///< Of the first plan.
     // As Domain::Impl has them.
-    std::uint32_t most_steps = 0;
     bool has_lane_per_slot = false;
     Stages stages;
     double samples_per_measure = 0;

@@ -62,6 +62,9 @@ std::vector<KernelVariant> all_kernel_variants() {
                 variants.emplace_back(surface).*also = true;
             }
         }
+        KernelVariant& of_groups = variants.emplace_back();
+        of_groups.adaptive = adaptive;
+        of_groups.groups = true;
         for (const bool of_several : {false, true}) {
             KernelVariant& placement = variants.emplace_back();
             placement.domain = DomainKind::placement;

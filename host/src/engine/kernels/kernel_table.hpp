@@ -60,6 +60,7 @@ constexpr std::size_t index_of(DomainKind kind) {
 struct KernelVariant {
     DomainKind domain = DomainKind::surface;
     std::uint32_t dimension = 0; ///< Of a grid.
+    bool groups = false;         ///< Work groups compute disks, by a kernel of their own.
 #define GEODISK_SWITCH(name, constant) bool name = false;
     GEODISK_KERNEL_SWITCHES(GEODISK_SWITCH)
 #undef GEODISK_SWITCH

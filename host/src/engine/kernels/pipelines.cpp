@@ -66,7 +66,8 @@ Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVari
     for (std::size_t k = 0; k < kKernels; ++k) {
         const auto kernel = static_cast<Kernel>(k);
         const KernelInfo& info = kernel_info(kernel);
-        if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain)) {
+        if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain) ||
+            (kernel == Kernel::group_detect && !variant.groups)) {
             continue;
         }
         const auto compiled = pipeline_of(kernel, variant.of(kernel));
@@ -130,6 +131,7 @@ Pipelines::specializations(const KernelVariant& variant) const {
     const Tuning& tuning = choices_.tuning;
     return {{gpu::kSpecLocalSize, tuning.local_size},
             {gpu::kSpecSlotLocalSize, tuning.slot_local_size},
+            {gpu::kSpecGroupLanes, tuning.group_lanes},
             {gpu::kSpecNativeRounding, choices_.native_rounding ? VK_TRUE : VK_FALSE},
             {gpu::kSpecPoolBlock, tuning.pool_block},
             {gpu::kSpecCountedLanes, choices_.counted_lanes},

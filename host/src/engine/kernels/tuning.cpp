@@ -31,6 +31,7 @@ Tuning default_tuning(const DeviceReport& report) {
     tuning.local_size = kDefaultLocalSize;
     tuning.slot_local_size =
         is_cpu(report) ? std::min(subgroup, kDefaultLocalSize) : kDefaultLocalSize;
+    tuning.group_lanes = is_cpu(report) ? tuning.slot_local_size : kDefaultLocalSize;
     tuning.pool_block = is_cpu(report) ? 1 : subgroup;
     tuning.batches = is_cpu(report) ? 24 : 8;
     const bool fetches_fast = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE;
@@ -46,7 +47,8 @@ Result<Done> check(const Tuning& tuning, const DeviceReport& report) {
     const std::uint32_t most =
         std::min(report.limits.max_workgroup_invocations, report.limits.max_workgroup_size_x);
     if (!is_power_of_two_up_to(tuning.local_size, most) ||
-        !is_power_of_two_up_to(tuning.slot_local_size, most)) {
+        !is_power_of_two_up_to(tuning.slot_local_size, most) ||
+        !is_power_of_two_up_to(tuning.group_lanes, most)) {
         return Error{Status::invalid_argument,
                      "the local size must be 0 or a power of two up to the device's limit of " +
                          std::to_string(most)};
@@ -78,6 +80,7 @@ Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept {
     };
     replace(tuning.local_size, wanted.local_size);
     replace(tuning.slot_local_size, wanted.slot_local_size);
+    replace(tuning.group_lanes, wanted.group_lanes);
     replace(tuning.pool_block, wanted.pool_block);
     replace(tuning.batches, wanted.batches);
     tuning.reads = wanted.reads != Reads::automatic ? wanted.reads : tuning.reads;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "constants.h"
+
 namespace geodisk {
 namespace {
 
@@ -30,7 +32,8 @@ std::uint64_t items_in(double seconds, double per_item) {
 }
 
 std::uint64_t items_of_step(const RunPlan& plan) {
-    return plan.lanes * kItemsPerStep;
+    const bool by_groups = plan.disks_by == DisksBy::groups;
+    return plan.lanes * kItemsPerStep * (by_groups ? gpu::kGroupStepCost : 1);
 }
 
 } // namespace

@@ -26,12 +26,12 @@ constexpr std::uint64_t kItemsOfNew = std::uint64_t{1} << 18;
 } // namespace
 
 Submissions::Submissions(Runner::Impl& runner, RunMemory& memory, const Domain::Impl& of)
-    : runner_(runner), memory_(memory), of_(of),
-      all_steps_(kDisksPerSample * of.all_steps() * std::max(1.0, kLeastSlots / of.samples)) {}
+    : runner_(runner), memory_(memory), of_(of) {}
 
 void Submissions::use(Job& job, const RunPlan& plan) {
     job_ = &job;
     plan_ = plan;
+    all_steps_ = kDisksPerSample * of_.all_steps(plan) * std::max(1.0, kLeastSlots / of_.samples);
     paces_ = &runner_.paces_of(this->job().variant);
     items_of_new_ = paces_->passes.begin_run(kItemsOfNew);
     paces_->rounds.begin_run(Pace::kFirstItemsOfRounds, plan.lanes);

@@ -1,0 +1,16 @@
+// How much of a disk one dispatch of detect may do.
+#pragma once
+
+#include <cstdint>
+
+#include <geodisk/device.hpp>
+
+#include "engine/kernels/kernel_table.hpp"
+
+namespace geodisk {
+
+/// Returns the maximum of steps that one dispatch of detect may safely take. llvmpipe ends long
+/// loops silently, and other devices have watchdogs.
+std::uint32_t most_steps(const DeviceReport& report, const KernelVariant& variant) noexcept;
+
+} // namespace geodisk
