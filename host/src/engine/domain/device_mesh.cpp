@@ -293,7 +293,8 @@ void add_fans(PlacedSurfaces surfaces, UploadParts& parts) {
                                fan.total_angle, fan.flags};
         });
     // Triangles that take no part have no corners.
-    const std::size_t corners = surfaces.back().first_corner + surfaces.back().mesh->corners().size();
+    const std::size_t corners =
+        surfaces.back().first_corner + surfaces.back().mesh->corners().size();
     add_part(
         parts, surfaces, rows.corners * kRowBytes / sizeof(CornerRec), corners,
         [](const PlacedSurface& surface) { return surface.first_corner; },
