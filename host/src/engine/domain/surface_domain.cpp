@@ -16,12 +16,15 @@
 namespace geodisk {
 namespace {
 
-// Faces per disk from which on work groups of a GPU compute them, each a disk at a time. On a CPU
-// one disk at a time keeps a thread busy, where else it takes as many as its SIMD groups have
-// lanes; but a disk then takes so much more of its time.
+// Faces per disk from which on work groups compute disks, by device. On a CPU a disk at a time
+// keeps a thread busy, where lanes need one for each SIMD group of disks. But a group takes so much
+// longer for a disk, less for very large ones, whose lanes wait for each other (measured on
+// lavapipe).
 constexpr double kGroupFaces = 64;
 constexpr double kCpuGroupFaces = 512;
-constexpr double kGroupCost = 1.7;
+constexpr double kGroupCost = 2.4;
+constexpr double kVeryLarge = 8192;
+constexpr double kVeryLargeCost = 1.4;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
@@ -49,7 +52,8 @@ bool suits_groups(double faces, std::uint32_t slots, const DeviceReport& report)
     const std::uint32_t threads = cpu_threads();
     const std::uint32_t per_thread = cpu_lanes(report) / threads;
     const std::uint32_t busy = std::min((slots + per_thread - 1) / per_thread, threads);
-    return faces >= kCpuGroupFaces && std::min(slots, threads) > kGroupCost * busy;
+    const double cost = faces < kVeryLarge ? kGroupCost : kVeryLargeCost;
+    return faces >= kCpuGroupFaces && std::min(slots, threads) > cost * busy;
 }
 
 /// The stages of all: each has those of its own.
