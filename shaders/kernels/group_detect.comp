@@ -293,13 +293,13 @@ void clear_vertex(uint number) {
 
 // Returns how many there are of what a phase goes through.
 uint end_of(uint phase) {
-    return phase == kGroupScan   ? group.scans
-           : phase == kGroupSettle ? group.proposals
-           : phase == kGroupPropose || phase == kGroupSpread ? group.taken
-           : phase == kGroupLight ? group.events
-           : phase == kGroupBlock ? group.active_conflicts
-           : phase == kGroupClear ? group.vertices
-                                  : group.items;
+    return phase == kGroupPropose || phase == kGroupSpread ? group.taken
+           : phase == kGroupScan                           ? group.scans
+           : phase == kGroupSettle                         ? group.proposals
+           : phase == kGroupLight                          ? group.events
+           : phase == kGroupBlock                          ? group.active_conflicts
+           : phase == kGroupClear                          ? group.vertices
+                                                           : group.items;
 }
 
 // The part of a phase that is done now: what this invocation does first, and the end. It is empty in other

@@ -94,6 +94,13 @@ Reads reads_from(const std::string& name) {
     tools::fail_usage("--reads: \"" + name + "\" is not auto, storage or texels");
 }
 
+DisksBy disks_by_from(const std::string& name) {
+    if (name != "lanes" && name != "groups") {
+        tools::fail_usage("--disks-by: \"" + name + "\" is not lanes or groups");
+    }
+    return name == "lanes" ? DisksBy::lanes : DisksBy::groups;
+}
+
 void add_tuning(Command app, RunnerOptions& runner, bool& tune) {
     constexpr const char* kGroup = "Tuning, does not change the samples";
     const auto add = [&app](const char* name, std::uint32_t& value, const char* what) {
@@ -104,7 +111,11 @@ void add_tuning(Command app, RunnerOptions& runner, bool& tune) {
                  "geodisk sample and later runs; settings given stay",
                  kGroup);
     add("--slots", runner.plan.slots, "Candidates active at a time");
-    add("--lanes", runner.plan.lanes, "Invocations that compute their disks");
+    add("--lanes", runner.plan.lanes, "Invocations that compute their disks, or groups of them");
+    app.add_reader(
+        "--disks-by",
+        [&runner](const std::string& name) { runner.plan.disks_by = disks_by_from(name); }, "WHO",
+        "Who computes a disk: lanes, each its own, or groups of them", kGroup);
     add("--passes", runner.plan.detect_passes, "Dispatches of detect per round");
     add("--steps", runner.plan.step_budget, "Steps of detect per dispatch");
     Tuning& tuning = runner.sampler.tuning;
@@ -112,6 +123,8 @@ void add_tuning(Command app, RunnerOptions& runner, bool& tune) {
     add("--local-size", tuning.local_size, "Invocations per work group, a power of two");
     add("--slot-local-size", tuning.slot_local_size,
         "Invocations per work group of kernels over slots and lanes");
+    add("--group-lanes", tuning.group_lanes,
+        "Invocations that compute a disk together, a power of two");
     add("--pool-block", tuning.pool_block, "Lanes whose rows alternate in memory, a power of two");
     app.add_reader(
         "--reads", [&tuning](const std::string& name) { tuning.reads = reads_from(name); }, "KIND",

@@ -82,6 +82,7 @@ void visit_fields(const Circumstances& run, const Visit& visit) {
     visit("batches", run.tuning.batches);
     visit("local_size", run.tuning.local_size);
     visit("slot_local_size", run.tuning.slot_local_size);
+    visit("group_lanes", run.tuning.group_lanes);
     visit("pool_block", run.tuning.pool_block);
     visit("reads", std::string(to_string(run.tuning.reads)));
 }

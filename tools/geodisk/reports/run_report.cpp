@@ -18,6 +18,7 @@ Json tuning_json(const Tuning& tuning) {
     return {{"batches", tuning.batches},
             {"local_size", tuning.local_size},
             {"slot_local_size", tuning.slot_local_size},
+            {"group_lanes", tuning.group_lanes},
             {"pool_block", tuning.pool_block},
             {"reads", to_string(tuning.reads)}};
 }
