@@ -36,18 +36,34 @@ GeodesicQuery<Real>::GeodesicQuery(PreparedMesh mesh, double reach,
                                    const std::vector<Point>& targets,
                                    const ref::Tolerances& tolerances)
     : mesh_(std::move(mesh)), surface_(mesh_, reach), bins_(surface_, converted<Real>(targets)),
-      detector_(surface_, bins_, tolerances, tolerances.limit) {}
+      detector_(surface_, bins_, tolerances, tolerances.limit),
+      group_(surface_, bins_, tolerances, tolerances.limit) {}
 
 template <class Real>
-std::vector<double> GeodesicQuery<Real>::from(const Point& source) {
+template <class Detector>
+std::vector<double> GeodesicQuery<Real>::from_by(Detector& detector, const Point& source) {
     std::vector<double> result(bins_.order.size(), kUnreachable);
-    count_ = detector_.run(
+    count_ = detector.run(
         converted<Real>(source), [](std::uint32_t) { return true; },
         [&](std::uint32_t place, Real distance) {
             double& best = result[bins_.order[place]];
             best = std::min(best, static_cast<double>(distance) * surface_.frame.unit);
         });
     return result;
+}
+
+template <class Real>
+std::vector<double> GeodesicQuery<Real>::from(const Point& source) {
+    return from_by(detector_, source);
+}
+
+template <class Real>
+std::optional<std::vector<double>> GeodesicQuery<Real>::by_group_from(const Point& source) {
+    try {
+        return from_by(group_, source);
+    } catch (const ref::ManyWindows&) {
+        return std::nullopt;
+    }
 }
 
 template class GeodesicQuery<float>;

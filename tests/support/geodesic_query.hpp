@@ -2,11 +2,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"
+#include "kernels/group_detect.hpp"
 #include "lib/frame.hpp"
 #include "support/meshes.hpp"
 
@@ -31,6 +33,9 @@ class GeodesicQuery {
     /// Per target the length of the shortest path found, or kUnreachable.
     std::vector<double> from(const Point& source);
 
+    /// The same as a group computes it; nothing where windows must be trimmed.
+    std::optional<std::vector<double>> by_group_from(const Point& source);
+
     /// Trims windows from the start of all disks.
     void trim_all() { detector_.trim_all(); }
 
@@ -38,10 +43,14 @@ class GeodesicQuery {
     const ref::DiskCount& count() const { return count_; }
 
   private:
+    template <class Detector>
+    std::vector<double> from_by(Detector& detector, const Point& source);
+
     PreparedMesh mesh_;
     ref::Surface<Real> surface_;
     ref::Bins<Real> bins_;
     ref::Detector<Real> detector_;
+    ref::GroupDetector<Real> group_;
     ref::DiskCount count_;
 };
 
