@@ -311,7 +311,7 @@ void step_through_by(DisksBy disks_by, const PreparedMesh& mesh, const SamplePar
         plan.trims = false;
         plan.window_capacity = 16384;
         plan.list_capacity = std::max(plan.list_capacity, 4096u); // A path found is a conflict.
-        plan.lanes = 8;
+        plan.lanes = 2; // Every device binds so large a pool.
     }
     DeviceRun run(mesh, params, plan, options);
     std::vector<gpu::SampleRec> samples;
