@@ -43,22 +43,11 @@ void note_conflict(uint place, bool is_active, bool conflicts) {
 }
 
 #include "../lib/scan.glsl"
+#include "../lib/source.glsl"
 #include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
 
 uint trips; // in this dispatch
-uint own_face;
-vec2 own_weights;
-
-void load_candidate() {
-    own_place = slots[lane.slot].place;
-    own_face = slots[lane.slot].face;
-    own_weights = uintBitsToFloat(uvec2(slots[lane.slot].weight1, slots[lane.slot].weight2));
-    list_first = list_row(lane.slot);
-    if (kAdaptive) {
-        own_radius = radius_at(face_radii(own_face), own_weights.x, own_weights.y);
-    }
-}
 
 void hand_in_slot() {
     slots[lane.slot].phase = kSlotListed;
@@ -100,7 +89,7 @@ void take_slot() {
         return;
     }
     begin_disk(next);
-    load_candidate();
+    load_candidate(lane.slot);
 }
 
 // And the windows kept, which lie behind it.
@@ -251,24 +240,6 @@ bool next_operation() {
     return lane.phase == kPhaseSource || lane.phase == kPhaseCross || lane.phase == kPhaseFan;
 }
 
-// Where the source of an operation inside the face lies; returns the squared distance of the
-// candidate from the start of half_edge.
-float place_source() {
-    if (lane.phase == kPhaseFan) {
-        lane.x = apex.x;
-        lane.y = apex.y;
-    }
-    if (lane.phase == kPhaseSource) {
-        vec2 at =
-            position_in(lane.half_edge % 3u, edge.len, apex, own_weights.x, own_weights.y);
-        lane.x = at.x;
-        lane.y = at.y;
-        lane.sigma = 0.0;
-        lane.chain = 0u;
-    }
-    return lane.phase == kPhaseSource ? squared(lane.x, lane.y) : 0.0;
-}
-
 // What follows the operation just set up, once its candidates are scanned.
 void follow_up() {
     if (lane.phase == kPhaseSource) {
@@ -330,7 +301,7 @@ void step() {
 
 void work_on(uint index) {
     load_lane(index);
-    load_candidate();
+    load_candidate(lane.slot);
     load_face();
     for (uint i = 0u; i < push.step_budget && overflow == 0u; ++i) {
         step();

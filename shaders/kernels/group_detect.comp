@@ -31,21 +31,9 @@ GEODISK_CONTROL;
 #include "../lib/fan_light.glsl"
 #include "../lib/group_table.glsl"
 #include "../lib/scan.glsl"
+#include "../lib/source.glsl"
 #include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
-
-uint own_face;
-vec2 own_weights;
-
-void load_candidate() {
-    own_place = slots[group.slot].place;
-    own_face = slots[group.slot].face;
-    own_weights = uintBitsToFloat(uvec2(slots[group.slot].weight1, slots[group.slot].weight2));
-    list_first = list_row(group.slot);
-    if (kAdaptive) {
-        own_radius = radius_at(face_radii(own_face), own_weights.x, own_weights.y);
-    }
-}
 
 // Writes a window of the first wave: the whole edge of the candidate's face.
 void begin_item(uint corner) {
@@ -88,21 +76,6 @@ float distance_of_item() {
     float aside = lane.x < lane.b0 ? left_of : (lane.x > lane.b1 ? right_of : 0.0);
     precise float distance = lane.sigma + root(squared(aside, lane.y));
     return lane.mode == kModeInside ? lane.sigma : distance;
-}
-
-// Places a source inside the face; returns the squared distance of the candidate from the start of
-// half_edge.
-float place_source() {
-    if (lane.phase == kPhaseFan) {
-        lane.x = apex.x;
-        lane.y = apex.y;
-    }
-    if (lane.phase == kPhaseSource) {
-        vec2 at = position_in(lane.half_edge % 3u, edge.len, apex, own_weights.x, own_weights.y);
-        lane.x = at.x;
-        lane.y = at.y;
-    }
-    return lane.phase == kPhaseSource ? squared(lane.x, lane.y) : 0.0;
 }
 
 // Lists a window if it is of this wave; else it waits for the next.
@@ -466,7 +439,7 @@ void main() {
     memoryBarrier();
     barrier();
     if (group_works && group.phase != kGroupIdle) {
-        load_candidate();
+        load_candidate(group.slot);
     }
     bool works = group_works;
     uint steps = 0u;
@@ -520,7 +493,7 @@ void main() {
         bool was_idle = group.phase == kGroupIdle;
         meet_at_end();
         if (was_idle && group.phase != kGroupIdle) {
-            load_candidate();
+            load_candidate(group.slot);
         }
         works = group_works;
     }
