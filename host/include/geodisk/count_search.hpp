@@ -12,7 +12,7 @@ namespace geodisk {
 /// note(), and repeat with the distance that it returns. Sample without `stop_count`, or the counts
 /// are too low.
 ///
-/// The same counts lead to the same distances on every machine.
+/// Leads to the same distances on every machine, from the same counts.
 class CountSearch {
   public:
     /// Starts a search for `wanted` samples, at least 1.
