@@ -61,6 +61,14 @@ TEST_CASE("near seams: what is told joins a shaken soup, at any scale") {
     }
 }
 
+TEST_CASE("near seams: all are found where coordinates and lengths are round numbers") {
+    for (const double size : {64.0, 100.0}) {
+        const TestMesh whole = flat_grid(20, 10, size, size);
+        const NearSeams seams = found_in(shaken(whole, size * 1e-5));
+        CHECK(seams.edges == 3 * whole.face_count() - 2 * (20 + 10));
+    }
+}
+
 TEST_CASE("near seams: a number of one digit where a power of ten joins too much") {
     // A strip whose seam is 2e-5 wide, and triangles of 5e-5 beside it.
     const TestMesh mesh{{0,    0, 1, 0,       1, 1, 0, 1, 1.00002, 0, 2, 0, 2, 1, 1.00002, 1, //

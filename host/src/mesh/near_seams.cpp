@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -30,8 +30,6 @@ constexpr double kRounding = 1 + 1e-9;
 
 /// Minimum epsilon of weld() with some room, relative to the longest side.
 constexpr double kLeastEpsilon = 0x1p-42;
-
-using Place = std::array<double, kMostDimensions>;
 
 /// Scales coordinates by a power of two so that the longest side of the borders is about 1. Squares
 /// of distances then neither overflow nor vanish.
@@ -108,53 +106,37 @@ class ShortEdges {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;
 };
 
-/// A cell of EdgeGrid. Cells of one level have the same size.
-struct EdgeCell {
-    int level = 0;
-    std::array<double, 3> at{};
-
-    /// Returns a hash. Cells of a block have consecutive numbers.
-    std::uint64_t hash() const {
-        std::uint64_t block = static_cast<std::uint64_t>(level), cell = 0;
-        for (const double x : at) {
-            block = mixed(block, std::floor(x / kPerBlock));
-            cell = mixed(cell, x);
-        }
-        return block * kNumbersOfBlock + (cell >> 32) % kNumbersOfBlock;
-    }
-
-  private:
-    /// Cells per block. A block is several edges wide, so that an edge meets only one or two
-    /// hashes.
-    static constexpr int kPerBlock = 32;
-    static constexpr std::uint64_t kNumbersOfBlock = 64;
-
-    static std::uint64_t mixed(std::uint64_t hash, double x) {
+/// Returns a hash of a cell of EdgeGrid. Cells of a block share its upper bits.
+std::uint32_t hash_of(int level, const std::array<double, 3>& cell) {
+    // A block is several edges wide, so that edges near each other are visited together.
+    constexpr int kCellsPerBlock = 16, kBitsInBlock = 12;
+    const auto mixed = [](std::uint64_t hash, double x) {
         hash ^= std::bit_cast<std::uint64_t>(x + 0.0); // Adding 0 turns -0 into 0.
         hash *= 0x9e3779b97f4a7c15;
         return hash ^ hash >> 32;
+    };
+    std::uint64_t block = static_cast<std::uint64_t>(level), in_block = 0;
+    for (const double x : cell) {
+        block = mixed(block, std::floor(x / kCellsPerBlock));
+        in_block = mixed(in_block, x);
     }
-};
+    return static_cast<std::uint32_t>(block >> 32 << kBitsInBlock |
+                                      in_block >> (64 - kBitsInBlock));
+}
 
-/// Grid of border edges by their midpoints. Cells grow with the length of the edges, so that few
-/// edges share a cell even in very small parts of a mesh.
+/// Border edges by the cells that their midpoints are in or near, so that edges close to each other
+/// share a cell. Cells grow with the length of the edges, so that few edges share a cell even in
+/// very small parts of a mesh.
 class EdgeGrid {
   public:
     EdgeGrid(const ScaledMesh& mesh, std::vector<EdgeEnds> edges)
         : mesh_(mesh), edges_(std::move(edges)), most_(kPartOfDiagonal * mesh.diagonal()),
-          short_edges_(mesh, most_), axes_(std::min(mesh.view().dimension, 3u)),
-          mask_(std::bit_ceil(edges_.size()) - 1), starts_(mask_ + 2), members_(edges_.size()) {
-        std::vector<std::uint64_t> hashes(edges_.size());
+          short_edges_(mesh, most_), axes_(std::min(mesh.view().dimension, 3u)) {
+        entries_.reserve(edges_.size() + edges_.size() / 4);
         for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-            const double length = length_of(i);
-            hashes[i] = length > 0 ? cell_of(midpoint(i), level_of(length), 0).hash() : i;
-            ++starts_[(hashes[i] & mask_) + 1];
+            enter(i);
         }
-        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-        for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-            members_[next[hashes[i] & mask_]++] = {tag_of(hashes[i]), i};
-        }
+        std::sort(entries_.begin(), entries_.end());
     }
 
     /// Gaps of edges to the nearest edge whose ends are close.
@@ -162,108 +144,91 @@ class EdgeGrid {
         std::uint64_t edges = 0; ///< Number of edges with a gap.
         double largest = 0;      ///< In mesh units.
     };
-    /// Finds the gaps of all edges, on several threads. Neighbouring edges are visited together.
+    /// Finds the gaps of all edges, on several threads.
     Gaps find_gaps(const ThreadOptions& threads) const {
-        std::vector<Gaps> found(block_count(members_.size()));
-        for_blocks(threads, members_.size(), [&](std::size_t begin, std::size_t end) {
-            Gaps& own = found[begin / kBlock];
+        std::vector<std::atomic<double>> nearest(edges_.size());
+        for_blocks(threads, entries_.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const double gap = mesh_.in_mesh_units(gap_of(members_[i].edge));
-                own.edges += gap > 0 ? 1 : 0;
-                own.largest = std::max(own.largest, gap);
+                const std::size_t last = std::min(entries_.size(), i + 1 + kMostCandidates);
+                for (std::size_t k = i + 1; k < last && cell_at(k) == cell_at(i); ++k) {
+                    const double gap = gap_between(edge_at(i), edge_at(k));
+                    if (gap > 0) {
+                        lower(nearest[edge_at(i)], gap);
+                        lower(nearest[edge_at(k)], gap);
+                    }
+                }
             }
         });
         Gaps all;
-        for (const Gaps& gaps : found) {
-            all.edges += gaps.edges;
-            all.largest = std::max(all.largest, gaps.largest);
+        for (const double gap : nearest) {
+            all.edges += gap > 0 ? 1 : 0;
+            all.largest = std::max(all.largest, mesh_.in_mesh_units(gap));
         }
         return all;
     }
 
   private:
-    struct Member {
-        std::uint32_t tag = 0; ///< Identifies the cell among those in the bucket.
-        std::uint32_t edge = 0;
-    };
-
-    // Cell size: most neighbourhoods lie in one cell, and all in two along each axis.
-    static constexpr double kCellsPerEdge = 8;
+    // Few edges are near several cells, or of several levels. Coordinates and lengths are often
+    // round numbers: these are far from the bounds.
+    static constexpr double kCellsPerEdge = 4;
+    static constexpr double kShiftOfCells = 0.382; ///< In cells.
+    static constexpr double kFactorOfLevels = 1.1;
     /// Limits the time if very many edges share a cell.
-    static constexpr int kMostCandidates = 256;
+    static constexpr std::size_t kMostCandidates = 256;
 
-    static std::uint32_t tag_of(std::uint64_t hash) {
-        return static_cast<std::uint32_t>(hash >> 32);
-    }
-    static int level_of(double length) { return std::ilogb(length); }
+    static int level_of(double length) { return std::ilogb(kFactorOfLevels * length); }
     double length_of(std::uint32_t i) const { return mesh_.distance(edges_[i].from, edges_[i].to); }
-
-    Place midpoint(std::uint32_t i) const {
-        Place place{};
-        for (std::uint32_t axis = 0; axis < axes_; ++axis) {
-            place[axis] = mesh_.coordinate(edges_[i].from, axis) / 2 +
-                          mesh_.coordinate(edges_[i].to, axis) / 2;
-        }
-        return place;
+    std::uint32_t cell_at(std::size_t entry) const {
+        return static_cast<std::uint32_t>(entries_[entry] >> 32);
     }
-    EdgeCell cell_of(const Place& place, int level, double shift) const {
-        const double side = std::ldexp(1 / kCellsPerEdge, level);
-        EdgeCell cell{level, {}};
-        for (std::uint32_t axis = 0; axis < axes_; ++axis) {
-            cell.at[axis] = std::floor((place[axis] + shift) / side);
-        }
-        return cell;
+    std::uint32_t edge_at(std::size_t entry) const {
+        return static_cast<std::uint32_t>(entries_[entry]);
     }
 
-    double gap_of(std::uint32_t i) const {
+    /// Enters an edge in all cells within half its largest gap, at the levels of all lengths within
+    /// its largest gap. Edges with a gap then share a cell.
+    void enter(std::uint32_t i) {
         const double length = length_of(i);
-        double nearest = 0;
         if (!(length > 0)) {
-            return nearest;
+            return;
         }
-        const Place middle = midpoint(i);
-        const double radius = std::min(kPartOfEdge * length, most_);
-        const int last = level_of(length + 2 * radius);
-        for (int level = level_of(length - 2 * radius); level <= last; ++level) {
-            const EdgeCell low = cell_of(middle, level, -radius);
-            const EdgeCell high = cell_of(middle, level, radius);
+        const double gap = std::min(kPartOfEdge * length, most_);
+        const int last = level_of(length + gap);
+        for (int level = level_of(length - gap); level <= last; ++level) {
+            const double side = std::ldexp(1 / kCellsPerEdge, level);
+            std::array<double, 3> low{}, high{};
+            for (std::uint32_t axis = 0; axis < axes_; ++axis) {
+                const double middle = mesh_.coordinate(edges_[i].from, axis) / 2 +
+                                      mesh_.coordinate(edges_[i].to, axis) / 2;
+                low[axis] = std::floor((middle - gap / 2) / side + kShiftOfCells);
+                high[axis] = std::floor((middle + gap / 2) / side + kShiftOfCells);
+            }
             for (unsigned choice = 0; choice < 1u << axes_; ++choice) {
-                EdgeCell cell = low;
+                std::array<double, 3> cell = low;
                 bool is_new = true;
                 for (std::uint32_t axis = 0; axis < axes_; ++axis) {
                     if ((choice >> axis & 1u) != 0) {
-                        is_new = is_new && high.at[axis] != low.at[axis];
-                        cell.at[axis] = high.at[axis];
+                        is_new = is_new && high[axis] != low[axis];
+                        cell[axis] = high[axis];
                     }
                 }
                 if (is_new) {
-                    look_in(cell, i, radius, nearest);
+                    entries_.push_back(std::uint64_t{hash_of(level, cell)} << 32 | i);
                 }
             }
         }
-        return nearest;
     }
 
-    void look_in(const EdgeCell& cell, std::uint32_t i, double radius, double& nearest) const {
-        const std::uint64_t hash = cell.hash();
-        int looked_at = 0;
-        for (std::uint32_t at = starts_[hash & mask_];
-             at < starts_[(hash & mask_) + 1] && looked_at < kMostCandidates; ++at) {
-            const Member& other = members_[at];
-            if (other.tag != tag_of(hash) || other.edge == i) {
-                continue;
-            }
-            ++looked_at;
-            const double gap = gap_between(i, other.edge, radius);
-            if (gap > 0 && (nearest == 0 || gap < nearest)) {
-                nearest = gap;
-            }
+    /// Sets `nearest` to a gap unless it has a smaller one already.
+    static void lower(std::atomic<double>& nearest, double gap) {
+        double known = nearest;
+        while ((known == 0 || gap < known) && !nearest.compare_exchange_weak(known, gap)) {
         }
     }
 
     /// Returns the gap between two edges; 0 if they coincide or are not close.
-    double gap_between(std::uint32_t i, std::uint32_t k, double radius) const {
-        radius = std::min(radius, kPartOfEdge * length_of(k));
+    double gap_between(std::uint32_t i, std::uint32_t k) const {
+        const double radius = std::min(kPartOfEdge * std::min(length_of(i), length_of(k)), most_);
         const auto [a, b] = edges_[i];
         auto [c, d] = edges_[k];
         if (mesh_.distance(a, c) > radius) {
@@ -279,9 +244,8 @@ class EdgeGrid {
     double most_;
     ShortEdges short_edges_;
     std::uint32_t axes_;
-    std::uint64_t mask_;                ///< Number of buckets, a power of two, minus 1.
-    std::vector<std::uint32_t> starts_; ///< First index of each bucket in members_, and the end.
-    std::vector<Member> members_;
+    /// The hash of a cell in the upper half, an edge in the lower. Sorted.
+    std::vector<std::uint64_t> entries_;
 };
 
 /// Returns the smallest number of at least `least` with `digits` digits, or for 0 digits a power of
