@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geodisk/params.hpp"
@@ -19,10 +20,11 @@ struct RunResult {
     std::uint32_t longest_chain = 0;
 };
 
-/// Visits the ranks upwards and accepts each candidate that no accepted one rejected, until the
-/// pool is used up or `most` are accepted.
+/// Visits the ranks upwards and accepts each candidate that no given sample and no accepted one
+/// rejected, until the pool is used up or there are `most` samples, given ones included.
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
-                      const Tolerances& tolerances, std::uint32_t most = kMostCandidates);
+                      const Tolerances& tolerances, std::uint32_t most = kMostCandidates,
+                      std::span<const FacePoint<Real>> given = {});
 
 } // namespace geodisk::ref

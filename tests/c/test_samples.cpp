@@ -94,6 +94,43 @@ TEST_CASE("a surface has the samples that it has in C++") {
     CHECK(report.rho > 0.65);
 }
 
+TEST_CASE("samples that are given come first, and are told") {
+    const auto mesh = mesh_of(knot());
+    const auto whole = sample(shared_sampler(), surface_of(mesh.get(), 0.2, 3).get());
+    const Placed all = placed(whole.get());
+    REQUIRE(all.faces.size() > 20);
+    std::vector<geodisk_surface_point> given;
+    for (std::size_t i = 0; i < 20; ++i) {
+        const float* const w = &all.weights[3 * i];
+        given.push_back({all.faces[i], {w[0], w[1], w[2]}});
+    }
+    auto params = sized<geodisk_surface_params>();
+    params.min_distance = 0.2;
+    params.seed = 3;
+    params.given = given.data();
+    params.given_count = given.size();
+    const auto domain = owned<geodisk_domain>([&](auto made, auto error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+    given.clear(); // They are copied.
+    const auto samples = sample(shared_sampler(), domain.get());
+    CHECK(placed(samples.get()) == all);
+    auto report = sized<geodisk_report>();
+    REQUIRE(geodisk_samples_report(samples.get(), &report, nullptr) == GEODISK_OK);
+    CHECK(report.given == 20);
+    const auto job = owned<geodisk_job>([&](auto made, auto error) {
+        return geodisk_job_create(shared_device(), domain.get(), nullptr, made, error);
+    });
+    auto need = sized<geodisk_buffer_need>();
+    REQUIRE(geodisk_job_need(job.get(), GEODISK_SAMPLES_BUFFER, &need, nullptr) == GEODISK_OK);
+    CHECK(need.upload_bytes == 20 * sizeof(geodisk_sample_record));
+
+    params.given = nullptr;
+    geodisk_domain* none = nullptr;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(none == nullptr);
+}
+
 TEST_CASE("floats, short indices and strides are the mesh that they say") {
     const TestMesh mesh = builtin("cube", 1);
     struct Vertex {

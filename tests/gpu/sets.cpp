@@ -14,10 +14,15 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
     expect(pool_size(mesh, params));
     const ref::Surface<Real> surface(mesh, params);
     const ref::Pool<Real> pool = ref::draw_pool(surface, params);
-    const ref::RunResult result =
-        ref::throw_darts(surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
-                         params.stop_count != 0 ? params.stop_count : kMostCandidates);
     Points points;
+    std::vector<ref::FacePoint<Real>> given;
+    for (const Sample& sample : params.given) {
+        points.push_back({sample.face, sample.weights[1], sample.weights[2]});
+        given.push_back({sample.face, sample.weights[1], sample.weights[2]});
+    }
+    const ref::RunResult result =
+        ref::throw_darts<Real>(surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
+                               params.stop_count != 0 ? params.stop_count : kMostCandidates, given);
     for (const std::uint32_t rank : result.ranks) {
         const ref::FacePoint<Real> point = pool.candidate(rank);
         points.push_back(
@@ -38,32 +43,18 @@ Points double_set(const PreparedMesh& mesh, const SampleParams& params, double e
 
 Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                    const Points& settled) {
-    expect(pool_size(mesh, params));
-    const ref::Surface<float> surface(mesh, params);
-    const ref::Pool<float> pool = ref::draw_pool(surface, params);
-    const auto tolerances = ref::frame_of(mesh, params).tolerances(error_bound);
-    ref::Detector<float> detector(surface, pool.bins, tolerances, tolerances.limit);
-    std::vector<bool> decided(pool.size());
-    const auto reject = [&](const ref::FacePoint<float>& source) {
-        detector.run(
-            source, [&](std::uint32_t q) { return !decided[q]; },
-            [&](std::uint32_t q, float) { decided[q] = true; });
-    };
-    Points points = settled;
-    for (const SamplePoint& point : settled) {
-        reject({point.face, point.weight1, point.weight2});
+    const std::vector<Sample> given = samples_of(settled);
+    SampleParams with = params;
+    with.given = given;
+    return float_set(mesh, with, error_bound);
+}
+
+std::vector<Sample> samples_of(const Points& points) {
+    std::vector<Sample> samples;
+    for (const auto& [face, second, third] : points) {
+        samples.push_back({face, {1 - second - third, second, third}});
     }
-    const std::size_t most = params.stop_count != 0 ? params.stop_count : kMostCandidates;
-    for (std::uint32_t rank = 0; rank < pool.size() && points.size() < most; ++rank) {
-        const std::uint32_t place = pool.places[rank];
-        if (!decided[place]) {
-            decided[place] = true;
-            const ref::FacePoint<float> point = pool.candidate(rank);
-            points.push_back({point.face, point.weight1, point.weight2});
-            reject(point);
-        }
-    }
-    return points;
+    return samples;
 }
 
 Points points_of(const SampleSet& set) {

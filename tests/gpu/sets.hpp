@@ -21,7 +21,7 @@ struct SamplePoint {
 /// In dart order.
 using Points = std::vector<SamplePoint>;
 
-/// What sequential dart throwing accepts, as the float twin decides.
+/// What sequential dart throwing accepts, as the float twin decides; given samples come first.
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 /// What it accepts behind samples that are settled and reject first; they come first.
 Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
@@ -30,6 +30,7 @@ Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double 
 Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 
 Points points_of(const SampleSet& set);
+std::vector<Sample> samples_of(const Points& points);
 
 /// Runs on the shared device, by a sampler for the radii of `params`.
 SampleSet sample(const PreparedMesh& mesh, const SampleParams& params, RunnerOptions options = {});

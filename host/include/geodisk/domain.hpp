@@ -38,7 +38,7 @@ struct SurfacePart {
 class GEODISK_API Domain {
   public:
     /// Makes the domain of a surface by geodesic distance. The mesh, and the radii and keys of
-    /// `params`, must outlive the domain and its runs.
+    /// `params`, must outlive the domain and its runs. Given samples are copied.
     ///
     /// Errors: those of pool_size(); `invalid_argument` for more than 2^30 grid cells, naming the
     /// face.
@@ -58,7 +58,7 @@ class GEODISK_API Domain {
     /// to must outlive the domain and its runs. Each surface gets the samples that it gets alone,
     /// except that the largest guard (RunReport::guard) of one holds for all. Faces and vertices
     /// are numbered through all surfaces. Samples come in the order of the job, which keeps the
-    /// order of each surface.
+    /// order of each surface; given ones first, surface by surface.
     ///
     /// Errors: those of surface(), naming the part; `invalid_argument` for no part, a null mesh, a
     /// scale that is not positive and finite, throws or a stop count, radii for some parts only, or

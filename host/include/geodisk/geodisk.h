@@ -307,6 +307,12 @@ typedef struct geodisk_domain geodisk_domain;
 typedef int32_t geodisk_metric;
 enum { GEODISK_GEODESIC = 0, GEODISK_EUCLIDEAN = 1, GEODISK_APPROXIMATE = 2 };
 
+/* A point of a surface. */
+typedef struct geodisk_surface_point {
+    uint32_t face;    /* Index of its triangle. */
+    float weights[3]; /* Weights of the triangle's corners; they sum to 1. */
+} geodisk_surface_point;
+
 /* How to sample a surface. */
 typedef struct geodisk_surface_params {
     size_t struct_size;
@@ -320,6 +326,11 @@ typedef struct geodisk_surface_params {
      * key has the same candidates in every mesh. NULL for the indices of faces. */
     const uint32_t *face_keys;
     geodisk_metric metric; /* All but GEODISK_GEODESIC need three coordinates and no radii. */
+    /* Samples that are given, which are copied; NULL for none. They are the first samples of the
+     * run, in this order, and new ones keep the minimum distance from them. Distances among them
+     * are not checked. They count towards stop_count. */
+    const geodisk_surface_point *given;
+    size_t given_count;
 } geodisk_surface_params;
 
 /* Makes the domain of one surface. */
@@ -503,7 +514,7 @@ typedef struct geodisk_report {
     double sample_seconds;
     double readback_seconds;
     uint32_t missing;   /* How many samples of stop_count are missing. */
-    uint32_t reserved;
+    uint32_t given;     /* How many samples were given: the first ones. */
 } geodisk_report;
 
 /* Reports how the run of these samples went. */
@@ -662,8 +673,9 @@ GEODISK_C_API geodisk_status geodisk_job_set_end_order(geodisk_job *job, uint64_
 
 struct geodisk_sample_record;
 
-/* Gives the job `count` settled samples, which it copies. They precede all candidates, reject those
- * closer than the minimum distance, and are the first samples of the result, in this order.
+/* Gives the job `count` settled samples, which it copies, instead of the given samples of its
+ * domain. They precede all candidates, reject those closer than the minimum distance, and are the
+ * first samples of the result, in this order.
  * Distances among them are not checked. In a box they must be samples of the same box and seed.
  * GEODISK_START_OVER comes next; buffers that are large enough may be bound again. The samples are
  * then part of the uploads, for GEODISK_SAMPLES_BUFFER. geodisk_job_bind fails for faces or weights

@@ -15,6 +15,7 @@
 #include <geodisk/placement.hpp>
 #include <geodisk/radius_field.hpp>
 #include <geodisk/runner.hpp>
+#include <geodisk/sample.hpp>
 #include <geodisk/sampler.hpp>
 #include <geodisk/status.hpp>
 #include <geodisk/version.hpp>

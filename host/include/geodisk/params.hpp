@@ -7,6 +7,7 @@
 #include "geodisk/export.hpp"
 #include "geodisk/mesh.hpp"
 #include "geodisk/radius_field.hpp"
+#include "geodisk/sample.hpp"
 #include "geodisk/status.hpp"
 
 namespace geodisk {
@@ -46,6 +47,10 @@ struct SampleParams {
     /// same key has the same candidates in every mesh. Empty for the indices of faces; otherwise
     /// one key per face, all different. Must outlive the run.
     std::span<const std::uint32_t> face_keys{};
+    /// Samples that are given. They are kept as they are, as the first samples of the run and in
+    /// this order, and new ones keep the minimum distance from them. Distances among them are not
+    /// checked. They count towards `stop_count`. Weights are rounded to multiples of 2^-24.
+    std::span<const Sample> given{};
 };
 
 /// Source of a job's candidates: a pool, or an exact number of darts. They come in stages. Each is
@@ -117,7 +122,9 @@ GEODISK_API double packing_density(double area, double min_distance, double coun
 /// 64.
 ///
 /// Errors: `invalid_argument` for a parameter out of range; for radii or face keys of another
-/// number of faces; for a pool of more than 2^32 candidates, naming their number; for an edge
+/// number of faces; for a given sample, naming it, in a face that does not exist or repeats a
+/// vertex, or with weights that are negative or do not sum to 1; for more given samples than
+/// `stop_count`; for a pool of more than 2^32 candidates, naming their number; for an edge
 /// longer than 4,000 distances, where rounding would matter too much; for a face, `Error::element`,
 /// that expects more than kMostPerFace candidates in a stage.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,

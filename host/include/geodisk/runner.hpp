@@ -13,16 +13,11 @@
 #include <geodisk/device.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
+#include <geodisk/sample.hpp>
 #include <geodisk/sampler.hpp>
 #include <geodisk/threads.hpp>
 
 namespace geodisk {
-
-/// An accepted candidate.
-struct Sample {
-    std::uint32_t face; ///< Index of its triangle in the caller's mesh.
-    float weights[3];   ///< Weights of the triangle's corners in order; they sum to exactly 1.
-};
 
 /// Parts of a run on the device.
 enum class Stage : std::uint32_t {
@@ -88,6 +83,7 @@ struct SampleSet {
     std::vector<Sample> samples; ///< Samples of a surface.
     std::vector<double> points;  ///< Domain::dimension() coordinates per sample of a box.
     RunReport report;
+    std::size_t given = 0; ///< Number of samples that were given (SampleParams::given): the first.
 };
 
 /// How far a run is.

@@ -404,11 +404,12 @@ class GEODISK_API Job {
     /// sequence of orders gives the same samples. Holds for what is recorded next, until the run
     /// restarts. Candidates that earlier rounds decide stay decided.
     void set_end_order(std::uint64_t order) noexcept;
-    /// Restarts with samples that are settled: they come before all candidates, reject those closer
-    /// than the minimum distance, and are the first samples of the run, in this order. Distances
-    /// among them are not checked. Write them to the start of the samples buffer before
-    /// record_begin(); geodisk leaves them there. They count towards SampleParams::stop_count, and
-    /// hold for other seeds, until renew(). In a box they must be samples of the same box and seed.
+    /// Restarts with samples that are settled, instead of SampleParams::given: they come before all
+    /// candidates, reject those closer than the minimum distance, and are the first samples of the
+    /// run, in this order. Distances among them are not checked. Write them to the start of the
+    /// samples buffer before record_begin(); geodisk leaves them there. They count towards
+    /// SampleParams::stop_count, and hold for other seeds, until renew(). In a box they must be
+    /// samples of the same box and seed.
     /// Errors: `invalid_argument`, naming the sample, for a face that does not exist, or weights
     /// that are not multiples of 2^-24 with a sum of at most 1; for more samples than
     /// RunPlan::sample_capacity.

@@ -39,6 +39,14 @@ Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& g
         part.face_keys.assign(given.face_keys, given.face_keys + part.mesh->prepared.face_count());
         part.params.face_keys = part.face_keys;
     }
+    if (given.given == nullptr && given.given_count != 0) {
+        return wrong("params->given is NULL");
+    }
+    for (std::size_t i = 0; i < given.given_count; ++i) {
+        const geodisk_surface_point& point = given.given[i];
+        part.given.push_back({point.face, {point.weights[0], point.weights[1], point.weights[2]}});
+    }
+    part.params.given = part.given;
     return Done{};
 }
 

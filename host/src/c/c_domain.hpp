@@ -18,6 +18,7 @@ struct Part {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Radii> radii;
     std::vector<std::uint32_t> face_keys;
+    std::vector<Sample> given;
     SampleParams params;
 };
 

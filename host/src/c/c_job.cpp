@@ -200,7 +200,7 @@ geodisk_status geodisk_job_renew(geodisk_job* job, const geodisk_domain* domain,
         }
         own.seed.reset();
         own.end_order = kAllOrders;
-        own.settled.clear();
+        own.settled.reset();
         start_over(own);
         return Done{};
     });

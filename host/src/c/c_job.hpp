@@ -36,7 +36,8 @@ struct geodisk_job {
     std::uint32_t regrowths = 0;
     std::optional<std::uint64_t> seed; ///< Seed that replaces the domain's.
     std::uint64_t end_order = geodisk::kAllOrders;
-    std::vector<geodisk::gpu::SampleRec> settled;
+    /// Settled samples that replace those of the domain.
+    std::optional<std::vector<geodisk::gpu::SampleRec>> settled;
 
     geodisk::RunPlan plan; ///< Plan to continue with, once there are buffers for it.
     std::uint32_t sample_capacity = 0;
@@ -61,8 +62,7 @@ struct geodisk_job {
 
 namespace geodisk::c {
 
-/// Plans a run of a domain with so many settled samples. An error
-/// changes nothing.
+/// Plans a run of a domain with room for so many more settled samples. An error changes nothing.
 Result<Done> plan_domain(geodisk_job& job, std::shared_ptr<const DomainState> state,
                          std::size_t settled);
 Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,

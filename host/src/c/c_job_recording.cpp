@@ -89,8 +89,10 @@ Result<Done> bind_all(geodisk_job& job, const Workspace& workspace) {
     }
     job.is_begun = false;
     job.uploaded = {};
-    if (const auto set = job.recorded->set_settled(job.settled); !set) {
-        return set.error();
+    if (job.settled) {
+        if (const auto set = job.recorded->set_settled(*job.settled); !set) {
+            return set.error();
+        }
     }
     if (job.seed) {
         job.recorded->set_seed(*job.seed);
@@ -138,15 +140,16 @@ Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges) {
 }
 
 std::size_t upload_bytes(const geodisk_job& job, BufferRole role) {
-    return role == BufferRole::samples ? job.settled.size() * sizeof(gpu::SampleRec)
-                                       : job.sampler->upload_size(*job.domain->domain, role);
+    return role == BufferRole::samples && job.settled
+               ? job.settled->size() * sizeof(gpu::SampleRec)
+               : job.sampler->upload_size(*job.domain->domain, role);
 }
 
 Result<Done> write_upload(const geodisk_job& job, BufferRole role, std::span<std::byte> out) {
-    if (role != BufferRole::samples || job.settled.empty()) {
+    if (role != BufferRole::samples || !job.settled) {
         return job.sampler->write_upload(*job.domain->domain, job.plan, role, out);
     }
-    const auto bytes = std::as_bytes(std::span(job.settled));
+    const auto bytes = std::as_bytes(std::span(*job.settled));
     if (out.size() != bytes.size()) {
         return wrong("bytes is not upload_bytes of the buffer");
     }

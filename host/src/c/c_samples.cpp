@@ -236,6 +236,7 @@ geodisk_report report_of(const geodisk_samples& samples) {
     report.readback_seconds = run.seconds.readback;
     const std::uint64_t wanted = Domain::Impl::of(*samples.of->domain).stop_count;
     report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, report.samples));
+    report.given = static_cast<std::uint32_t>(samples.set.given);
     return report;
 }
 

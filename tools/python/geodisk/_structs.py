@@ -170,7 +170,7 @@ class Report(_Sized):
         ("sample_seconds", c_double),
         ("readback_seconds", c_double),
         ("missing", c_uint32),
-        ("reserved", c_uint32),
+        ("given", c_uint32),
     ]
 
 

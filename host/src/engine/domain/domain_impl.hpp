@@ -14,6 +14,7 @@
 #include "engine/domain/upload_parts.hpp"
 #include "engine/kernels/kernel_table.hpp"
 #include "push.h"
+#include "samples.h"
 
 namespace geodisk {
 
@@ -28,7 +29,8 @@ struct Domain::Impl {
     double samples = 0; ///< Expected samples, limited by the stop count and the number of darts.
     std::uint32_t stop_count = 0; ///< Stop count, or 0.
     std::uint64_t seed = 0;
-    ErrorModel error; ///< Bound on the error of distances.
+    std::vector<gpu::SampleRec> settled; ///< Given samples, to upload as the first samples.
+    ErrorModel error;                    ///< Bound on the error of distances.
     /// Number of units that candidates are drawn by: faces, or cells of a box.
     std::uint64_t units = 0;
     /// Device memory per candidate, approximately.

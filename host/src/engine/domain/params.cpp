@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -108,7 +109,7 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
         return invalid("there are " + std::to_string(params.face_keys.size()) + " face keys for " +
                        std::to_string(mesh.face_count()) + " faces");
     }
-    return Done{};
+    return check_given(mesh, params);
 }
 
 Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SampleParams& params,

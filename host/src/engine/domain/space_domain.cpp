@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "engine/capacity.hpp"
 #include "engine/domain/device_mesh.hpp"
+#include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "support/guard.hpp"
@@ -148,6 +149,7 @@ SpaceDomain::SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const S
     stop_count = params.stop_count;
     units = mesh.face_count();
     first_faces = {0, mesh.face_count()};
+    add_given(params.given, 0, settled);
 }
 
 void SpaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
@@ -166,11 +168,20 @@ void SpaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
 }
 
 std::size_t SpaceDomain::upload_size(BufferRole role) const {
-    return role == BufferRole::corners ? std::size_t{mesh_.face_count()} * gpu::kSpaceRows * 16
-                                       : GridDomain::upload_size(role);
+    switch (role) {
+    case BufferRole::corners:
+        return std::size_t{mesh_.face_count()} * gpu::kSpaceRows * 16;
+    case BufferRole::samples:
+        return settled.size() * sizeof settled[0];
+    default:
+        return GridDomain::upload_size(role);
+    }
 }
 
 Result<UploadParts> SpaceDomain::upload_parts(const RunPlan& plan, BufferRole role) const {
+    if (role == BufferRole::samples) {
+        return UploadParts{upload_part(settled)};
+    }
     if (role != BufferRole::corners) {
         return GridDomain::upload_parts(plan, role);
     }

@@ -9,6 +9,7 @@
 #include "engine/capacity.hpp"
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/device_mesh.hpp"
+#include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -194,6 +195,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         kernels.event_heap |= surface.frame.nearest_first;
         meshes.push_back(mesh.identity());
         first_faces.push_back(surface.first_face);
+        add_given(params.given, surface.first_face, settled);
     }
     first_faces.push_back(face_count(surfaces_));
     kernels.domain = DomainKind::surface;
@@ -305,6 +307,8 @@ std::size_t SurfaceDomain::upload_size(BufferRole role) const {
         return half_edge_bytes(surfaces_) + length_bytes(surfaces_);
     case BufferRole::fans:
         return fan_bytes(surfaces_) + radii_bytes(surfaces_) + key_bytes(surfaces_);
+    case BufferRole::samples:
+        return settled.size() * sizeof settled[0];
     default:
         return 0;
     }
@@ -334,6 +338,8 @@ Result<UploadParts> SurfaceDomain::upload_parts(const RunPlan&, BufferRole role)
             }
         }
         add_keys(surfaces_, parts);
+    } else if (role == BufferRole::samples) {
+        parts.push_back(upload_part(settled));
     }
     return parts;
 }

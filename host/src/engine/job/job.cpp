@@ -288,6 +288,9 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
         return chosen;
     }
     number = next_number();
+    if (of.settled.size() > new_plan.sample_capacity) {
+        return too_many_settled(of.settled.size(), new_plan);
+    }
     const bool has_sets = sets_for == variant.domain;
     const bool had_cells = has_cells();
     most_slots = new_plan.slots;
@@ -297,7 +300,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     samples_per_measure = of.samples_per_measure;
     error = of.error;
     dispatches = 0;
-    given = 0;
+    given = static_cast<std::uint32_t>(of.settled.size());
     push = {};
     constants = {};
     constants.capacity = capacity_for(of.stages, new_plan.stages);

@@ -118,11 +118,15 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
     return Done{};
 }
 
+Error too_many_settled(std::size_t samples, const RunPlan& plan) {
+    return {Status::invalid_argument,
+            std::to_string(samples) + " settled samples are more than the plan's " +
+                "sample_capacity of " + std::to_string(plan.sample_capacity)};
+}
+
 Result<Done> check_settled(std::span<const gpu::SampleRec> samples, const Job::Impl& job) {
     if (samples.size() > job.plan.sample_capacity) {
-        return Error{Status::invalid_argument,
-                     std::to_string(samples.size()) + " settled samples are more than the plan's " +
-                         "sample_capacity of " + std::to_string(job.plan.sample_capacity)};
+        return too_many_settled(samples.size(), job.plan);
     }
     const bool has_weights = job.variant.domain != DomainKind::box;
     // Multiples of 2^-24, so that the weight of the first corner is exact.

@@ -1,0 +1,14 @@
+// Sample: a point of a surface.
+#pragma once
+
+#include <cstdint>
+
+namespace geodisk {
+
+/// A point of a surface: an accepted candidate, or a sample that is given.
+struct Sample {
+    std::uint32_t face; ///< Index of its triangle in the caller's mesh.
+    float weights[3];   ///< Weights of the triangle's corners in order; they sum to exactly 1.
+};
+
+} // namespace geodisk

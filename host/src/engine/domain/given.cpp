@@ -1,0 +1,81 @@
+#include "engine/domain/given.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+// Error of weights that other programs rounded.
+constexpr double kWeightTolerance = 1e-5;
+
+double sum_of(const float (&weights)[3]) {
+    return double{weights[0]} + double{weights[1]} + double{weights[2]};
+}
+
+/// Returns what is wrong with a sample, or "".
+std::string fault_of(const Sample& sample, const PreparedMesh& mesh) {
+    if (sample.face >= mesh.face_count()) {
+        return "is in face " + std::to_string(sample.face) + ", but there are " +
+               std::to_string(mesh.face_count());
+    }
+    const auto edges = mesh.half_edges().subspan(std::size_t{3} * sample.face, 3);
+    if (edges[0].origin == edges[1].origin || edges[1].origin == edges[2].origin ||
+        edges[2].origin == edges[0].origin) {
+        return "is in face " + std::to_string(sample.face) +
+               ", which repeats a vertex and holds no samples";
+    }
+    const double least = std::min({sample.weights[0], sample.weights[1], sample.weights[2]});
+    const bool are_weights =
+        least >= -kWeightTolerance && std::abs(sum_of(sample.weights) - 1) <= kWeightTolerance;
+    return are_weights ? "" : "has weights that are negative or do not sum to 1";
+}
+
+/// Returns the weights of the second and third corner as multiples of 2^-24 that sum to at most 1.
+std::array<float, 2> rounded(const float (&weights)[3]) {
+    const double sum = sum_of(weights);
+    const auto steps_of = [sum](double weight, double most) {
+        return std::clamp(std::round(weight / sum * 0x1p24), 0.0, most);
+    };
+    const double second = steps_of(weights[1], 0x1p24);
+    const double third = steps_of(weights[2], 0x1p24 - second);
+    return {static_cast<float>(second * 0x1p-24), static_cast<float>(third * 0x1p-24)};
+}
+
+} // namespace
+
+Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params) {
+    for (std::size_t i = 0; i < params.given.size(); ++i) {
+        if (const std::string fault = fault_of(params.given[i], mesh); !fault.empty()) {
+            return invalid("given sample " + std::to_string(i) + " " + fault);
+        }
+    }
+    if (params.stop_count != 0 && params.given.size() > params.stop_count) {
+        return invalid("there are " + std::to_string(params.given.size()) +
+                       " given samples, more than the stop count of " +
+                       std::to_string(params.stop_count));
+    }
+    return Done{};
+}
+
+void add_given(std::span<const Sample> given, std::uint32_t first_face,
+               std::vector<gpu::SampleRec>& settled) {
+    for (const Sample& sample : given) {
+        const auto [second, third] = rounded(sample.weights);
+        settled.push_back({0, first_face + sample.face, second, third});
+    }
+}
+
+UploadPart upload_part(std::span<const gpu::SampleRec> settled) {
+    return {sizeof(gpu::SampleRec), settled.size(),
+            [settled](std::size_t begin, std::size_t end, std::byte* out) {
+                std::memcpy(out, &settled[begin], (end - begin) * sizeof(gpu::SampleRec));
+            }};
+}
+
+} // namespace geodisk

@@ -1,0 +1,29 @@
+// Samples that are given to a job: checked, and as the device takes them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/sample.hpp>
+#include <geodisk/status.hpp>
+
+#include "engine/domain/upload_parts.hpp"
+#include "samples.h"
+
+namespace geodisk {
+
+/// Checks the given samples of a job. Errors name the sample.
+Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params);
+
+/// Appends given samples that check_given() finds no fault with. Their faces are numbered from
+/// `first_face` on; weights are rounded to multiples of 2^-24.
+void add_given(std::span<const Sample> given, std::uint32_t first_face,
+               std::vector<gpu::SampleRec>& settled);
+
+/// Returns the part that uploads settled samples, which must outlive it.
+UploadPart upload_part(std::span<const gpu::SampleRec> settled);
+
+} // namespace geodisk

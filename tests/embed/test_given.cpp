@@ -1,0 +1,280 @@
+// Samples that are given to a run: kept as its first ones, and new ones respect them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "gpu/device_run.hpp"
+#include "gpu/sets.hpp"
+#include "lib/frame.hpp"
+#include "support/geodesic_query.hpp"
+#include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
+
+namespace geodisk::test {
+namespace {
+
+const TestMesh& knot() {
+    static const TestMesh kMesh = builtin("torus-knot", 8);
+    return kMesh;
+}
+
+std::vector<Sample> first_of(const SampleSet& set, std::size_t count) {
+    return {set.samples.begin(), set.samples.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+/// Checks that a run with given samples is the twin's, also if it has little room.
+void check_as_twin(const PreparedMesh& mesh, SampleParams params,
+                   const std::vector<Sample>& given) {
+    params.given = given;
+    RunnerOptions narrow;
+    narrow.plan.slots = 16;
+    narrow.plan.stages = 1;
+    for (const RunnerOptions& options : {RunnerOptions(), narrow}) {
+        const SampleSet set = sample(mesh, params, options);
+        CHECK(set.given == given.size());
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+        CHECK(set.samples.size() > given.size());
+    }
+}
+
+/// Returns the mesh of some faces of another, with all its vertices.
+TestMesh with_faces(const TestMesh& mesh, const std::vector<std::uint32_t>& faces) {
+    TestMesh part = mesh;
+    part.triangles.clear();
+    for (const std::uint32_t face : faces) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            part.triangles.push_back(mesh.triangles[std::size_t{3} * face + corner]);
+        }
+    }
+    return part;
+}
+
+/// Returns the smallest distance of two points, both in double precision; kUnreachable beyond
+/// twice the distance expected.
+double smallest_distance(const TestMesh& mesh, const std::vector<Point>& points, double expected) {
+    GeodesicQuery<double> query(prepared(mesh), 2 * expected, points, tight_tolerances());
+    double smallest = kUnreachable;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::vector<double> distances = query.from(points[i]);
+        for (std::size_t k = 0; k < i; ++k) {
+            smallest = std::min(smallest, distances[k]);
+        }
+    }
+    return smallest;
+}
+
+std::string refusal(const PreparedMesh& mesh, const Sample& wrong, std::uint32_t stop_count = 0) {
+    const std::vector<Sample> given{{0, {0.5f, 0.25f, 0.25f}}, wrong};
+    SampleParams params = params_for(mesh, 100);
+    params.given = given;
+    params.stop_count = stop_count;
+    const auto domain = Domain::surface(mesh, params);
+    REQUIRE_FALSE(domain);
+    CHECK(domain.error().status == Status::invalid_argument);
+    return domain.error().message;
+}
+
+} // namespace
+
+TEST_SUITE("given") {
+    TEST_CASE("a run goes on from its own first samples") {
+        const PreparedMesh mesh = prepared(knot());
+        const RadiusField radii = radius_field(mesh, wavy_factors(knot(), 0.3));
+        for (const RadiusField* const field : {static_cast<const RadiusField*>(nullptr), &radii}) {
+            SampleParams params = params_for(mesh, 200, 1, field);
+            const SampleSet whole = sample(mesh, params);
+            CHECK(whole.given == 0);
+            for (const std::size_t count : {std::size_t{1}, whole.samples.size()}) {
+                const std::vector<Sample> given = first_of(whole, count);
+                params.given = given;
+                const SampleSet again = sample(mesh, params);
+                CHECK(again.given == count);
+                CHECK(points_of(again) == points_of(whole));
+            }
+        }
+    }
+
+    TEST_CASE("any samples are kept, on vertices and edges too, and too close to each other") {
+        const PreparedMesh mesh = prepared(knot());
+        std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
+        given.push_back({5, {1, 0, 0}});
+        given.push_back({5, {0, 0, 1}});
+        given.push_back({9, {0.5f, 0.5f, 0}});
+        given.push_back({9, {0, 0.25f, 0.75f}});
+        given.push_back(given.back());
+        check_as_twin(mesh, params_for(mesh, 200), given);
+        const RadiusField radii = radius_field(mesh, wavy_factors(knot(), 0.3));
+        check_as_twin(mesh, params_for(mesh, 200, 1, &radii), given);
+        SampleParams darts = params_for(mesh, 200);
+        darts.throws = 3000;
+        check_as_twin(mesh, darts, given);
+        // More than the surface holds otherwise.
+        check_as_twin(mesh, params_for(mesh, 20),
+                      std::vector<Sample>(300, Sample{1, {0.5f, 0.25f, 0.25f}}));
+    }
+
+    TEST_CASE("they count towards a stop count") {
+        const PreparedMesh mesh = prepared(knot());
+        const std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
+        SampleParams params = params_for(mesh, 200);
+        params.given = given;
+        params.stop_count = static_cast<std::uint32_t>(given.size()) + 10;
+        CHECK(sample(mesh, params).samples.size() == given.size() + 10);
+        params.stop_count = static_cast<std::uint32_t>(given.size());
+        const SampleSet all = sample(mesh, params);
+        CHECK(all.samples.size() == given.size());
+        CHECK(points_of(all) == points_of({given, {}, {}, 0}));
+    }
+
+    TEST_CASE("weights are rounded to multiples of 2^-24") {
+        const PreparedMesh mesh = prepared(knot());
+        const std::vector<Sample> given{{3, {0.333333343f, 0.333333343f, 0.333333343f}},
+                                        {4, {0.000001f, 1.000003f, -0.000001f}}};
+        SampleParams params = params_for(mesh, 100);
+        params.given = given;
+        const SampleSet set = sample(mesh, params);
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            const auto& weights = set.samples[i].weights;
+            CHECK(double{weights[0]} + weights[1] + weights[2] == 1);
+            for (std::size_t k = 0; k < 3; ++k) {
+                CHECK(weights[k] >= 0);
+                CHECK(weights[k] == doctest::Approx(given[i].weights[k]).epsilon(1e-5));
+            }
+        }
+    }
+
+    TEST_CASE("each of several surfaces has its own, and they come first") {
+        const PreparedMesh ball = prepared(builtin("icosphere", 3));
+        const PreparedMesh mesh = prepared(knot());
+        const std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
+        SampleParams params = params_for(mesh, 200);
+        params.given = given;
+        const Domain domain = expect(Domain::surfaces(std::vector<SurfacePart>{
+            {&ball, params_for(ball, 100)}, {&mesh, params}, {&mesh, params_for(mesh, 200)}}));
+        Context& context = shared_context();
+        Runner runner = expect(Runner::create(context.device(), context.queue()));
+        const SampleSet set = expect(runner.sample_and_wait(domain));
+        CHECK(set.given == given.size());
+        Points of_second;
+        const std::uint32_t first = domain.first_faces()[1], last = domain.first_faces()[2];
+        for (const SamplePoint& point : points_of(set)) {
+            if (point.face >= first && point.face < last) {
+                of_second.push_back({point.face - first, point.weight1, point.weight2});
+            }
+        }
+        CHECK(of_second == points_of(sample(mesh, params)));
+    }
+
+    TEST_CASE("by distances through space as well") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 200);
+        const auto run = [&] {
+            const Domain domain =
+                expect(Domain::surface_in_space(knot().view(), mesh, params, Metric::euclidean));
+            Context& context = shared_context();
+            Runner runner = expect(Runner::create(context.device(), context.queue()));
+            return expect(runner.sample_and_wait(domain));
+        };
+        const SampleSet whole = run();
+        const std::vector<Sample> given = first_of(whole, 50);
+        params.given = given;
+        CHECK(points_of(run()) == points_of(whole));
+    }
+
+    TEST_CASE("a recorded job uploads those of its domain, and set_settled() replaces them") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 100);
+        const std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
+        params.given = given;
+        const Points wanted = points_of(sample(mesh, params));
+        DeviceRun run(mesh, params);
+        REQUIRE(run.follow_all().next == Next::complete);
+        CHECK(ready_points(run) == wanted);
+        run.job().set_seed(2);
+        REQUIRE(run.follow_all().next == Next::complete);
+        params.seed = 2;
+        CHECK(ready_points(run) == points_of(sample(mesh, params)));
+        expect(run.job().set_settled({}));
+        run.job().set_seed(1);
+        REQUIRE(run.follow_all().next == Next::complete);
+        CHECK(ready_points(run) == points_of(sample(mesh, params_for(mesh, 100))));
+    }
+
+    TEST_CASE("a tile sampled with its neighbour's margin leaves no pair too close at the seam") {
+        const TestMesh terrain = builtin("terrain", 24);
+        const double distance = params_for(prepared(terrain), 400).min_distance;
+        std::vector<std::uint32_t> west, east;
+        double left = std::numeric_limits<double>::infinity(), right = -left;
+        for (std::uint32_t v = 0; v < terrain.vertex_count(); ++v) {
+            left = std::min(left, terrain.vertex(v)[0]);
+            right = std::max(right, terrain.vertex(v)[0]);
+        }
+        const double seam = (left + right) / 2;
+        const auto reaches = [&](std::uint32_t face, double x) {
+            return std::max({terrain.corner(face, 0)[0], terrain.corner(face, 1)[0],
+                             terrain.corner(face, 2)[0]}) > x;
+        };
+        for (std::uint32_t face = 0; face < terrain.face_count(); ++face) {
+            if (!reaches(face, seam + 1e-9)) {
+                west.push_back(face);
+            }
+            if (reaches(face, seam - distance)) {
+                east.push_back(face);
+            }
+        }
+        const auto tile = [&](const std::vector<std::uint32_t>& faces) {
+            return prepared(with_faces(terrain, faces));
+        };
+        SampleParams params;
+        params.min_distance = distance;
+        std::vector<Point> all;
+        std::vector<Sample> given;
+        for (const Sample& s : sample(tile(west), params).samples) {
+            const std::uint32_t face = west[s.face];
+            all.push_back({face, s.weights[1], s.weights[2]});
+            const auto at = std::ranges::find(east, face);
+            if (at != east.end()) {
+                given.push_back({static_cast<std::uint32_t>(at - east.begin()),
+                                 {s.weights[0], s.weights[1], s.weights[2]}});
+            }
+        }
+        REQUIRE(given.size() > 5);
+        const std::size_t before = all.size();
+        const auto add_east = [&] {
+            all.resize(before);
+            for (const Sample& s : sample(tile(east), params).samples) {
+                const std::uint32_t face = east[s.face];
+                if (!std::ranges::binary_search(west, face)) { // Not in the margin.
+                    all.push_back({face, s.weights[1], s.weights[2]});
+                }
+            }
+            return smallest_distance(terrain, all, distance);
+        };
+        CHECK(add_east() < distance);
+        params.given = given;
+        CHECK(add_east() >= distance);
+        CHECK(all.size() > before + 100);
+    }
+
+    TEST_CASE("given samples that cannot be are refused, by their number") {
+        TestMesh flat = flat_grid(4, 4, 1, 1);
+        flat.add_triangle(0, 0, 1);
+        const PreparedMesh mesh = prepared(flat);
+        const auto has = [](const std::string& text, const char* part) {
+            return text.find(part) != std::string::npos;
+        };
+        CHECK(has(refusal(mesh, {33, {1, 0, 0}}), "given sample 1 is in face 33"));
+        CHECK(has(refusal(mesh, {32, {1, 0, 0}}), "face 32, which repeats a vertex"));
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        for (const Sample& wrong : {Sample{0, {1, 1, 0}}, Sample{0, {1.5f, -0.5f, 0}},
+                                    Sample{0, {nan, 0, 0}}, Sample{0, {0, 0, 0}}}) {
+            CHECK(has(refusal(mesh, wrong), "given sample 1 has weights"));
+        }
+        CHECK(has(refusal(mesh, {0, {1, 0, 0}}, 1), "2 given samples, more than the stop count"));
+    }
+}
+
+} // namespace geodisk::test
