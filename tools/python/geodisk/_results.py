@@ -76,7 +76,7 @@ def _report_of(handle: c.Handle) -> dict[str, Any]:
     return {
         name: getattr(report, name)
         for name, *_ in s.Report._fields_
-        if name not in ("struct_size", "reserved")
+        if name != "struct_size"
     }
 
 
