@@ -31,6 +31,9 @@ inline constexpr std::array<std::string_view, 12> kSampleColumnNames{
 inline constexpr std::array<std::string_view, 8> kNumberedColumnNames{"x0", "x1", "x2", "x3",
                                                                       "x4", "x5", "x6", "x7"};
 
+/// The column that marks samples that were given, with 1.
+inline constexpr std::string_view kGivenColumn = "given";
+
 /// Keys of header entries that a reader of samples goes by.
 inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin";
 

@@ -59,8 +59,11 @@ struct SampleFile {
     std::vector<SampleRow> rows;
     SampleHeader header;
     std::uint32_t dimension = 3;    ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
-    std::vector<ExtraColumn> extra; ///< Those that part_columns() makes.
+    std::vector<ExtraColumn> extra; ///< Those that part_columns() makes, and kGivenColumn.
     bool has_faces = true;          ///< Else rows have positions alone, as of other programs.
+
+    /// The values of a column of `extra`; empty without it.
+    std::span<const std::uint32_t> extra_values(std::string_view name) const;
 };
 
 /// Writes `rows` in the format of `target`:
@@ -98,6 +101,9 @@ void write_samples(const Path& path, const SampleHeader& header, std::span<const
 /// lacks; CSV and NPZ have just the coordinates there are.
 void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                        std::span<const SampleRow> rows, std::uint32_t dimension);
+
+/// Returns true unless the format holds points alone.
+bool has_columns(const SampleTarget& target);
 
 /// UserError(usage) if the format cannot hold columns of these names.
 void check_columns(const SampleTarget& target, std::span<const std::string> columns);

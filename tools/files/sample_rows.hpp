@@ -66,7 +66,9 @@ SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fa
 class ExtraReader {
   public:
     explicit ExtraReader(const PlaceOf& place_of) {
-        for (const std::string& name : part_column_names()) {
+        std::vector<std::string> names = part_column_names();
+        names.emplace_back(kGivenColumn);
+        for (const std::string& name : names) {
             if (const std::optional<std::size_t> place = place_of(name)) {
                 places_.push_back(*place);
                 columns_.push_back({name, {}});
@@ -80,7 +82,8 @@ class ExtraReader {
         for (std::size_t i = 0; i < places_.size();) {
             const std::optional<double> value = value_at(places_[i]);
             std::uint32_t index = 0;
-            if (value && set_index(index, *value)) {
+            const bool is_mark = columns_[i].name == kGivenColumn;
+            if (value && set_index(index, *value) && (!is_mark || index <= 1)) {
                 columns_[i++].values.push_back(index);
             } else { // A column of that name from some other program.
                 places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));

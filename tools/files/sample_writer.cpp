@@ -193,6 +193,11 @@ const std::string* SampleHeader::find(std::string_view key) const {
     return entry == entries.end() ? nullptr : &entry->second;
 }
 
+std::span<const std::uint32_t> SampleFile::extra_values(std::string_view name) const {
+    const auto column = std::ranges::find(extra, name, &ExtraColumn::name);
+    return column == extra.end() ? std::span<const std::uint32_t>() : column->values;
+}
+
 void check_dimension(const SampleTarget& target, std::uint32_t dimension) {
     const std::string extension = extension_of(target.format);
     const std::string given = dimension == 0 ? "none" : std::to_string(dimension);
@@ -221,10 +226,12 @@ void check_dimension(const SampleTarget& target, std::uint32_t dimension) {
     }
 }
 
+bool has_columns(const SampleTarget& target) {
+    return target.format != SampleFormat::xyz && target.format != SampleFormat::obj;
+}
+
 void check_columns(const SampleTarget& target, std::span<const std::string> columns) {
-    const bool is_points_alone =
-        target.format == SampleFormat::xyz || target.format == SampleFormat::obj;
-    if (is_points_alone && !columns.empty()) {
+    if (!has_columns(target) && !columns.empty()) {
         fail_usage(target.path.string() + ": an " + extension_of(target.format) +
                    " file holds points alone, so no column " + columns.front() +
                    "; use .ply, .csv, .npz, .pcd or .glb");

@@ -9,8 +9,12 @@
 
 #include "files/block_writer.hpp"
 #include "files/part_columns.hpp"
+#include "files/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
+#include "geodisk/checks/spacing.hpp"
+#include "geodisk/inputs/given_input.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -57,12 +61,51 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
     return rows;
 }
 
+/// Adds what is to be told of the samples that were given, the first of `result`.
+void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& result,
+                ProgressLine& progress) {
+    const auto rows = std::span(result.rows).first(result.given);
+    std::vector<double> radii;
+    for (const SampleRow& row : rows) {
+        radii.push_back(mesh.radii ? row.radius : result.params.min_distance / 2);
+    }
+    result.among_given = check_spacing(mesh, rows, radii, progress);
+    const SpacingResult& found = result.among_given;
+    if (found.violations.empty()) {
+        return;
+    }
+    const ClosePair& closest = found.violations.front();
+    result.warnings.push_back(
+        {"given_too_close", found.violations.size(), "",
+         (found.is_complete ? "" : "at least ") +
+             counted(found.violations.size(), "pair", "pairs") +
+             " of existing samples closer than the minimum distance; they are kept. The closest "
+             "are samples " +
+             std::to_string(closest.row_a) + " and " + std::to_string(closest.row_b) + ", at " +
+             rounded(closest.distance, 6),
+         job.constraints.existing});
+}
+
+/// The columns that the file has besides those that all have.
+std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
+                                       const SampleResult& result) {
+    std::vector<ExtraColumn> columns = part_columns(mesh.file, job.columns, result.rows);
+    if (job.constraints.is_given() && has_columns(job.out.target())) {
+        ExtraColumn given{std::string(kGivenColumn),
+                          std::vector<std::uint32_t>(result.rows.size())};
+        std::fill_n(given.values.begin(), result.given, 1);
+        columns.push_back(std::move(given));
+    }
+    return columns;
+}
+
 } // namespace
 
 std::vector<NamedFile> files_read(const SampleJob& job) {
     std::vector<NamedFile> read;
     job.mesh.add_files(read, "the mesh");
     job.density.add_files(read, "the density");
+    job.constraints.add_files(read);
     return read;
 }
 
@@ -74,7 +117,9 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
                          ProgressLine& progress) {
     check_space(job, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
+    GivenInput given = load_given(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
+    params.given = given.samples;
     const auto task_at = [&](double min_distance) {
         params.min_distance = min_distance;
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
@@ -84,8 +129,12 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
-    SampleResult result{
-        params, std::move(done), to_rows(mesh, params.min_distance, set.samples), {}, {}, {}};
+    params.given = {};
+    SampleResult result;
+    result.params = params;
+    result.done = std::move(done);
+    result.rows = to_rows(mesh, params.min_distance, set.samples);
+    result.given = set.given;
     if (mesh.prepared.statistics().components > 1) {
         std::vector<std::uint32_t> faces;
         for (const SampleRow& row : result.rows) {
@@ -94,20 +143,26 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         result.bare = parts_without(mesh.prepared, faces);
     }
     result.warnings = run_warnings(job, mesh, result);
+    result.warnings.insert(result.warnings.begin(), given.warnings.begin(), given.warnings.end());
+    if (result.given > 0) {
+        note_given(job, mesh, result, progress);
+    }
     return result;
 }
 
 void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,
                        const SampleResult& result, const SampleReport& report) {
     write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension(),
-                  part_columns(mesh.file, job.columns, result.rows));
+                  extra_columns(job, mesh, result));
 }
 
 DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                     ProgressLine& progress) {
     check_space(job, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
-    const SampleParams params = params_on(mesh, job);
+    const GivenInput given = load_given(job, mesh, progress);
+    SampleParams params = params_on(mesh, job);
+    params.given = given.samples;
     const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
     return dry_run_on_device(device, {domain_of(job, mesh, params), job.method.expected(room)},
                              params.min_distance, params.seed, progress);

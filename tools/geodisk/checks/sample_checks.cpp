@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "geodisk/checks/spacing.hpp"
-#include "geodisk/outputs/outputs.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -135,7 +134,6 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
         {"other_surface", 1, "",
          "made with" + used + ", but this command has other options; distances may differ",
          samples_path});
-    print_warning(samples_path + ": " + warnings.back().message);
 }
 
 std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,

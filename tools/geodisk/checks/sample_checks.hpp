@@ -36,9 +36,9 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
 /// file rounds. The rows must have passed check_rows(); without coordinates there are none.
 std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh);
 
-/// Warns where the samples' header tells of another --lift, --weld or
-/// --keep-seams than `additions`, those of the
-/// mesh here: samples of another surface would show as violations, or worse, would not.
+/// Adds a warning where the samples' header tells of another --lift, --weld or --keep-seams than
+/// `additions`, those of the mesh here: samples of another surface would show as violations, or
+/// worse, would not.
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
                            const HeaderEntries& additions, std::vector<MeshWarning>& warnings);
 

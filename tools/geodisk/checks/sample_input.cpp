@@ -28,7 +28,6 @@ void warn_of_moves(const std::string& path, const std::string& mesh_path, std::s
                             "face of " + mesh_path + ", from up to " + rounded(farthest, 3) +
                             " away (tolerance " + rounded(tolerance, 3) + ")",
                         path});
-    print_warning(path + ": " + warnings.back().message);
 }
 
 /// Gives each point the nearest face. Returns those that are too far away.
@@ -63,12 +62,11 @@ std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& m
     return strays;
 }
 
-} // namespace
-
-SampleInput read_samples_on(const std::string& path, const std::string& mesh_path,
-                            const MeshInput& mesh, const HeaderEntries* additions,
-                            const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                            ProgressLine& progress) {
+/// As read_samples_on(), but prints nothing.
+SampleInput read_silently(const std::string& path, const std::string& mesh_path,
+                          const MeshInput& mesh, const HeaderEntries* additions,
+                          const std::string& tolerance, std::vector<MeshWarning>& warnings,
+                          ProgressLine& progress) {
     progress.begin_stage("reading the samples");
     SampleInput input{read_samples(path), {}};
     progress.clear();
@@ -86,12 +84,9 @@ SampleInput read_samples_on(const std::string& path, const std::string& mesh_pat
     return input;
 }
 
-SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
-                                   const MeshInput& mesh, const HeaderEntries* additions,
-                                   const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                                   ProgressLine& progress) {
-    SampleInput input =
-        read_samples_on(path, mesh_path, mesh, additions, tolerance, warnings, progress);
+/// Throws UserError(bad_input) for strays.
+SampleFile without_strays(const std::string& path, const std::string& mesh_path,
+                          SampleInput input) {
     if (input.strays.empty()) {
         return std::move(input.file);
     }
@@ -104,6 +99,39 @@ SampleFile read_samples_exactly_on(const std::string& path, const std::string& m
     fail_input(path, counted(input.strays.size(), "point lies", "points lie") + " farther off " +
                          mesh_path + " than --tolerance allows; " + sample +
                          rounded(first.offset, 3) + " away");
+}
+
+} // namespace
+
+SampleInput read_samples_on(const std::string& path, const std::string& mesh_path,
+                            const MeshInput& mesh, const HeaderEntries* additions,
+                            const std::string& tolerance, std::vector<MeshWarning>& warnings,
+                            ProgressLine& progress) {
+    const std::size_t before = warnings.size();
+    SampleInput input =
+        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress);
+    for (std::size_t i = before; i < warnings.size(); ++i) {
+        print_warning(path + ": " + warnings[i].message);
+    }
+    return input;
+}
+
+SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
+                                   const MeshInput& mesh, const HeaderEntries* additions,
+                                   const std::string& tolerance, std::vector<MeshWarning>& warnings,
+                                   ProgressLine& progress) {
+    return without_strays(
+        path, mesh_path,
+        read_samples_on(path, mesh_path, mesh, additions, tolerance, warnings, progress));
+}
+
+SampleFile read_samples_silently_on(const std::string& path, const std::string& mesh_path,
+                                    const MeshInput& mesh, const HeaderEntries* additions,
+                                    const std::string& tolerance,
+                                    std::vector<MeshWarning>& warnings, ProgressLine& progress) {
+    return without_strays(
+        path, mesh_path,
+        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress));
 }
 
 } // namespace geodisk::tools

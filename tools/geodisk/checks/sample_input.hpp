@@ -34,4 +34,10 @@ SampleFile read_samples_exactly_on(const std::string& path, const std::string& m
                                    const std::string& tolerance, std::vector<MeshWarning>& warnings,
                                    ProgressLine& progress);
 
+/// The same, and leaves the warnings to the caller to print.
+SampleFile read_samples_silently_on(const std::string& path, const std::string& mesh_path,
+                                    const MeshInput& mesh, const HeaderEntries* additions,
+                                    const std::string& tolerance,
+                                    std::vector<MeshWarning>& warnings, ProgressLine& progress);
+
 } // namespace geodisk::tools

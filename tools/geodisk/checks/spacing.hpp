@@ -52,6 +52,17 @@ struct SpacingResult {
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                             std::span<const double> radii, ProgressLine& progress);
 
+/// Pairs of samples of which some were given.
+struct GivenSpacing {
+    SpacingResult others;      ///< Pairs with a sample that was not given.
+    SpacingResult among_given; ///< Pairs of given samples, whose distance is the user's.
+};
+
+/// The same, where rows with `given` other than 0 were given; none were if that is empty.
+GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                           std::span<const double> radii, std::span<const std::uint32_t> given,
+                           ProgressLine& progress);
+
 /// The closest pair of all, by distance, however far apart; none if no path joins any two samples.
 /// Conditions and errors are those of check_spacing().
 std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,

@@ -12,6 +12,7 @@
 #include <geodisk/version.hpp>
 
 #include "files/input_file.hpp"
+#include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
@@ -98,8 +99,15 @@ struct Check {
     std::vector<MeshWarning> warnings;
     Spacing spacing;
     std::vector<StrayRow> strays;
-    SpacingResult result;
+    SpacingResult result;      ///< Of all pairs but these:
+    SpacingResult among_given; ///< Of samples that were given.
 
+    /// Number of samples that were given.
+    std::size_t given() const {
+        const auto values = samples.extra_values(kGivenColumn);
+        return static_cast<std::size_t>(
+            std::ranges::count_if(values, [](auto v) { return v != 0; }));
+    }
     /// Of samples that a distance is known of.
     double rho() const {
         SampleParams params;
@@ -138,6 +146,14 @@ std::string result_text(const Check& check) {
     }
     out << "smallest      " << smallest_text(check) << '\n';
     print_violations(out, check.samples, check.result, spacing.radii_vary);
+    if (const std::size_t given = check.given(); given > 0) {
+        const std::size_t pairs = check.among_given.violations.size();
+        out << "given         " << grouped(given) << " of them"
+            << (pairs == 0 ? ""
+                           : "; " + counted(pairs, "pair", "pairs") +
+                                 " among these too close, no violation")
+            << '\n';
+    }
     if (spacing.wrong > 0) {
         out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
@@ -155,7 +171,8 @@ std::string result_text(const Check& check) {
 }
 
 std::string report_text(const Check& check) {
-    const auto& [options, samples, mesh, warnings, spacing, strays, result] = check;
+    const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given] = check;
+    const std::size_t given = check.given();
     const bool has_distance = spacing.min_distance > 0;
     return text_of(
         Json{{"version", GEODISK_VERSION_STRING},
@@ -171,6 +188,9 @@ std::string report_text(const Check& check) {
              {"smallest", pair_json(result.closest)},
              {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
              {"violations", violations_json(result)},
+             {"given",
+              given == 0 ? Json(nullptr)
+                         : Json{{"samples", given}, {"violations", violations_json(among_given)}}},
              {"wrong_radii", spacing.wrong},
              {"off_the_mesh", strays.size()}});
 }
@@ -241,10 +261,16 @@ void run_verify(const VerifyOptions& options) {
     auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
                                              options.tolerance, warnings, progress);
     Spacing spacing = spacing_of(options, samples, mesh);
-    SpacingResult result = check_spacing(mesh, samples.rows, spacing.radii, progress);
-    const Check check{
-        options,           samples,          mesh, std::move(warnings), std::move(spacing),
-        std::move(strays), std::move(result)};
+    GivenSpacing found = check_spacing(mesh, samples.rows, spacing.radii,
+                                       samples.extra_values(kGivenColumn), progress);
+    const Check check{options,
+                      samples,
+                      mesh,
+                      std::move(warnings),
+                      std::move(spacing),
+                      std::move(strays),
+                      std::move(found.others),
+                      std::move(found.among_given)};
     publish(options.out, report_text(check), result_text(check));
     fail_on_violations(check);
 }

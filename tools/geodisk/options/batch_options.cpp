@@ -144,6 +144,10 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
         sample.density.place_files(
             [&folder](const std::string& name) { return seen_from(folder, name); });
     }
+    if (alone.sample.constraints.is_given()) {
+        sample.constraints.place_files(
+            [&folder](const std::string& name) { return seen_from(folder, name); });
+    }
     return line;
 }
 

@@ -67,6 +67,9 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--count", options.count);
     add_mesh(list, options.mesh);
     add_density(list, options.density);
+    for (const auto& [name, value] : options.constraints.given()) {
+        list.add(name.c_str(), value);
+    }
     list.add("--metric", options.metric, usual.metric);
     list.add("--method", options.method.method, usual.method.method);
     list.add("--pool-ratio", options.method.pool_ratio);

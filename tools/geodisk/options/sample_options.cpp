@@ -65,6 +65,7 @@ SampleJob parse_job(const SampleOptions& options) {
     SampleJob job;
     job.mesh = options.mesh;
     job.density = options.density;
+    job.constraints = options.constraints;
     job.out = options.out;
     job.columns = parse_part_columns(options.out.columns);
     if (!job.columns.empty() && !job.out.output.empty()) {
@@ -92,6 +93,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_seconds();
     check_metric(options, job);
+    job.constraints.check(options.metric);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
     job.density.is_given();
@@ -126,6 +128,7 @@ void add_subject_options(Command command, SampleOptions& options) {
 
     add_mesh_options(command, options.mesh);
     add_density_options(command, options.density);
+    add_constraint_options(command, options.constraints);
 
     command
         .add_option("--metric", options.metric, "NAME",

@@ -8,6 +8,7 @@
 #include <geodisk/domain.hpp>
 #include <geodisk/runner.hpp>
 
+#include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/method_options.hpp"
@@ -20,6 +21,7 @@ namespace geodisk::tools {
 struct SampleOptions {
     MeshOptions mesh;
     DensityOptions density;
+    ConstraintOptions constraints;
     OutputOptions out;
     RunOptions run;
     MethodOptions method;
@@ -43,6 +45,7 @@ void add_job_options(Command command, SampleOptions& options);
 struct SampleJob {
     MeshOptions mesh;
     DensityOptions density;
+    ConstraintOptions constraints;
     OutputOptions out;
     std::vector<std::string> columns; ///< Of the samples, besides those that all have.
     RunOptions run;
@@ -50,7 +53,7 @@ struct SampleJob {
     Method method;
     std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
     double wanted_count = 0;            ///< Of --count, where it chooses the distance; else 0.
-    SampleParams params;                ///< All but the distance, the radii and the throws.
+    SampleParams params; ///< All but the distance, the radii, the throws and given samples.
     RunnerOptions runner;
     std::string picture; ///< File for one, or empty.
     bool legend = false; ///< On the picture.

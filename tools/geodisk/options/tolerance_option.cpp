@@ -5,11 +5,12 @@
 
 namespace geodisk::tools {
 
-void add_tolerance_option(Command command, std::string& tolerance) {
+void add_tolerance_option(Command command, std::string& tolerance, const std::string& group) {
     command.add_option("--tolerance", tolerance, "L",
                        "Maximum distance from the mesh for points without faces (of\n"
                        "other programs), in mesh units or % of the bounding-box\n"
-                       "diagonal (default 0.1%)");
+                       "diagonal (default 0.1%)",
+                       group);
 }
 
 void check_tolerance(const std::string& tolerance) {

@@ -8,7 +8,8 @@ namespace geodisk::tools {
 class Command;
 
 /// Adds --tolerance.
-void add_tolerance_option(Command command, std::string& tolerance);
+void add_tolerance_option(Command command, std::string& tolerance,
+                          const std::string& group = "Options");
 
 /// Throws UserError(usage) for what is no length.
 void check_tolerance(const std::string& tolerance);

@@ -34,6 +34,18 @@ std::string distance_line(const SampleJob& job, const MeshInput& mesh, double la
            ") in mesh units" + (job.is_geodesic() ? "" : ", " + metric_text(job)) + '\n';
 }
 
+/// Says how many samples were given, if any were.
+std::string given_line(const SampleResult& result) {
+    const std::size_t pairs = result.among_given.violations.size();
+    return result.given == 0
+               ? ""
+               : "given         " + grouped(result.given) + " of them" +
+                     (pairs == 0
+                          ? ""
+                          : "; " + counted(pairs, "pair", "pairs") + " among these too close") +
+                     '\n';
+}
+
 } // namespace
 
 std::string dry_sample_json(const SampleJob& job, const MeshInput& mesh, const DryRun& dry) {
@@ -79,6 +91,8 @@ SampleHeader SampleReport::header() const {
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));
     }
+    const HeaderEntries constraints = job_.constraints.entries();
+    header.entries.insert(header.entries.end(), constraints.begin(), constraints.end());
     return header;
 }
 
@@ -104,6 +118,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"radius", distance / 2},
                   {"metric", metric_text(job_)},
                   {"sample_radii", nullptr}, // Where they do not vary.
+                  {"given", nullptr},        // Without --existing.
                   {"seed", params.seed}};
     document["mesh"]["components_without_samples"] = result_.bare.count;
     if (result_.picture) {
@@ -111,6 +126,11 @@ Json SampleReport::document(const SecondsByStage& after) const {
     }
     if (most_radius_ > 0) {
         document["sample_radii"] = {{"least", least_radius_}, {"most", most_radius_}};
+    }
+    if (result_.given > 0) {
+        document["given"] = {{"samples", result_.given},
+                             {"close_pairs", result_.among_given.violations.size()},
+                             {"closest", pair_json(result_.among_given.closest)}};
     }
     document.update(drawn_json(drawn()));
     document.update({{"rho", rho_},
@@ -136,7 +156,7 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
             << " at the samples\n";
     }
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
-        << candidates_text(drawn(), result_.params.seed);
+        << given_line(result_) << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(after), job_.out.output);
     if (result_.picture) {
         out << "picture       " << one_line(job_.picture) << '\n';

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files/sample_file.hpp"
+#include "geodisk/checks/spacing.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/dry_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
@@ -22,6 +23,8 @@ struct SampleResult {
     SampleParams params; ///< Of the job, on its mesh.
     DeviceRun done;
     std::vector<SampleRow> rows;
+    std::size_t given = 0;     ///< Number of rows that were given: the first.
+    SpacingResult among_given; ///< Their pairs.
     BareParts bare;
     std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;

@@ -1,0 +1,171 @@
+// Samples that are kept: --existing of `geodisk sample`, and how `geodisk verify` tells them apart.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "files/output_file.hpp"
+#include "files/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kMesh = "builtin:torus-knot:8";
+
+Json json_in(const TemporaryFolder& folder, const char* name) {
+    return Json::parse(bytes_of(folder / name));
+}
+
+void write_text(const TemporaryFolder& folder, const char* name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+}
+
+bool same(const tools::SampleRow& a, const tools::SampleRow& b) {
+    return a.face == b.face && std::ranges::equal(a.bary, b.bary) &&
+           std::ranges::equal(a.position, b.position);
+}
+
+/// Checks that b.ply begins with the samples of a.ply, which alone are marked.
+std::size_t check_kept(const TemporaryFolder& folder) {
+    const tools::SampleFile given = tools::read_samples(folder / "a.ply");
+    const tools::SampleFile all = tools::read_samples(folder / "b.ply");
+    const auto marks = all.extra_values("given");
+    REQUIRE(marks.size() == all.rows.size());
+    REQUIRE(all.rows.size() > given.rows.size());
+    for (std::size_t i = 0; i < all.rows.size(); ++i) {
+        REQUIRE(marks[i] == (i < given.rows.size() ? 1 : 0));
+        REQUIRE((marks[i] == 0 || same(all.rows[i], given.rows[i])));
+    }
+    return given.rows.size();
+}
+
+} // namespace
+
+TEST_CASE("existing samples are kept and marked, and new ones keep the distance") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "100"}).status == 0);
+    const Outcome made = run(folder, {"sample", kMesh, "-o", "b.ply", "-n", "400", "--seed", "2",
+                                      "--existing", "a.ply", "--json", "b.json"});
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    CHECK(made.err.empty());
+    const std::size_t given = check_kept(folder);
+    CHECK(contains(made.out, "given         " + std::to_string(given) + " of them\n"));
+    CHECK(json_in(folder, "b.json")["given"]["samples"] == given);
+    CHECK(json_in(folder, "b.json")["given"]["close_pairs"] == 0);
+    const Outcome verified = run(folder, {"verify", kMesh, "b.ply"});
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "given         " + std::to_string(given) + " of them\n"));
+    const tools::SampleFile all = tools::read_samples(folder / "b.ply");
+    REQUIRE(all.header.find("existing") != nullptr);
+    CHECK(*all.header.find("existing") == "a.ply");
+
+    // In all formats that have columns, and first in the others.
+    for (const std::string output : {"b.csv", "b.pcd"}) {
+        REQUIRE(run(folder, {"sample", kMesh, "-o", output, "-n", "400", "--seed", "2",
+                             "--existing", "a.ply"})
+                    .status == 0);
+        CHECK(tools::read_samples(folder / output).extra_values("given").size() == all.rows.size());
+    }
+    for (const std::string output : {"b.xyz", "b.npz", "b.glb"}) {
+        CHECK(run(folder, {"sample", kMesh, "-o", output, "-n", "400", "--existing", "a.ply"})
+                  .status == 0);
+    }
+}
+
+TEST_CASE("radii that vary, darts and a dry run take existing samples") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "100"}).status == 0);
+    for (const Arguments& more : {Arguments{"-d", "0.2", "--radius-factor", "curvature"},
+                                  Arguments{"-n", "400", "-d", "0.1", "--method", "darts"}}) {
+        REQUIRE(run(folder, joined({"sample", kMesh, "-o", "b.ply", "--existing", "a.ply"}, more))
+                    .status == 0);
+        check_kept(folder);
+        const Outcome verified = run(folder, {"verify", kMesh, "b.ply"});
+        INFO(verified.out, verified.err);
+        CHECK(verified.status == 0);
+    }
+    CHECK(run(folder, {"sample", kMesh, "--dry-run", "-n", "400", "--existing", "a.ply"}).status ==
+          0);
+    const Outcome page =
+        run(folder, {"batch", kMesh, "-o", "out", "-n", "400", "--existing", "a.ply"});
+    INFO(page.out, page.err);
+    CHECK(page.status == 0);
+}
+
+TEST_CASE("points of other programs are put on the mesh, and pairs too close are told") {
+    const TemporaryFolder folder;
+    write_text(folder, "points.xyz", "0.5 0.25 0.0051\n0.25 0.25 0.005\n0.2501 0.25 0.005\n");
+    const Outcome made = run(folder, {"sample", "builtin:plate:4", "-o", "b.ply", "-d", "0.1",
+                                      "--existing", "points.xyz", "--json", "b.json"});
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.err, "points.xyz: 3 points without faces put on the nearest face"));
+    CHECK(contains(made.err, "1 pair of existing samples closer than the minimum distance; they "
+                             "are kept. The closest are samples 1 and 2, at 0.0001"));
+    CHECK(contains(made.out, "3 of them; 1 pair among these too close\n"));
+    const Json told = json_in(folder, "b.json");
+    CHECK(told["given"]["close_pairs"] == 1);
+    CHECK(told["given"]["closest"]["samples"] == Json({1, 2}));
+    const Outcome verified =
+        run(folder, {"verify", "builtin:plate:4", "b.ply", "--json", "v.json"});
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "violations    0\n"));
+    CHECK(contains(verified.out, "3 of them; 1 pair among these too close, no violation\n"));
+    CHECK(json_in(folder, "v.json")["given"]["violations"]["pairs"] == 1);
+
+    // A new sample that is too close to an existing one is a violation all the same.
+    tools::SampleFile moved = tools::read_samples(folder / "b.ply");
+    moved.rows.back() = moved.rows.front();
+    {
+        tools::AtomicFile file((folder / "c.ply").string());
+        tools::write_samples(file, tools::sample_target((folder / "c.ply").string(), "", false),
+                             moved.header, moved.rows, 3, moved.extra);
+        file.commit();
+    }
+    CHECK(run(folder, {"verify", "builtin:plate:4", "c.ply"}).status == 1);
+}
+
+TEST_CASE("a column given of another program marks nothing") {
+    const TemporaryFolder folder;
+    write_text(folder, "points.csv", "x,y,z,given\n0.5,0.25,0.005,1\n0.5,0.26,0.005,7\n");
+    CHECK(run(folder, {"verify", "builtin:plate:4", "points.csv", "-d", "0.1"}).status == 1);
+}
+
+TEST_CASE("existing samples that cannot be kept are refused") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "50"}).status == 0);
+    const auto fails = [&](int status, const std::string& part, const Arguments& more,
+                           const char* mesh = "builtin:plate:4") {
+        check_fails(folder, status, part, joined({"sample", mesh, "-o", "b.ply"}, more));
+    };
+    write_text(folder, "far.xyz", "0.5 0.25 0.005\n0.5 0.25 3.005\n");
+    fails(3,
+          "far.xyz: 1 point lies farther off builtin:plate:4 than --tolerance allows; sample 1 "
+          "is 3 away",
+          {"-d", "0.1", "--existing", "far.xyz"});
+    fails(3, "a.ply: sample", {"-d", "0.1", "--existing", "a.ply"});
+    write_text(folder, "nan.xyz", "0.5 nan 0\n");
+    fails(3, "nan.xyz: line 1", {"-d", "0.1", "--existing", "nan.xyz"});
+    write_text(folder, "empty.csv", "x,y,z\n");
+    fails(3, "empty.csv: has no samples to keep", {"-d", "0.1", "--existing", "empty.csv"});
+    fails(3, "none.ply", {"-d", "0.1", "--existing", "none.ply"});
+    fails(2, "--tolerance is for points that are read; give --existing",
+          {"-d", "0.1", "--tolerance", "1"});
+    fails(2, "--existing goes by distances along the surface, so it takes no --metric euclidean",
+          {"-d", "0.1", "--metric", "euclidean", "--existing", "a.ply"}, kMesh);
+    fails(2, "samples of --existing count too, so ask for more than",
+          {"-n", "20", "--existing", "a.ply"}, kMesh);
+    check_fails(folder, 2, "the samples would replace the existing samples",
+                {"sample", kMesh, "-o", "a.ply", "-n", "400", "--existing", "a.ply"});
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,36 @@
+// The options that say what new samples must respect, the same for every command that samples.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "files/files_in_use.hpp"
+#include "files/sample_file.hpp"
+
+namespace geodisk::tools {
+
+class Command;
+
+/// As given on the command line.
+struct ConstraintOptions {
+    std::string existing;  ///< File of samples to keep, or "".
+    std::string tolerance; ///< For points without faces, or "".
+
+    bool is_given() const { return !existing.empty(); }
+    /// Throws UserError(usage) for options that contradict each other, or `metric`, the name of the
+    /// job's, and for a tolerance that is no length.
+    void check(const std::string& metric) const;
+    /// Adds the files that are read.
+    void add_files(std::vector<NamedFile>& read) const;
+    /// Puts `place(name)` for each file that is named.
+    void place_files(const std::function<std::string(const std::string&)>& place);
+    /// Name and value of what is given, as the header of a sample file names it.
+    HeaderEntries entries() const;
+    /// Name and value of each option, as on the command line.
+    HeaderEntries given() const;
+};
+
+void add_constraint_options(Command command, ConstraintOptions& options);
+
+} // namespace geodisk::tools
