@@ -14,6 +14,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
+from ._existing import ExistingLike, existing_of
 from ._mesh import Mesh, keys_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import MeshLike
@@ -36,12 +37,16 @@ class _Job:
         density: ArrayLike | None,
         radius_factor: ArrayLike | None,
         face_keys: ArrayLike | None,
+        existing: ExistingLike | None,
         pool_ratio: float,
     ) -> None:
         self.mesh, self.seed = mesh, seed
         self._radii = radii_of(mesh, density, radius_factor)
         self.distance_part = 1.0 if self._radii is None else self._radii.distance_part
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
+        self.existing = existing_of(mesh, existing)
+        if count is not None and len(self.existing) >= count:
+            raise e.invalid(f"count is {count}, but {len(self.existing)} existing samples count too")
         radii = None if self._radii is None else self._radii.handle.value
         self.has_radii = self._radii is not None
         self.params = s.SurfaceParams(
@@ -49,6 +54,8 @@ class _Job:
             pool_ratio=float(pool_ratio),
             radii=radii,
             face_keys=None if self._keys is None else self._keys.ctypes.data,
+            given=self.existing.ctypes.data,
+            given_count=len(self.existing),
         )
         self.search: CountSearch | None = None
         if distance is None:
@@ -94,6 +101,7 @@ def sample_many(
     density: Sequence[ArrayLike | None] | None = None,
     radius_factor: Sequence[ArrayLike | None] | None = None,
     face_keys: Sequence[ArrayLike | None] | None = None,
+    existing: Sequence[ExistingLike | None] | None = None,
     pool_ratio: float = 20,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -113,7 +121,7 @@ def sample_many(
         faces, as for :func:`sample`. A :class:`Mesh` may appear several times.
     min_distance, radius, count, seed : number, or a sequence with one per mesh
         As for :func:`sample`.
-    density, radius_factor, face_keys : sequence with one per mesh, or None
+    density, radius_factor, face_keys, existing : sequence with one per mesh, or None
         As for :func:`sample`; None for a mesh without.
     pool_ratio, weld, keep_seams, columns, mesh_format, device, progress
         As for :func:`sample`, for all meshes.
@@ -147,6 +155,7 @@ def sample_many(
     seeds = _each(seed, "seed", n)
     densities, keys = _each_array(density, "density", n), _each_array(face_keys, "face_keys", n)
     factors = _each_array(radius_factor, "radius_factor", n)
+    kept = _each_array(existing, "existing", n)
 
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
@@ -158,6 +167,7 @@ def sample_many(
             densities[i],
             factors[i],
             keys[i],
+            kept[i],
             pool_ratio,
         )
 
@@ -184,7 +194,10 @@ def _run(runs: Runs, jobs: list[_Job]) -> list[_Job]:
     """Samples the meshes of jobs. Returns those that need another run."""
     found = samples_of_parts(
         runs.run(_domain(jobs)),
-        [(job.seed, job.told_distance(), job.mesh._surface) for job in jobs],
+        [
+            (job.seed, job.told_distance(), job.mesh._surface, len(job.existing))
+            for job in jobs
+        ],
     )
     return [job for job, samples in zip(jobs, found) if job.take(samples)]
 

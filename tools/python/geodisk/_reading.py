@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _errors as e
 from ._samples import Samples
-from ._writing import PART_COLUMNS, Header
+from ._writing import WHOLE_COLUMNS, Header
 
 Columns = dict[str, NDArray[Any]]
 
@@ -87,7 +87,7 @@ def _from_npz(file: BinaryIO) -> Samples:
         header = json.loads(str(archive["header"])) if "header" in archive else {}
         header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
         arrays = {name: archive[name] for name in names if name in archive}
-        columns = {name: archive[name] for name in PART_COLUMNS if name in archive}
+        columns = {name: archive[name] for name in WHOLE_COLUMNS if name in archive}
     return _samples(header, columns=columns, **arrays)
 
 
@@ -121,7 +121,7 @@ def _of_columns(columns: Columns, header: Header) -> Samples:
         polygon_index=_whole(columns, "polygon_index"),
         barycentric=table("bary_u", "bary_v", "bary_w"),
         radius=columns.get("radius"),
-        columns={name: _whole(columns, name) for name in PART_COLUMNS if name in columns},
+        columns={name: _whole(columns, name) for name in WHOLE_COLUMNS if name in columns},
     )
 
 

@@ -50,13 +50,17 @@ def samples_of(
     report["min_distance"] = report["min_distance"] * distance_part if given is None else given
     columns = _columns_of(handle)
     columns.pop("part")
+    columns["given"] = _given(report["samples"], report["given"])
     return _made(columns, surface, report, report["min_distance"], seed, **box)
 
 
 def samples_of_parts(
-    handle: c.Handle, parts: Sequence[tuple[int, float, Surface]]
+    handle: c.Handle, parts: Sequence[tuple[int, float, Surface, int]]
 ) -> list[Samples]:
-    """Returns what a run gave on each of several surfaces, of their seeds and minimum distances."""
+    """Returns what a run gave on each of several surfaces, of their seeds and minimum distances.
+
+    The last number of a part is that of its given samples.
+    """
     report = _report_of(handle)
     columns = _columns_of(handle)
     part = columns.pop("part")
@@ -64,8 +68,9 @@ def samples_of_parts(
     by_part = np.argsort(part, kind="stable")
     ends = np.cumsum(np.bincount(part, minlength=len(parts)))
     result = []
-    for (seed, distance, surface), rows in zip(parts, np.split(by_part, ends[:-1])):
+    for (seed, distance, surface, given), rows in zip(parts, np.split(by_part, ends[:-1])):
         own = {name: None if x is None else x[rows] for name, x in columns.items()}
+        own["given"] = _given(len(rows), given)
         result.append(_made(own, surface, dict(report), distance, seed))
     return result
 
@@ -100,6 +105,11 @@ def _columns_of(handle: c.Handle) -> dict[str, NDArray[Any] | None]:
     }
 
 
+def _given(count: int, given: int) -> NDArray[np.uint32] | None:
+    """Returns 1 for the first ones, which were given; None if none were."""
+    return (np.arange(count) < given).astype(np.uint32) if given > 0 else None
+
+
 def _made(
     columns: dict[str, Any],
     surface: Surface | None,
@@ -109,12 +119,16 @@ def _made(
     **box: Any,
 ) -> Samples:
     faces = columns["face_index"]
+    whole = {} if surface is None else {k: x[faces] for k, x in surface.columns.items()}
+    given = columns.pop("given")
+    if given is not None:
+        whole["given"] = given
     return Samples(
         min_distance=distance,
         seed=seed,
         report=report,
         polygon_index=None if faces is None else _polygons_of(surface, faces),
-        columns={} if surface is None else {k: x[faces] for k, x in surface.columns.items()},
+        columns=whole,
         _surface=surface,
         **columns,
         **box,

@@ -17,7 +17,7 @@ from ._arrays import indices, real
 from ._files import complete
 from ._sample import Sample
 from ._surface import Surface
-from ._writing import PART_COLUMNS, columns_of, header_of, write_csv, write_npz, write_ply
+from ._writing import WHOLE_COLUMNS, columns_of, header_of, write_csv, write_npz, write_ply
 
 if TYPE_CHECKING:
     import pandas
@@ -46,8 +46,8 @@ def _table(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.f
 
 def _column(values: ArrayLike, name: str, n: int) -> NDArray[np.uint32]:
     """As uint32, one for each of n samples."""
-    if name not in PART_COLUMNS:
-        raise e.invalid(f"columns: {name!r} is none of {', '.join(PART_COLUMNS)}")
+    if name not in WHOLE_COLUMNS:
+        raise e.invalid(f"columns: {name!r} is none of {', '.join(WHOLE_COLUMNS)}")
     array = indices(values, name).astype(np.uint32, copy=False)
     if array.shape != (n,):
         raise e.invalid(f"{name} has the shape {array.shape}, not {(n,)}")
@@ -89,7 +89,7 @@ class Samples:
         Numbers of the given faces, if polygons were split into triangles.
     columns : dict of ndarray of uint32, shape (n,)
         Numbers of the triangles' ``"mesh"``, ``"primitive"`` and ``"node"`` in a glTF file, if
-        requested from :class:`Mesh`.
+        requested from :class:`Mesh`. ``"given"`` is 1 for existing samples that a run kept, else 0.
 
     Raises
     ------

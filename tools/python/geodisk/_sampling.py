@@ -13,6 +13,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
+from ._existing import ExistingLike, existing_of
 from ._mesh import keys_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
@@ -37,6 +38,7 @@ def sample(
     throws: int = 0,
     stop_count: int = 0,
     face_keys: ArrayLike | None = None,
+    existing: ExistingLike | None = None,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
@@ -75,6 +77,10 @@ def sample(
     face_keys : array_like of int, shape (f,), optional
         One key per triangle, all different, by which its candidates are drawn: a triangle with the
         same key has the same candidates in every mesh.
+    existing : Samples, or a pair of face_index and barycentric, optional
+        Samples of the mesh to keep: the first of the result, with a 1 in ``columns["given"]``. New
+        ones keep the minimum distance from them. They count towards `count` and `stop_count`.
+        Distances among them are not checked; :func:`verify` tells them apart.
     metric : {"geodesic", "euclidean", "approximate"}
         Distance to use; the last two are for comparison.
     edge_lengths, weld, keep_seams, columns, mesh_format
@@ -133,6 +139,9 @@ def sample(
     radii = radii_of(mesh, density, radius_factor)
     part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)
+    kept = existing_of(mesh, existing)
+    if count is not None and len(kept) >= count:
+        raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
     params = s.SurfaceParams(
         seed=seed,
         pool_ratio=float(pool_ratio),
@@ -140,6 +149,8 @@ def sample(
         radii=None if radii is None else radii.handle.value,
         face_keys=None if keys is None else keys.ctypes.data,
         metric=s.METRICS[metric],
+        given=kept.ctypes.data,
+        given_count=len(kept),
     )
 
     def domain_at(at: float, stop: int) -> c.Handle:

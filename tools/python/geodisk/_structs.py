@@ -115,6 +115,8 @@ class SurfaceParams(_Sized):
         ("radii", c_void_p),
         ("face_keys", c_void_p),
         ("metric", c_int32),
+        ("given", c_void_p),
+        ("given_count", c_size_t),
     ]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,6 +49,10 @@ class Verification:
         Number of samples whose radius does not match the density.
     rho : float
         Packing density; NaN in boxes, and without a minimum distance.
+    given : int
+        Number of samples with a 1 in ``columns["given"]``.
+    given_violations : ndarray of int64, shape (k, 2)
+        Pairs of these that are too close, closest first. They count as no violations.
     """
 
     samples: int
@@ -61,6 +66,8 @@ class Verification:
     misplaced: int
     wrong_radii: int
     rho: float
+    given: int
+    given_violations: NDArray[np.int64]
 
     @property
     def ok(self) -> bool:
@@ -159,7 +166,7 @@ def verify(
         run(place, ["verify", *arguments], accepted=(0, 1))
         report = json.loads((place / "report.json").read_text("utf-8"))
     violations, closest = report["violations"], report["smallest"]
-    pairs = np.array([violations["rows_a"], violations["rows_b"]], np.int64).T
+    given = report.get("given")
     distance, rho = report["min_distance"], report.get("rho")
     return Verification(
         samples=len(samples),
@@ -167,10 +174,18 @@ def verify(
         smallest=math.inf if closest is None else closest["distance"],
         smallest_ratio=math.inf if closest is None else report["smallest_ratio"],
         closest=None if closest is None else (closest["samples"][0], closest["samples"][1]),
-        violations=np.ascontiguousarray(pairs),
+        violations=_pairs(violations),
         distances=np.array(violations["distances"], np.float64),
         complete=violations["complete"],
         misplaced=report["outside"] if surface is None else report["off_the_mesh"],
         wrong_radii=report.get("wrong_radii", 0),
         rho=math.nan if rho is None else rho,
+        given=0 if given is None else given["samples"],
+        given_violations=_pairs({} if given is None else given["violations"]),
     )
+
+
+def _pairs(violations: dict[str, Any]) -> NDArray[np.int64]:
+    """Returns the rows of each pair."""
+    rows = [violations.get("rows_a", []), violations.get("rows_b", [])]
+    return np.ascontiguousarray(np.array(rows, np.int64).T)

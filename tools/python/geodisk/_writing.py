@@ -16,8 +16,9 @@ if TYPE_CHECKING:
 
 Header = dict[str, str]
 
-#: Names of the columns that tell what part of its file a triangle lies in.
-PART_COLUMNS = ("mesh", "primitive", "node")
+#: Names of columns of whole numbers: what part of its file a triangle lies in, and whether the
+#: sample was given.
+WHOLE_COLUMNS = ("mesh", "primitive", "node", "given")
 
 
 def header_of(samples: Samples) -> Header:

@@ -1,0 +1,81 @@
+"""Samples that a run keeps."""
+
+import geodisk
+import numpy as np
+import pytest
+
+from meshes import FACES, VERTICES, same
+
+
+def first(samples, count):
+    """Triangles and weights of the first ones."""
+    return samples.face_index[:count], samples.barycentric[:count]
+
+
+def test_a_run_goes_on_from_its_own_samples():
+    whole = geodisk.sample(VERTICES, FACES, min_distance=0.3)
+    assert "given" not in whole.columns and whole.report["given"] == 0
+    for existing in (whole[:20], first(whole, 20)):
+        again = geodisk.sample(VERTICES, FACES, min_distance=0.3, existing=existing)
+        assert same(again, whole)
+        assert again.report["given"] == 20
+        assert again.columns["given"].tolist() == [1] * 20 + [0] * (len(whole) - 20)
+    kept = again[15:25]
+    assert kept.columns["given"].sum() == 5 and kept[0].columns["given"] == 1
+
+
+def test_existing_samples_are_told_apart(tmp_path):
+    sparse = geodisk.sample(VERTICES, FACES, min_distance=0.6, seed=4)
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.3, existing=sparse)
+    assert np.array_equal(samples.points[: len(sparse)], sparse.points)
+    assert geodisk.verify(samples).given == len(sparse)
+    dense = geodisk.sample(VERTICES, FACES, min_distance=0.2, seed=4)
+    crowded = geodisk.sample(VERTICES, FACES, min_distance=0.3, existing=dense)
+    found = geodisk.verify(crowded)
+    assert found.ok and len(found.violations) == 0
+    assert found.given == len(dense) and len(found.given_violations) > 0
+    crowded.save(tmp_path / "a.ply")
+    again = geodisk.read(tmp_path / "a.ply")
+    assert np.array_equal(again.columns["given"], crowded.columns["given"])
+    assert geodisk.verify(crowded[len(dense) :]).given == 0
+
+
+def test_each_of_many_meshes_has_its_own():
+    whole = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=2)
+    a, b = geodisk.sample_many(
+        [(VERTICES, FACES)] * 2, min_distance=0.3, seed=[1, 2], existing=[None, whole[:9]]
+    )
+    assert same(b, whole) and b.columns["given"].sum() == 9
+    assert "given" not in a.columns
+
+
+def test_a_count_has_the_existing_ones_in_it():
+    existing = geodisk.sample(VERTICES, FACES, min_distance=0.6)
+    samples = geodisk.sample(VERTICES, FACES, count=300, existing=existing)
+    assert abs(len(samples) - 300) <= 15
+    some = geodisk.sample(
+        VERTICES, FACES, min_distance=0.3, stop_count=len(existing) + 5, existing=existing
+    )
+    assert len(some) == len(existing) + 5
+
+
+def test_wrong_ones_are_refused():
+    whole = geodisk.sample(VERTICES, FACES, min_distance=0.3)
+
+    def refuses(text, existing, error=geodisk.InvalidArgument, **options):
+        with pytest.raises(error, match=text):
+            geodisk.sample(VERTICES, FACES, existing=existing, **{"min_distance": 0.3, **options})
+
+    refuses("no face_index", geodisk.Samples(whole.points))
+    refuses("has no samples", whole[:0])
+    refuses("a geodisk.Samples, or a pair", whole.points, TypeError)
+    refuses("given sample 1 is in face 1000000", ([0, 1000000], [[1, 0, 0], [1, 0, 0]]))
+    refuses("given sample 0 has weights", ([0], [[1, 1, 0]]))
+    refuses("given sample 0 has weights", ([0], [[np.nan, 1, 0]]))
+    refuses("shape", ([0, 1], [[1, 0, 0]]))
+    refuses("stop count", whole, stop_count=3)
+    refuses("count too", whole, min_distance=None, count=10)
+    other = geodisk.Samples(
+        whole.points + 1, face_index=whole.face_index, barycentric=whole.barycentric
+    )
+    refuses("existing sample 0 is .* are these samples of another mesh", other)

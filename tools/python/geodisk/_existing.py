@@ -1,0 +1,79 @@
+"""Samples that a run keeps."""
+
+from __future__ import annotations
+
+from typing import Any, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from ._arrays import indices, real
+from ._mesh import Mesh
+from ._samples import Samples
+from ._surface import Surface
+
+#: Samples of the mesh, or their triangles and weights.
+ExistingLike = Union[Samples, Tuple[ArrayLike, ArrayLike]]
+
+#: geodisk_surface_point.
+_POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
+
+
+def existing_of(mesh: Mesh, existing: ExistingLike | None) -> NDArray[Any]:
+    """Returns the samples to keep as the library takes them; none for None."""
+    if existing is None:
+        return np.empty(0, _POINT)
+    if isinstance(existing, Samples):
+        if existing.face_index is None or existing.barycentric is None:
+            raise e.invalid(
+                "existing samples have no face_index and barycentric; the program puts points "
+                "without them on a mesh (geodisk sample --existing)"
+            )
+        faces, weights = existing.face_index, existing.barycentric
+        _check_places(mesh._surface, existing, faces, weights)
+    else:
+        if not isinstance(existing, (tuple, list)) or len(existing) != 2:
+            raise TypeError(
+                "existing is a geodisk.Samples, or a pair of face_index and barycentric"
+            )
+        faces = indices(existing[0], "face_index").astype(np.uint32)
+        weights = real(existing[1], "barycentric").astype(np.float64)
+    if faces.ndim != 1 or weights.shape != (len(faces), 3):
+        raise e.invalid(
+            f"existing: face_index has the shape {faces.shape}, barycentric {weights.shape}, not "
+            "(n,) and (n, 3)"
+        )
+    points = np.empty(len(faces), _POINT)
+    points["face"], points["weights"] = faces, weights
+    if len(points) == 0:
+        raise e.invalid("existing has no samples; leave it out")
+    return points
+
+
+def _check_places(
+    surface: Surface, samples: Samples, faces: NDArray[Any], weights: NDArray[Any]
+) -> None:
+    """Checks that positions are those of faces and weights, which those of another mesh are not."""
+    if samples.points is None or surface.edge_lengths is not None:
+        return
+    corners = surface.indices()
+    if len(faces) == 0 or faces.max() >= len(corners):
+        return  # The library refuses it.
+    vertices = np.asarray(surface.coordinates(), np.float64)
+    points = np.einsum("ij,ijk->ik", weights, vertices[corners[faces]])
+    if points.shape != samples.points.shape:
+        raise e.invalid(
+            f"existing samples have {samples.points.shape[1]} coordinates, the vertices of the "
+            f"mesh {points.shape[1]}"
+        )
+    used = vertices[corners.ravel()]
+    extent = float(np.linalg.norm(np.ptp(used, axis=0)))
+    allowed = 2.0**-22 * min(float(np.abs(used).max()), 16 * extent)
+    offsets = np.linalg.norm(points - samples.points, axis=1)
+    if not (offsets <= allowed).all():
+        first = int(np.argmax(~(offsets <= allowed)))
+        raise e.invalid(
+            f"existing sample {first} is {offsets[first]:.3g} from the point given by its face "
+            "and weights; are these samples of another mesh?"
+        )
