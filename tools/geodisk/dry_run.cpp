@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geodisk/opened_device.hpp"
+#include "geodisk/reports/json.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"

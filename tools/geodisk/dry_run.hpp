@@ -5,7 +5,7 @@
 #include <string>
 
 #include "geodisk/device_run.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 
 namespace geodisk::tools {
 

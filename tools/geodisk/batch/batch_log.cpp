@@ -6,6 +6,7 @@
 
 #include "files/input_file.hpp"
 #include "files/text_lines.hpp"
+#include "geodisk/reports/json.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {

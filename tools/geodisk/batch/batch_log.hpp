@@ -6,7 +6,6 @@
 
 #include "files/line_log.hpp"
 #include "geodisk/options/batch_options.hpp"
-#include "geodisk/reports/json.hpp"
 
 namespace geodisk::tools {
 

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geodisk/reports/json.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {

@@ -11,6 +11,7 @@
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/opened_device.hpp"
 #include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/json.hpp"
 #include "geodisk/reports/kernel_report.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"

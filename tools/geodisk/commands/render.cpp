@@ -12,6 +12,7 @@
 #include "geodisk/options/render_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/picture_run.hpp"
+#include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"

@@ -21,6 +21,7 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/spectrum_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "geodisk/reports/spectrum_report.hpp"
 #include "geodisk/spectrum_run.hpp"

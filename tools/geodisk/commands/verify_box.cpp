@@ -11,6 +11,7 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/box_report.hpp"
+#include "geodisk/reports/json.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 

@@ -11,7 +11,7 @@
 #include "analysis/surface_statistics.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 
 namespace geodisk::tools {
 

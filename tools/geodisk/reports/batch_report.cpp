@@ -6,6 +6,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "geodisk/reports/json.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {

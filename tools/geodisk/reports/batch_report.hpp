@@ -7,7 +7,6 @@
 
 #include "geodisk/batch/batch_run.hpp"
 #include "geodisk/options/batch_options.hpp"
-#include "geodisk/reports/json.hpp"
 
 namespace geodisk::tools {
 

@@ -7,6 +7,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "geodisk/reports/json.hpp"
 #include "geodisk/reports/run_report.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"

@@ -7,12 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geodisk/reports/json_type.hpp"
 #include "geometry/mesh_warning.hpp"
 #include "program/json_text.hpp"
 
 namespace geodisk::tools {
-
-using Json = nlohmann::ordered_json;
 
 /// Indented, with a line break at the end.
 inline std::string text_of(const Json& document) {

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "geodisk/reports/json.hpp"
 #include "program/human_text.hpp"
 #include "program/table.hpp"
 

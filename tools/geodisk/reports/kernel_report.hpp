@@ -6,7 +6,7 @@
 
 #include <geodisk/kernel_report.hpp>
 
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 
 namespace geodisk::tools {
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "geodisk/reports/json.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {

@@ -6,7 +6,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 
 namespace geodisk::tools {
 

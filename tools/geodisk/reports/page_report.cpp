@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "geodisk/commit.hpp"
+#include "geodisk/reports/json.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {

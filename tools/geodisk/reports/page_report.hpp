@@ -8,7 +8,7 @@
 
 #include "geodisk/page_content.hpp"
 #include "geodisk/reports/analysis_report.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 #include "geodisk/reports/sample_report.hpp"
 #include "geodisk/spectrum_run.hpp"
 #include "picture/view.hpp"

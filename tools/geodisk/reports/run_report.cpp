@@ -1,5 +1,6 @@
 #include "geodisk/reports/run_report.hpp"
 
+#include "geodisk/reports/json.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 

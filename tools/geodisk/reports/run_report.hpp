@@ -8,7 +8,7 @@
 
 #include "geodisk/device_run.hpp"
 #include "geodisk/options/method_options.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 
 namespace geodisk::tools {
 

@@ -6,6 +6,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"

@@ -12,7 +12,7 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/picture_run.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 #include "geodisk/reports/run_report.hpp"
 #include "geometry/mesh_parts.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "geodisk/reports/json.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 #include "program/table.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/spectrum_rings.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/json_type.hpp"
 
 namespace geodisk::tools {
 
