@@ -8,7 +8,7 @@
 #include "files/input_file.hpp"
 #include "geodisk/opened_device.hpp"
 #include "geodisk/outputs/outputs.hpp"
-#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/picture_subject.hpp"
 #include "picture/png.hpp"
 #include "picture/surface_content.hpp"
 #include "program/failure.hpp"
@@ -21,8 +21,8 @@ namespace {
 /// Tells what was drawn.
 class RenderReport {
   public:
-    RenderReport(const RenderOptions& options, const Subject& subject, const std::string& device,
-                 const DrawnPicture& drawn)
+    RenderReport(const RenderOptions& options, const PictureSubject& subject,
+                 const std::string& device, const DrawnPicture& drawn)
         : options_(options), subject_(subject), device_(device), drawn_(drawn) {}
 
     std::string json(double write_seconds) const {
@@ -75,7 +75,7 @@ class RenderReport {
     }
 
     const RenderOptions& options_;
-    const Subject& subject_;
+    const PictureSubject& subject_;
     const std::string& device_;
     const DrawnPicture& drawn_;
 };
@@ -101,8 +101,8 @@ DrawnPicture draw_content(const Context& context, const picture::PictureParams& 
     return drawn;
 }
 
-void write_picture(const RenderOptions& options, const Subject& subject, const Context& context,
-                   const DrawnPicture& drawn, ProgressLine& progress) {
+void write_picture(const RenderOptions& options, const PictureSubject& subject,
+                   const Context& context, const DrawnPicture& drawn, ProgressLine& progress) {
     check_validation(context);
     const RenderReport report(options, subject, context.report().name, drawn);
     write_outputs(options.out, "the picture", progress, report,
@@ -148,8 +148,9 @@ DrawnPicture draw_surface(const Context& context, const picture::PictureParams& 
 }
 
 void render_surface(const RenderOptions& options, const picture::PictureParams& params,
-                    const Subject& subject, const PreparedMesh& mesh, const picture::Scene& scene,
-                    std::vector<SurfaceDisk> disks, ProgressLine& progress) {
+                    const PictureSubject& subject, const PreparedMesh& mesh,
+                    const picture::Scene& scene, std::vector<SurfaceDisk> disks,
+                    ProgressLine& progress) {
     if (disks.empty()) {
         fail_input(subject.samples_file, "has no samples to show");
     }
@@ -159,7 +160,7 @@ void render_surface(const RenderOptions& options, const picture::PictureParams& 
 }
 
 void render_content(const RenderOptions& options, const picture::PictureParams& params,
-                    const Subject& subject, const picture::Content& content,
+                    const PictureSubject& subject, const picture::Content& content,
                     ProgressLine& progress) {
     const Context context = open_device(options.device, true, progress);
     write_picture(options, subject, context, draw_content(context, params, content, progress),

@@ -10,7 +10,6 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/render_options.hpp"
 #include "geodisk/outputs/progress.hpp"
-#include "geodisk/reports/json.hpp"
 #include "picture/picture.hpp"
 #include "picture/scene.hpp"
 #include "program/path.hpp"
@@ -25,12 +24,7 @@ struct DrawnPicture {
     double window_seconds = 0, draw_seconds = 0;
 };
 
-/// What a picture is of, and how a report tells of it.
-struct Subject {
-    std::string samples_file;
-    std::string lines; ///< For people, but for the samples.
-    Json json;         ///< For programs.
-};
+struct PictureSubject;
 
 /// Throws UserError(usage) for what is no *.png, UserError(bad_output) for what cannot be written.
 void check_picture_path(const Path& path);
@@ -49,12 +43,13 @@ DrawnPicture draw_surface(const Context& context, const picture::PictureParams& 
 
 /// Draws a surface as `options` ask for, and writes the picture. Throws UserError.
 void render_surface(const RenderOptions& options, const picture::PictureParams& params,
-                    const Subject& subject, const PreparedMesh& mesh, const picture::Scene& scene,
-                    std::vector<SurfaceDisk> disks, ProgressLine& progress);
+                    const PictureSubject& subject, const PreparedMesh& mesh,
+                    const picture::Scene& scene, std::vector<SurfaceDisk> disks,
+                    ProgressLine& progress);
 
 /// The same of what needs no windows.
 void render_content(const RenderOptions& options, const picture::PictureParams& params,
-                    const Subject& subject, const picture::Content& content,
+                    const PictureSubject& subject, const picture::Content& content,
                     ProgressLine& progress);
 
 } // namespace geodisk::tools

@@ -12,8 +12,8 @@
 #include "geodisk/options/render_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/picture_run.hpp"
-#include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
+#include "geodisk/reports/picture_subject.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 
@@ -46,10 +46,11 @@ void render_samples(const RenderOptions& options) {
         read_samples_exactly_on(options.samples, options.mesh.mesh, mesh, &additions,
                                 options.tolerance, warnings, progress);
     std::vector<SurfaceDisk> disks = sample_disks(options.samples, samples, mesh, distance);
-    const Subject subject{options.samples,
-                          mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),
-                          {{"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},
-                           {"warnings", warnings_json(warnings)}}};
+    const PictureSubject subject{
+        options.samples,
+        mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),
+        {{"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},
+         {"warnings", warnings_json(warnings)}}};
     progress.begin_stage("preparing the scene");
     const picture::Scene scene = make_scene(options.mesh, mesh);
     render_surface(options, params, subject, mesh.prepared, scene, std::move(disks), progress);

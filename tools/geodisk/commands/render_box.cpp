@@ -11,6 +11,7 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/box_report.hpp"
+#include "geodisk/reports/picture_subject.hpp"
 #include "picture/box_frame.hpp"
 #include "picture/flat_box.hpp"
 #include "picture/surface_content.hpp"
@@ -55,8 +56,9 @@ BoxParams read_box(const RenderOptions& options, const SampleFile& samples) {
     return box;
 }
 
-void render_flat(const RenderOptions& options, const PictureParams& params, const Subject& subject,
-                 const BoxParams& box, const SampleFile& samples, ProgressLine& progress) {
+void render_flat(const RenderOptions& options, const PictureParams& params,
+                 const PictureSubject& subject, const BoxParams& box, const SampleFile& samples,
+                 ProgressLine& progress) {
     const picture::FlatBox flat(box);
     std::vector<SurfaceDisk> disks;
     for (const SampleRow& row : samples.rows) {
@@ -66,8 +68,9 @@ void render_flat(const RenderOptions& options, const PictureParams& params, cons
     render_surface(options, params, subject, flat.mesh(), scene, std::move(disks), progress);
 }
 
-void render_balls(const RenderOptions& options, const PictureParams& params, const Subject& subject,
-                  const BoxParams& box, const SampleFile& samples, ProgressLine& progress) {
+void render_balls(const RenderOptions& options, const PictureParams& params,
+                  const PictureSubject& subject, const BoxParams& box, const SampleFile& samples,
+                  ProgressLine& progress) {
     if (params.style != Style::automatic && params.style != Style::disks &&
         params.style != Style::points) {
         fail_usage("--style " + options.style +
@@ -102,9 +105,10 @@ void render_box(const RenderOptions& options) {
     if (is_flat && params.cuts) {
         fail_usage("--cut is for samples in a box of 3 dimensions");
     }
-    const Subject subject{path,
-                          "box           " + box_text(box) + '\n',
-                          {{"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}}}};
+    const PictureSubject subject{
+        path,
+        "box           " + box_text(box) + '\n',
+        {{"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}}}};
     params.up = params.up.value_or(picture::Up::y);
     for (std::optional<picture::View>& view : params.views) {
         view = view.value_or(is_flat ? picture::View{0, 0} : picture::View{30, 20});

@@ -1,0 +1,17 @@
+// PictureSubject: what the report of a picture tells of the samples.
+#pragma once
+
+#include <string>
+
+#include "geodisk/reports/json.hpp"
+
+namespace geodisk::tools {
+
+/// What a picture is of, and how a report tells of it.
+struct PictureSubject {
+    std::string samples_file;
+    std::string lines; ///< For people, but for the samples.
+    Json json;         ///< For programs.
+};
+
+} // namespace geodisk::tools
