@@ -136,6 +136,9 @@ std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface,
     const float intensity = surface.frame.intensity(stage);
     std::vector<std::uint32_t> counts(surface.face_count());
     for (std::uint32_t face = 0; face < surface.face_count(); ++face) {
+        if (!takes_samples(params, face)) {
+            continue;
+        }
         float mean = intensity * face_area(surface, face);
         if (params.radii != nullptr) {
             mean = mean * params.radii->densities()[face];

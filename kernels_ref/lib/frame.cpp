@@ -68,6 +68,19 @@ double deepest_tree(const PreparedMesh& mesh) {
     return deepest;
 }
 
+/// What the samples of a job fill: the part of the area that the mask leaves, counted as often as
+/// radii that vary are smaller there.
+double area_for_samples(const PreparedMesh& mesh, const SampleParams& params) {
+    double area = 0;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        if (takes_samples(params, face)) {
+            const double denser = params.radii != nullptr ? params.radii->samples_in(face) : 1;
+            area += area_of(mesh, face) * denser;
+        }
+    }
+    return area;
+}
+
 double longest_edge_of(const PreparedMesh& mesh) {
     double longest = 0;
     for (const HalfEdge& edge : mesh.half_edges()) {
@@ -167,8 +180,11 @@ Frame frame_of(const PreparedMesh& mesh, const SampleParams& params) {
     if (vary) {
         samples = samples_on(params.radii->effective_area(), unit);
     }
-    frame.stages = StageRule::of(samples, params.pool_ratio, params.throws);
     const double full = samples * (unit / distance) * (unit / distance);
+    if (!params.face_mask.empty()) {
+        samples = samples_on(area_for_samples(mesh, params), unit);
+    }
+    frame.stages = StageRule::of(samples, params.pool_ratio, params.throws);
     frame.nearest_first = 2.0 * mesh.face_count() / std::max(2.0, full) >= kFacesOfLargeDisk;
     return frame;
 }

@@ -55,6 +55,11 @@ Frame frame_of(const PreparedMesh& mesh, const SampleParams& params);
 /// Returns the frame for disks of one size, without a pool.
 Frame frame_of(const PreparedMesh& mesh, double min_distance);
 
+/// Returns true if the mask of the job leaves the face.
+inline bool takes_samples(const SampleParams& params, std::uint32_t face) {
+    return params.face_mask.empty() || params.face_mask[face] != 0;
+}
+
 /// Returns the area of a face, in mesh units.
 double area_of(const PreparedMesh& mesh, std::uint32_t face);
 

@@ -15,7 +15,7 @@ bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const
     constexpr double kFew = 24;
     const auto weight_of = [&](std::uint32_t face) {
         const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
-        return area_of(mesh, face) * density;
+        return takes_samples(params, face) ? area_of(mesh, face) * density : 0;
     };
     double sum = 0, squares = 0;
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {

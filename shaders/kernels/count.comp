@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Counts the candidates of each face.
-// reads: faces, fans (keys, radii)   writes: starts (counts), cells (counts of faces of one cell)
+// reads: faces, fans (keys, mask, radii)   writes: starts (counts), cells (counts of faces of one cell)
 // spec: local size, rounding, adaptive, many rows
 
 #include "../lib/prelude.glsl"
@@ -16,7 +16,7 @@ float mean_count(uint face) {
     uvec4 lengths = load_lengths(face);
     Edge edge = load_edge(face, 0u, lengths);
     precise float area = 0.5 * (edge.len * apex_of(edge, load_edge(face, 2u, lengths)).y);
-    return mean_in(face, area);
+    return takes_samples(face) ? mean_in(face, area) : 0.0;
 }
 
 void counted(uint face, uint number) {

@@ -129,10 +129,10 @@ TEST_CASE("wrong arguments are told of") {
     params.radii = nullptr;
     double distance = 0;
     check_wrong("another mesh", [&](geodisk_error* e) {
-        return geodisk_distance_for_count(mesh.get(), radii.get(), 10, &distance, e);
+        return geodisk_distance_for_count(mesh.get(), radii.get(), nullptr, 10, &distance, e);
     });
     check_wrong("count", [&](geodisk_error* e) {
-        return geodisk_distance_for_count(mesh.get(), nullptr, 0.0 / 1, &distance, e);
+        return geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 0.0 / 1, &distance, e);
     });
     check_wrong("factors for", [&](geodisk_error* e) {
         return geodisk_radii_create(mesh.get(), factors.data(), GEODISK_FLOAT64, 9, &made_radii, e);
@@ -345,7 +345,7 @@ TEST_CASE("runs are watched, cancelled, and one at a time") {
     const TestMesh knot = builtin("torus-knot", 8);
     const auto mesh = mesh_of(knot);
     double distance = 0;
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 3000, &distance, nullptr) ==
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 3000, &distance, nullptr) ==
             GEODISK_OK);
     const auto domain = surface_of(mesh.get(), distance);
     const auto sampler = owned<geodisk_sampler>([&](auto** made, geodisk_error* error) {

@@ -17,7 +17,8 @@ namespace {
 Owned<geodisk_domain> knot(std::uint64_t seed) {
     const auto mesh = mesh_of(builtin("torus-knot", 8));
     double distance = 0;
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 200, &distance, nullptr) == GEODISK_OK);
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 200, &distance, nullptr) ==
+            GEODISK_OK);
     return surface_of(mesh.get(), distance, seed);
 }
 

@@ -216,7 +216,8 @@ const TestMesh& knot() {
 Owned<geodisk_domain> knot_domain(std::uint64_t seed = 1) {
     const auto mesh = mesh_of(knot());
     double distance = 0;
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 200, &distance, nullptr) == GEODISK_OK);
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 200, &distance, nullptr) ==
+            GEODISK_OK);
     return surface_of(mesh.get(), distance, seed);
 }
 
@@ -265,7 +266,8 @@ TEST_CASE("a job becomes one of another domain, in the same buffers or larger on
     // In the middle of a run, before anything of it is decided.
     const auto mesh = mesh_of(builtin("icosphere", 2));
     double distance = 0;
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 100, &distance, nullptr) == GEODISK_OK);
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 100, &distance, nullptr) ==
+            GEODISK_OK);
     const auto sphere = surface_of(mesh.get(), distance, 9);
     REQUIRE(geodisk_job_set_seed(recording.job(), 8, nullptr) == GEODISK_OK);
     recording.record(GEODISK_BEGIN, 1);
@@ -277,7 +279,7 @@ TEST_CASE("a job becomes one of another domain, in the same buffers or larger on
     recording.renew(cube.get());
     CHECK(recording.run() == geodisk_samples_count(sample(shared_sampler(), cube.get()).get()));
 
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 3000, &distance, nullptr) ==
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 3000, &distance, nullptr) ==
             GEODISK_OK);
     const auto many = surface_of(mesh.get(), distance, 9);
     CHECK_FALSE(recording.renew(many.get()));
@@ -334,8 +336,8 @@ TEST_CASE("a job in a box leaves its order on the device") {
 TEST_CASE("a job throws an exact number of darts, and stops at orders") {
     const auto mesh = mesh_of(knot());
     auto params = sized<geodisk_surface_params>();
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 200, &params.min_distance, nullptr) ==
-            GEODISK_OK);
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 200, &params.min_distance,
+                                       nullptr) == GEODISK_OK);
     params.throws = 3'000;
     const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
         return geodisk_domain_surface(mesh.get(), &params, made, error);

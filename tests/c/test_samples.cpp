@@ -36,14 +36,14 @@ const TestMesh& knot() {
 
 TEST_CASE("a surface has the samples that it has in C++") {
     const PreparedMesh prepared_mesh = prepared(knot());
-    const double distance = distance_for_count(prepared_mesh, nullptr, 500);
+    const double distance = distance_for_count(prepared_mesh, {}, 500);
     const SampleSet set =
         expected(expect(Domain::surface(prepared_mesh, {.min_distance = distance, .seed = 3})));
 
     const auto mesh = mesh_of(knot());
     double same_distance = 0;
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, 500, &same_distance, nullptr) ==
-            GEODISK_OK);
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 500, &same_distance,
+                                       nullptr) == GEODISK_OK);
     CHECK(same_distance == distance);
     const auto domain = surface_of(mesh.get(), distance, 3);
     const auto samples = sample(shared_sampler(), domain.get());
@@ -183,7 +183,7 @@ TEST_CASE("radii vary, keys move candidates, and parts have samples of their own
                                     made, error);
     });
     auto params = sized<geodisk_surface_params>();
-    REQUIRE(geodisk_distance_for_count(mesh.get(), radii.get(), 300, &params.min_distance,
+    REQUIRE(geodisk_distance_for_count(mesh.get(), radii.get(), nullptr, 300, &params.min_distance,
                                        nullptr) == GEODISK_OK);
     params.radii = radii.get();
     std::vector<std::uint32_t> keys;
@@ -210,6 +210,23 @@ TEST_CASE("radii vary, keys move candidates, and parts have samples of their own
         REQUIRE(radius[i] == field.factor_at(set.samples[i].face, set.samples[i].weights) *
                                  params.min_distance / 2);
     }
+
+    std::vector<std::uint8_t> mask(info.faces, 0);
+    std::fill_n(mask.begin(), info.faces / 3, std::uint8_t{1});
+    params.face_mask = mask.data();
+    const auto masked = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+    SampleParams same_masked = same;
+    same_masked.face_mask = mask;
+    CHECK(placed(sample(shared_sampler(), masked.get()).get()) ==
+          placed(expected(expect(Domain::surface(prepared_mesh, same_masked)))));
+    double distance = 0;
+    REQUIRE(geodisk_distance_for_count(mesh.get(), radii.get(), mask.data(), 300, &distance,
+                                       nullptr) == GEODISK_OK);
+    CHECK(distance == distance_for_count(prepared_mesh, same_masked, 300));
+    CHECK(distance < params.min_distance);
+    params.face_mask = nullptr;
 
     // The same surface twice, and one of another size.
     params.radii = nullptr;
@@ -255,7 +272,7 @@ TEST_CASE("other metrics and boxes") {
     for (const auto& [metric, same] : {std::pair{GEODISK_EUCLIDEAN, Metric::euclidean},
                                        std::pair{GEODISK_APPROXIMATE, Metric::approximate}}) {
         auto params = sized<geodisk_surface_params>();
-        params.min_distance = distance_for_count(prepared_mesh, nullptr, 300);
+        params.min_distance = distance_for_count(prepared_mesh, {}, 300);
         params.metric = metric;
         const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
             return geodisk_domain_surface(mesh.get(), &params, made, error);

@@ -190,6 +190,14 @@ class Program {
             keys[i] = static_cast<std::uint32_t>(i * 77);
         }
         params.face_keys = bytes_.below(4) == 0 ? keys.data() : nullptr;
+        static const std::vector<std::uint8_t> mask = [&] {
+            std::vector<std::uint8_t> values(keys.size());
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                values[i] = i % 3 == 0 ? 1 : 0;
+            }
+            return values;
+        }();
+        params.face_mask = bytes_.below(4) == 0 ? mask.data() : nullptr;
         params.metric = static_cast<geodisk_metric>(bytes_.below(5)) - 1;
         return params;
     }
@@ -274,8 +282,8 @@ class Program {
 
     void find_distance(geodisk_error* e) {
         double distance = 0;
-        geodisk_distance_for_count(meshes_.any(bytes_), radii_.any(bytes_), bytes_.number(),
-                                   &distance, e);
+        geodisk_distance_for_count(meshes_.any(bytes_), radii_.any(bytes_), nullptr,
+                                   bytes_.number(), &distance, e);
         geodisk_count_search* search = nullptr;
         geodisk_count_search_create(bytes_.number(), &search, e);
         std::int32_t nearest = 0;

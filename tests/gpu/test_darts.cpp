@@ -272,7 +272,7 @@ TEST_SUITE("darts") {
             const PreparedMesh mesh = prepared(builtin(shape, 4));
             for (const std::uint64_t seed : {1u, 2u, 3u}) {
                 SampleParams params;
-                params.min_distance = distance_for_count(mesh, nullptr, kCount);
+                params.min_distance = distance_for_count(mesh, {}, kCount);
                 params.seed = seed;
                 samples += static_cast<double>(sample(mesh, params).samples.size());
                 ++runs;

@@ -123,6 +123,15 @@ def test_options():
         VERTICES, FACES, min_distance=0.4, face_keys=np.arange(len(FACES))[::-1]
     )
     assert not same(keyed, every)
+    mask = np.arange(len(FACES)) % 3 == 0
+    masked = geodisk.sample(VERTICES, FACES, min_distance=0.4, face_mask=mask)
+    assert mask[masked.face_index].all() and 20 < len(masked) < len(every)
+    chosen = np.nonzero(mask)[0]
+    assert same(
+        geodisk.sample(VERTICES, FACES, min_distance=0.4, face_mask=chosen.tolist()), masked
+    )
+    counted = geodisk.sample(VERTICES, FACES, count=100, face_mask=chosen)
+    assert len(counted) in range(95, 106) and mask[counted.face_index].all()
     factors = np.linspace(0.3, 1, len(VERTICES))
     varied = geodisk.sample(VERTICES, FACES, min_distance=0.6, radius_factor=factors)
     assert 0.09 <= varied.radius.min() < 0.15 and varied.radius.max() <= 0.3
@@ -266,6 +275,11 @@ def test_bad_values():
     fails(ValueError, "contradict", density=[1, 1, 1, 1], radius_factor=[1, 1, 1, 1])
     fails(ValueError, "shape", face_keys=[1, 2])
     fails(ValueError, "alike", face_keys=[1, 2, 2, 3])
+    fails(ValueError, r"shape \(3,\), not \(4,\)", face_mask=[True, False, True])
+    fails(ValueError, "triangle 4, the mesh has 4; a mask of zeros", face_mask=[0, 4])
+    fails(ValueError, "leaves out all faces", face_mask=[False] * 4)
+    fails(ValueError, "leaves out all faces", face_mask=[])
+    fails(TypeError, "integers", face_mask=[0.5, 1.0, 0.0, 1.0])
     fails(geodisk.NoDevice, "nowhere", device="nowhere")
     rejected = TETRAHEDRON[1].copy()
     rejected[2, 1] = 77

@@ -37,6 +37,7 @@ def test_counts_densities_and_keys():
         min_distance=[0.6, 0.6, 0.1],
         density=[density, None, None],
         face_keys=[None, keys, None],
+        face_mask=[None, None, [0]],
     )
     assert same(a, geodisk.sample(MESHES[0], min_distance=0.6, density=density))
     assert same(b, geodisk.sample(MESHES[0], min_distance=0.6, face_keys=keys))

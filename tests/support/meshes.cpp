@@ -126,6 +126,24 @@ std::vector<Point> random_points(const PreparedMesh& mesh, std::uint64_t seed,
     return ref::draw_pool(ref::Surface<double>(mesh, params), params).by_rank();
 }
 
+std::vector<std::uint8_t> mask_above(const TestMesh& mesh, std::size_t axis) {
+    const std::size_t dimension = mesh.dimension;
+    double least = mesh.positions[axis], most = least;
+    for (std::size_t i = axis; i < mesh.positions.size(); i += dimension) {
+        least = std::min(least, mesh.positions[i]);
+        most = std::max(most, mesh.positions[i]);
+    }
+    std::vector<std::uint8_t> mask;
+    for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+        double sum = 0;
+        for (std::size_t k = 3 * face; k < 3 * face + 3; ++k) {
+            sum += mesh.positions[mesh.triangles[k] * dimension + axis];
+        }
+        mask.push_back(sum / 3 > (least + most) / 2 ? 1 : 0);
+    }
+    return mask;
+}
+
 TestMesh subdivided(const TestMesh& mesh, int times) {
     if (times == 0) {
         return mesh;

@@ -64,6 +64,9 @@ std::vector<Point> random_points(const PreparedMesh& mesh, std::uint64_t seed, s
 /// faces 4f to 4f + 3; the surface stays the same.
 TestMesh subdivided(const TestMesh& mesh, int times);
 
+/// A mask of the faces whose center has a coordinate above the middle of the bounding box.
+std::vector<std::uint8_t> mask_above(const TestMesh& mesh, std::size_t axis);
+
 // Flat rectangles [0, width] x [0, height] at z = 0, on which straight lines are shortest.
 
 /// Cells cut along the same diagonal.

@@ -75,7 +75,7 @@ SampleParams FieldCase::params(double count, std::uint64_t seed) const {
     SampleParams result;
     result.seed = seed;
     result.radii = &field;
-    result.min_distance = distance_for_count(surface, &field, count);
+    result.min_distance = distance_for_count(surface, result, count);
     return result;
 }
 

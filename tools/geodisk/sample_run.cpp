@@ -34,7 +34,7 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     params.min_distance =
         job.min_distance
             ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
-            : distance_for_count(mesh.prepared, params.radii, job.wanted_count);
+            : distance_for_count(mesh.prepared, params, job.wanted_count);
     params.throws = job.method.throws_for(expected_count(area, params.min_distance));
     return params;
 }
@@ -135,13 +135,11 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.done = std::move(done);
     result.rows = to_rows(mesh, params.min_distance, set.samples);
     result.given = set.given;
-    if (mesh.prepared.statistics().components > 1) {
-        std::vector<std::uint32_t> faces;
-        for (const SampleRow& row : result.rows) {
-            faces.push_back(row.face);
-        }
-        result.bare = parts_without(mesh.prepared, faces);
+    std::vector<std::uint32_t> faces;
+    for (const SampleRow& row : result.rows) {
+        faces.push_back(row.face);
     }
+    result.bare = parts_without(mesh.prepared, faces, params.face_mask);
     result.warnings = run_warnings(job, mesh, result);
     result.warnings.insert(result.warnings.begin(), given.warnings.begin(), given.warnings.end());
     if (result.given > 0) {

@@ -56,7 +56,7 @@ SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> di
     for (const SurfaceDisk& disk : disks) {
         faces.push_back(disk.face);
     }
-    set.bare_components = parts_without(mesh.prepared, faces).count;
+    set.bare_components = parts_without(mesh.prepared, faces, {}).count;
     progress.begin_stage("measuring distances");
     set.found = analysis::measure(mesh.prepared, disks, probes_for(probes, set.samples), seed,
                                   [&](double part) {

@@ -7,35 +7,75 @@
 #include <geodisk/vertex_sets.hpp>
 
 namespace geodisk::tools {
+namespace {
 
-BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t> faces) {
-    const std::span<const HalfEdge> edges = mesh.half_edges();
-    const auto vertices = static_cast<std::uint32_t>(mesh.fans().size());
-    VertexSets parts(vertices);
-    std::vector<bool> is_used(vertices);
-    for (std::size_t i = 0; i < edges.size(); i += 3) {
-        const auto [a, b, c] =
-            std::array{edges[i].origin, edges[i + 1].origin, edges[i + 2].origin};
-        if (a != b && b != c && c != a) {
-            parts.join(a, b);
-            parts.join(b, c);
-            is_used[a] = is_used[b] = is_used[c] = true;
+std::array<std::uint32_t, 3> corners_of(const PreparedMesh& mesh, std::uint32_t face) {
+    const HalfEdge* const edges = &mesh.half_edges()[std::size_t{3} * face];
+    return {edges[0].origin, edges[1].origin, edges[2].origin};
+}
+
+bool takes_part(const std::array<std::uint32_t, 3>& corners) {
+    const auto [a, b, c] = corners;
+    return a != b && b != c && c != a;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> part_of_triangles(const PreparedMesh& mesh) {
+    VertexSets sets(mesh.vertex_count());
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        if (const auto corners = corners_of(mesh, face); takes_part(corners)) {
+            sets.join(corners[0], corners[1]);
+            sets.join(corners[1], corners[2]);
         }
     }
-    std::vector<bool> has_one(vertices);
+    std::vector<std::uint32_t> numbers(mesh.vertex_count(), kNoPart); // By lowest vertex.
+    std::vector<std::uint32_t> parts(mesh.face_count(), kNoPart);
+    std::uint32_t count = 0;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        if (const auto corners = corners_of(mesh, face); takes_part(corners)) {
+            std::uint32_t& number = numbers[sets.lowest(corners[0])];
+            number = number == kNoPart ? count++ : number;
+            parts[face] = number;
+        }
+    }
+    return parts;
+}
+
+BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t> faces,
+                        std::span<const std::uint8_t> mask) {
+    if (mesh.statistics().components == 1) {
+        return {};
+    }
+    struct Part {
+        bool has_sample = false, takes_samples = false;
+        double area = 0; ///< That takes samples.
+    };
+    const std::vector<std::uint32_t> part_of = part_of_triangles(mesh);
+    std::vector<Part> parts(mesh.statistics().components);
     for (const std::uint32_t face : faces) {
-        has_one[parts.lowest(edges[std::size_t{3} * face].origin)] = true;
+        if (part_of[face] != kNoPart) {
+            parts[part_of[face]].has_sample = true;
+        }
+    }
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        if (part_of[face] != kNoPart && (mask.empty() || mask[face] != 0)) {
+            const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
+            parts[part_of[face]].takes_samples = true;
+            parts[part_of[face]].area += 0.5 * edge.length * edge.apex_y;
+        }
     }
     BareParts bare;
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        bare.count += is_used[v] && parts.lowest(v) == v && !has_one[v];
+    bare.parts = 0;
+    double area = 0, bare_area = 0;
+    for (const Part& part : parts) {
+        const bool is_bare = part.takes_samples && !part.has_sample;
+        bare.parts += part.takes_samples;
+        bare.count += is_bare;
+        area += part.area;
+        bare_area += is_bare ? part.area : 0;
     }
-    double area = 0;
-    for (std::size_t i = 0; bare.count > 0 && i < edges.size(); i += 3) {
-        const bool is_bare = !has_one[parts.lowest(edges[i].origin)];
-        area += is_bare ? 0.5 * edges[i].length * edges[i].apex_y : 0;
-    }
-    bare.area_share = area > 0 ? area / mesh.statistics().area : 0;
+    bare.area_share = bare_area > 0 ? bare_area / area : 0;
     return bare;
 }
 

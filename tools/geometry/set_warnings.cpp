@@ -34,9 +34,9 @@ void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
     const double miss = std::abs(static_cast<double>(set.samples) - set.wanted_count);
     if (set.wanted_count > 0 &&
         miss > std::max(kTolerance * set.wanted_count, std::min(1.0, set.wanted_count / 4))) {
-        const std::string reason =
-            set.parts > 1 ? "; each of the " + grouped(set.parts) + " parts has samples of its own"
-                          : "";
+        const std::string reason = set.bare.parts > 1 ? "; each of the " + grouped(set.bare.parts) +
+                                                            " parts has samples of its own"
+                                                      : "";
         warnings.push_back({"count_missed", static_cast<std::uint64_t>(miss), "",
                             counted(set.samples, "sample", "samples") + " instead of " +
                                 grouped(static_cast<std::uint64_t>(set.wanted_count)) +
@@ -59,12 +59,12 @@ std::vector<MeshWarning> set_warnings(const SampledSet& set) {
                             ""});
     }
     const bool is_full = set.wanted_count == 0 && set.stop_count == 0 && !set.has_throws;
-    if (is_full && set.samples > 0 && set.samples + bare.count <= set.parts) {
+    if (is_full && set.samples > 0 && set.samples + bare.count <= bare.parts) {
         warnings.push_back(
             {"single_samples", set.samples, "",
-             (set.parts == 1 ? "there is a single sample" : "no part has more than one sample") +
+             (bare.parts == 1 ? "there is a single sample" : "no part has more than one sample") +
                  std::string(": the minimum distance of ") + rounded(set.min_distance, 6) +
-                 " is larger than the " + (set.parts == 1 ? set.domain + " has" : "parts have") +
+                 " is larger than the " + (bare.parts == 1 ? set.domain + " has" : "parts have") +
                  " room for",
              ""});
     }

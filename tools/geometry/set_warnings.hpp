@@ -18,7 +18,6 @@ struct SampledSet {
     std::uint32_t stop_count = 0; ///< Samples to stop at, or 0.
     bool has_throws = false;      ///< The number of darts was given.
     std::string domain = "mesh";  ///< What has the room for samples.
-    std::uint64_t parts = 1;      ///< Of the mesh.
     BareParts bare{};
 };
 

@@ -325,6 +325,9 @@ typedef struct geodisk_surface_params {
     /* One key per face, all different, by which its candidates are drawn: a triangle with the same
      * key has the same candidates in every mesh. NULL for the indices of faces. */
     const uint32_t *face_keys;
+    /* One byte per face: a face with 0 gets no samples, but paths cross it. NULL if all faces take
+     * samples. */
+    const uint8_t *face_mask;
     geodisk_metric metric; /* All but GEODISK_GEODESIC need three coordinates and no radii. */
     /* Samples that are given, which are copied; NULL for none. They are the first samples of the
      * run, in this order, and new ones keep the minimum distance from them. Distances among them
@@ -389,9 +392,11 @@ GEODISK_C_API geodisk_status geodisk_domain_box(const geodisk_box_params *params
 
 GEODISK_C_API void geodisk_domain_release(geodisk_domain *domain);
 
-/* Writes the distance that should give about `count` samples on a mesh. `radii` may be NULL. */
+/* Writes the distance that should give about `count` samples on a mesh. `radii` and `face_mask` are
+ * as in geodisk_surface_params. */
 GEODISK_C_API geodisk_status geodisk_distance_for_count(const geodisk_mesh *mesh,
-                                                        const geodisk_radii *radii, double count,
+                                                        const geodisk_radii *radii,
+                                                        const uint8_t *face_mask, double count,
                                                         double *distance, geodisk_error *error);
 /* Writes the distance that should give about `count` samples in a box; ignores min_distance. */
 GEODISK_C_API geodisk_status geodisk_box_distance_for_count(const geodisk_box_params *params,

@@ -47,6 +47,9 @@ struct SampleParams {
     /// same key has the same candidates in every mesh. Empty for the indices of faces; otherwise
     /// one key per face, all different. Must outlive the run.
     std::span<const std::uint32_t> face_keys{};
+    /// One byte per face: a face with 0 gets no samples, but paths cross it. Empty if all faces
+    /// take samples. Must outlive the run.
+    std::span<const std::uint8_t> face_mask{};
     /// Samples that are given. They are kept as they are, as the first samples of the run and in
     /// this order, and new ones keep the minimum distance from them. Distances among them are not
     /// checked. They count towards `stop_count`. Weights are rounded to multiples of 2^-24.
@@ -102,6 +105,7 @@ struct Stages {
 };
 
 /// Returns the area that a run fills: the mesh's, or RadiusField::effective_area() if radii vary.
+/// With a face mask, that of the faces that take samples; takes time linear in the mesh then.
 GEODISK_API double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept;
 
 /// Returns the expected number of samples for a distance: rho^2 A / (2 sqrt(3) r^2), r = D / 2.
@@ -110,9 +114,9 @@ GEODISK_API double expected_count(double area, double min_distance) noexcept;
 /// Returns the distance that should give about `count` samples on a surface without borders.
 GEODISK_API double distance_for_count(double area, double count) noexcept;
 
-/// Returns the distance that should give about `count` samples on a mesh, with radii that vary or
-/// null. More samples fit beside a border: kBorderSamples per distance along it.
-GEODISK_API double distance_for_count(const PreparedMesh& mesh, const RadiusField* radii,
+/// Returns the distance that should give about `count` samples on a mesh, with the radii and the
+/// face mask of `params`. More samples fit beside a border: kBorderSamples per distance along it.
+GEODISK_API double distance_for_count(const PreparedMesh& mesh, const SampleParams& params,
                                       double count) noexcept;
 
 /// Returns the packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
@@ -121,12 +125,12 @@ GEODISK_API double packing_density(double area, double min_distance, double coun
 /// Returns the candidates of a job: `throws`, or the pool_ratio times the expected count, at least
 /// 64.
 ///
-/// Errors: `invalid_argument` for a parameter out of range; for radii or face keys of another
-/// number of faces; for a given sample, naming it, in a face that does not exist or repeats a
-/// vertex, or with weights that are negative or do not sum to 1; for more given samples than
-/// `stop_count`; for a pool of more than 2^32 candidates, naming their number; for an edge
-/// longer than 4,000 distances, where rounding would matter too much; for a face, `Error::element`,
-/// that expects more than kMostPerFace candidates in a stage.
+/// Errors: `invalid_argument` for a parameter out of range; for radii, face keys or a face mask of
+/// another number of faces; for a mask that leaves no area for samples; for a given sample, naming
+/// it, in a face that does not exist or repeats a vertex, or with weights that are negative or do
+/// not sum to 1; for more given samples than `stop_count`; for a pool of more than 2^32 candidates,
+/// naming their number; for an edge longer than 4,000 distances, where rounding would matter too
+/// much; for a face, `Error::element`, that expects more than kMostPerFace candidates in a stage.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
 

@@ -58,6 +58,8 @@ class RadiusField {
     /// Returns the area of a surface that takes as many samples with the largest radius everywhere:
     /// the integral of 1 / g^2, or of the density in units of that at r_max.
     double effective_area() const noexcept { return effective_area_; }
+    /// Returns the mean over a face of what effective_area() integrates.
+    GEODISK_API double samples_in(std::uint32_t face) const noexcept;
 
     /// Return the density of candidates in each face, relative to that at r_max, and its maximum:
     /// the mean of 1 / g^2, or less where candidates are thinned to a density.

@@ -9,6 +9,7 @@
 #include <geodisk/job_frame.hpp>
 
 #include "c/c_call.hpp"
+#include "engine/domain/stages.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -38,6 +39,10 @@ Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& g
     if (given.face_keys != nullptr) {
         part.face_keys.assign(given.face_keys, given.face_keys + part.mesh->prepared.face_count());
         part.params.face_keys = part.face_keys;
+    }
+    if (given.face_mask != nullptr) {
+        part.face_mask.assign(given.face_mask, given.face_mask + part.mesh->prepared.face_count());
+        part.params.face_mask = part.face_mask;
     }
     if (given.given == nullptr && given.given_count != 0) {
         return wrong("params->given is NULL");
@@ -248,7 +253,8 @@ void geodisk_domain_release(geodisk_domain* domain) {
 }
 
 geodisk_status geodisk_distance_for_count(const geodisk_mesh* mesh, const geodisk_radii* radii,
-                                          double count, double* distance, geodisk_error* error) {
+                                          const uint8_t* face_mask, double count, double* distance,
+                                          geodisk_error* error) {
     return answer(error, [&]() -> Result<Done> {
         if (mesh == nullptr || distance == nullptr) {
             return wrong("mesh or distance is NULL");
@@ -260,8 +266,16 @@ geodisk_status geodisk_distance_for_count(const geodisk_mesh* mesh, const geodis
         if (const auto checked = check_count(count); !checked) {
             return checked.error();
         }
-        *distance =
-            distance_for_count(prepared, radii != nullptr ? &radii->shared->field : nullptr, count);
+        SampleParams params;
+        params.min_distance = 1; // Is not looked at, but checked.
+        params.radii = radii != nullptr ? &radii->shared->field : nullptr;
+        if (face_mask != nullptr) {
+            params.face_mask = {face_mask, prepared.face_count()};
+        }
+        if (const auto checked = check_params(prepared, params); !checked) {
+            return checked.error();
+        }
+        *distance = distance_for_count(prepared, params, count);
         return Done{};
     });
 }

@@ -19,6 +19,7 @@ struct Part {
     std::shared_ptr<const Radii> radii;
     std::vector<std::uint32_t> face_keys;
     std::vector<Sample> given;
+    std::vector<std::uint8_t> face_mask;
     SampleParams params;
 };
 

@@ -88,6 +88,13 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
     });
 }
 
+double RadiusField::samples_in(std::uint32_t face) const noexcept {
+    const bool by_density = !packing_.empty();
+    const float* const at = &(by_density ? spreads_ : factors_)[std::size_t{3} * face];
+    return by_density ? (double{at[0]} + double{at[1]} + double{at[2]}) / 3
+                      : mean_inverse_square(at[0], at[1], at[2]);
+}
+
 double RadiusField::factor_at(std::uint32_t face, const float (&weights)[3]) const noexcept {
     const bool by_density = !packing_.empty();
     const float* const g = &(by_density ? packing_ : factors_)[std::size_t{3} * face];

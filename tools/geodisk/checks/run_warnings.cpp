@@ -13,7 +13,6 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
                       .wanted_count = job.wanted_count,
                       .stop_count = job.method.stop_count,
                       .has_throws = job.method.throws > 0,
-                      .parts = mesh.prepared.statistics().components,
                       .bare = result.bare});
     for (MeshWarning& warning : warnings) {
         warning.file = job.mesh.mesh;

@@ -45,7 +45,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_domain_surface": [c_void_p, POINTER(SurfaceParams), _HANDLE],
     "geodisk_domain_surfaces": [POINTER(SurfacePart), c_size_t, _HANDLE],
     "geodisk_domain_box": [POINTER(BoxParams), _HANDLE],
-    "geodisk_distance_for_count": [c_void_p, c_void_p, c_double, POINTER(c_double)],
+    "geodisk_distance_for_count": [c_void_p, c_void_p, c_void_p, c_double, POINTER(c_double)],
     "geodisk_box_distance_for_count": [POINTER(BoxParams), c_double, POINTER(c_double)],
     "geodisk_sampler_create": [c_void_p, POINTER(SamplerOptions), _HANDLE],
     "geodisk_start": [c_void_p, c_void_p],

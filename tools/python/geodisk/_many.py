@@ -15,7 +15,7 @@ from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
 from ._existing import ExistingLike, existing_of
-from ._mesh import Mesh, keys_of, mesh_of
+from ._mesh import Mesh, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import MeshLike
 from ._radii import radii_of
@@ -37,6 +37,7 @@ class _Job:
         density: ArrayLike | None,
         radius_factor: ArrayLike | None,
         face_keys: ArrayLike | None,
+        face_mask: ArrayLike | None,
         existing: ExistingLike | None,
         pool_ratio: float,
     ) -> None:
@@ -44,6 +45,7 @@ class _Job:
         self._radii = radii_of(mesh, density, radius_factor)
         self.distance_part = 1.0 if self._radii is None else self._radii.distance_part
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
+        self._mask = None if face_mask is None else mask_of(mesh, face_mask)
         self.existing = existing_of(mesh, existing)
         if count is not None and len(self.existing) >= count:
             raise e.invalid(f"count is {count}, but {len(self.existing)} existing samples count too")
@@ -54,14 +56,21 @@ class _Job:
             pool_ratio=float(pool_ratio),
             radii=radii,
             face_keys=None if self._keys is None else self._keys.ctypes.data,
+            face_mask=None if self._mask is None else self._mask.ctypes.data,
             given=self.existing.ctypes.data,
             given_count=len(self.existing),
         )
         self.search: CountSearch | None = None
         if distance is None:
             first = c_double()
-            handle = mesh._handle.value
-            c.call("geodisk_distance_for_count", handle, radii, float(count or 0), byref(first))
+            c.call(
+                "geodisk_distance_for_count",
+                mesh._handle.value,
+                radii,
+                self.params.face_mask,
+                float(count or 0),
+                byref(first),
+            )
             distance = first.value
             self.search = CountSearch(float(count or 0), distance)
         else:
@@ -87,7 +96,9 @@ class _Job:
     def warn(self, prefix: str) -> None:
         """Shows warnings about its samples."""
         assert self.result is not None
-        found = oddities_of_set(self.result, self.mesh._handle, self._count)
+        found = oddities_of_set(
+            self.result, self.mesh._handle, self._count, mask=self._mask
+        )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
 
 
@@ -101,6 +112,7 @@ def sample_many(
     density: Sequence[ArrayLike | None] | None = None,
     radius_factor: Sequence[ArrayLike | None] | None = None,
     face_keys: Sequence[ArrayLike | None] | None = None,
+    face_mask: Sequence[ArrayLike | None] | None = None,
     existing: Sequence[ExistingLike | None] | None = None,
     pool_ratio: float = 20,
     weld: bool | float = False,
@@ -121,7 +133,7 @@ def sample_many(
         faces, as for :func:`sample`. A :class:`Mesh` may appear several times.
     min_distance, radius, count, seed : number, or a sequence with one per mesh
         As for :func:`sample`.
-    density, radius_factor, face_keys, existing : sequence with one per mesh, or None
+    density, radius_factor, face_keys, face_mask, existing : sequence with one per mesh, or None
         As for :func:`sample`; None for a mesh without.
     pool_ratio, weld, keep_seams, columns, mesh_format, device, progress
         As for :func:`sample`, for all meshes.
@@ -155,6 +167,7 @@ def sample_many(
     seeds = _each(seed, "seed", n)
     densities, keys = _each_array(density, "density", n), _each_array(face_keys, "face_keys", n)
     factors = _each_array(radius_factor, "radius_factor", n)
+    masks = _each_array(face_mask, "face_mask", n)
     kept = _each_array(existing, "existing", n)
 
     def job_at(i: int) -> _Job:
@@ -167,6 +180,7 @@ def sample_many(
             densities[i],
             factors[i],
             keys[i],
+            masks[i],
             kept[i],
             pool_ratio,
         )

@@ -292,6 +292,30 @@ def mesh_of(
     return vertices
 
 
+def mask_of(mesh: Mesh, face_mask: ArrayLike) -> NDArray[np.uint8]:
+    """Returns which triangles take samples, as the library takes it."""
+    given = np.asarray(face_mask)
+    triangles, polygons = int(mesh._info.faces), mesh.polygons
+    if given.dtype.kind != "b":
+        chosen = indices(given, "face_mask")
+        if chosen.ndim != 1:
+            raise e.invalid(f"face_mask has the shape {chosen.shape}, not (k,)")
+        if chosen.size and int(chosen.max()) >= triangles:
+            raise e.invalid(
+                f"face_mask has the triangle {chosen.max()}, the mesh has {triangles}; a mask of "
+                "zeros and ones must be of type bool"
+            )
+        mask = np.zeros(triangles, np.uint8)
+        mask[chosen] = 1
+        return mask
+    if given.shape != (triangles,) and polygons is not None:
+        if given.ndim == 1 and given.size > int(polygons.max()):
+            given = given[polygons]
+    if given.shape != (triangles,):
+        raise e.invalid(f"face_mask has the shape {given.shape}, not ({triangles},)")
+    return np.ascontiguousarray(given).view(np.uint8)
+
+
 def keys_of(mesh: Mesh, face_keys: ArrayLike) -> NDArray[np.uint32]:
     """Returns keys of faces as the library takes them."""
     keys = indices(face_keys, "face_keys").astype(np.uint32, copy=False)

@@ -9,6 +9,7 @@ import warnings
 from typing import TYPE_CHECKING, Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _library as c
 from . import _structs as s
@@ -35,6 +36,7 @@ def oddities_of_set(
     count: float | None,
     stop_count: int = 0,
     throws: int = 0,
+    mask: NDArray[np.uint8] | None = None,
 ) -> tuple[GeodiskWarning, ...]:
     """Returns what the program prints about samples on a mesh, or in a box."""
     faces = None if samples.face_index is None else np.ascontiguousarray(samples.face_index)
@@ -46,6 +48,7 @@ def oddities_of_set(
         wanted_count=0.0 if stop_count else float(count or 0),
         stop_count=stop_count,
         throws=throws,
+        face_mask=None if mask is None else mask.ctypes.data,
     )
     found = c.Handle("warnings", "geodisk_warnings_of_set", ctypes.byref(params))
     return tuple(GeodiskWarning(*one) for one in _listed(found))

@@ -14,7 +14,7 @@ from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
 from ._existing import ExistingLike, existing_of
-from ._mesh import keys_of, mesh_of
+from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
@@ -38,6 +38,7 @@ def sample(
     throws: int = 0,
     stop_count: int = 0,
     face_keys: ArrayLike | None = None,
+    face_mask: ArrayLike | None = None,
     existing: ExistingLike | None = None,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
@@ -77,6 +78,9 @@ def sample(
     face_keys : array_like of int, shape (f,), optional
         One key per triangle, all different, by which its candidates are drawn: a triangle with the
         same key has the same candidates in every mesh.
+    face_mask : array_like of bool, shape (f,), or of int, optional
+        True for each triangle, or each given polygon, that takes samples; or the indices of these
+        triangles. Paths cross the others all the same.
     existing : Samples, or a pair of face_index and barycentric, optional
         Samples of the mesh to keep: the first of the result, with a 1 in ``columns["given"]``. New
         ones keep the minimum distance from them. They count towards `count` and `stop_count`.
@@ -139,6 +143,7 @@ def sample(
     radii = radii_of(mesh, density, radius_factor)
     part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)
+    mask = None if face_mask is None else mask_of(mesh, face_mask)
     kept = existing_of(mesh, existing)
     if count is not None and len(kept) >= count:
         raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
@@ -148,6 +153,7 @@ def sample(
         throws=throws,
         radii=None if radii is None else radii.handle.value,
         face_keys=None if keys is None else keys.ctypes.data,
+        face_mask=None if mask is None else mask.ctypes.data,
         metric=s.METRICS[metric],
         given=kept.ctypes.data,
         given_count=len(kept),
@@ -163,13 +169,14 @@ def sample(
             "geodisk_distance_for_count",
             mesh._handle.value,
             None if radii is None else radii.handle.value,
+            params.face_mask,
             float(count or 0),
             byref(found),
         )
         distance = found.value * part
     made = sampled(domain_at, distance / part, count, stop_count, device, progress)
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part)
-    warn(oddities_of_set(samples, mesh._handle, count, stop_count, throws))
+    warn(oddities_of_set(samples, mesh._handle, count, stop_count, throws, mask))
     return samples
 
 

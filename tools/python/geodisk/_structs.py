@@ -114,6 +114,7 @@ class SurfaceParams(_Sized):
         ("stop_count", c_uint32),
         ("radii", c_void_p),
         ("face_keys", c_void_p),
+        ("face_mask", c_void_p),
         ("metric", c_int32),
         ("given", c_void_p),
         ("given_count", c_size_t),
@@ -231,6 +232,7 @@ class SampledSet(_Sized):
         ("wanted_count", c_double),
         ("stop_count", c_uint32),
         ("throws", c_uint32),
+        ("face_mask", c_void_p),
     ]
 
 

@@ -96,6 +96,7 @@ typedef struct geodisk_sampled_set {
     double wanted_count;      /* Samples that the distance was chosen for, or 0. */
     uint32_t stop_count;      /* As in geodisk_surface_params. */
     uint32_t throws;
+    const uint8_t *face_mask; /* As in geodisk_surface_params. */
 } geodisk_sampled_set;
 
 /* Lists what the program prints about the samples. */

@@ -68,10 +68,9 @@ std::vector<MeshWarning> warnings_of_set(const geodisk_sampled_set& given) {
         return set_warnings(set);
     }
     const PreparedMesh& mesh = given.mesh->shared->prepared;
-    set.parts = mesh.statistics().components;
-    if (set.parts > 1) {
-        set.bare = parts_without(mesh, std::span(given.faces, given.count));
-    }
+    const std::size_t masked = given.face_mask != nullptr ? mesh.face_count() : 0;
+    set.bare = parts_without(mesh, std::span(given.faces, given.count),
+                             std::span(given.face_mask, masked));
     return set_warnings(set);
 }
 

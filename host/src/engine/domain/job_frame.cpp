@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "support/guard.hpp"
@@ -25,7 +26,7 @@ Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params) 
             return checked.error();
         }
         const MeshStatistics& statistics = mesh.statistics();
-        const double full = expected_count(effective_area(mesh, params), params.min_distance);
+        const double full = expected_count(whole_area(mesh, params), params.min_distance);
         JobFrame frame;
         frame.min_distance = params.min_distance;
         frame.unit = working_distance(mesh, params);

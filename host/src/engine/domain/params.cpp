@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "support/guard.hpp"
@@ -42,15 +43,27 @@ Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& pa
     return Done{};
 }
 
-/// Returns the length of all borders; if radii vary, in multiples of the largest one.
-double border_length(const PreparedMesh& mesh, const RadiusField* radii) {
+/// Returns true if no other face at the edge takes samples.
+bool is_at_border(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t h) {
+    const auto edges = mesh.half_edges();
+    std::uint32_t other = around_half_edge(edges[h].around);
+    while (other != h && !takes_samples(params, other / 3)) {
+        other = around_half_edge(edges[other].around);
+    }
+    return other == h;
+}
+
+/// Returns the length of all borders of what takes samples; if radii vary, in multiples of the
+/// largest one.
+double border_length(const PreparedMesh& mesh, const SampleParams& params) {
+    const RadiusField* const radii = params.radii;
     double length = 0;
     const auto edges = mesh.half_edges();
     for (std::uint32_t h = 0; h < edges.size(); ++h) {
         const std::uint32_t a = edges[h].origin, b = edges[next_in_face(h)].origin,
                             c = edges[previous_in_face(h)].origin;
         const bool takes_part = a != b && b != c && c != a;
-        if (!takes_part || around_half_edge(edges[h].around) != h) {
+        if (!takes_part || !takes_samples(params, h / 3) || !is_at_border(mesh, params, h)) {
             continue;
         }
         const double factor =
@@ -67,7 +80,21 @@ double border_length(const PreparedMesh& mesh, const RadiusField* radii) {
 } // namespace
 
 double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept {
-    return params.radii != nullptr ? params.radii->effective_area() : mesh.statistics().area;
+    if (params.face_mask.empty()) {
+        return whole_area(mesh, params);
+    }
+    double area = 0;
+    bool takes_all = true;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        if (!takes_samples(params, face)) {
+            takes_all = false;
+            continue;
+        }
+        const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
+        const double density = params.radii != nullptr ? params.radii->samples_in(face) : 1;
+        area += 0.5 * edge.length * edge.apex_y * density;
+    }
+    return takes_all ? whole_area(mesh, params) : area;
 }
 
 double expected_count(double area, double min_distance) noexcept {
@@ -79,13 +106,13 @@ double distance_for_count(double area, double count) noexcept {
     return 2 * kExpectedRho * std::sqrt(area / (kTwoRootThree * count));
 }
 
-double distance_for_count(const PreparedMesh& mesh, const RadiusField* radii,
+double distance_for_count(const PreparedMesh& mesh, const SampleParams& params,
                           double count) noexcept {
-    const double area = radii != nullptr ? radii->effective_area() : mesh.statistics().area;
+    const double area = effective_area(mesh, params);
     // count = a / D^2 + b / D.
     const double a =
         kCountedRho / kExpectedRho * (kCountedRho / kExpectedRho) * expected_count(area, 1);
-    const double b = kBorderSamples * border_length(mesh, radii);
+    const double b = kBorderSamples * border_length(mesh, params);
     return (b + std::sqrt(b * b + 4 * count * a)) / (2 * count);
 }
 
@@ -109,13 +136,19 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
         return invalid("there are " + std::to_string(params.face_keys.size()) + " face keys for " +
                        std::to_string(mesh.face_count()) + " faces");
     }
+    if (auto checked = check_mask(mesh, params); !checked) {
+        return checked.error();
+    }
     return check_given(mesh, params);
 }
 
 Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SampleParams& params,
                                        const Stages& stages) {
     if (!(stages.ratio <= kLargestRatio)) {
-        return invalid("the minimum distance is too large for this surface, where radii vary");
+        return invalid(params.face_mask.empty()
+                           ? "the minimum distance is too large for this surface, where radii vary"
+                           : "the minimum distance is too large for the faces that the face mask "
+                             "leaves");
     }
     const double wanted = std::ceil(stages.candidates());
     if (!(wanted <= kMostCandidates)) {

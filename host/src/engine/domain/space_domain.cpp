@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "engine/capacity.hpp"
 #include "engine/domain/device_mesh.hpp"
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
@@ -197,7 +198,7 @@ Result<UploadParts> SpaceDomain::upload_parts(const RunPlan& plan, BufferRole ro
                 std::memcpy(row + 3 * kRow, frame_.normals[vertex].data(), 12);
             }
             const auto own = static_cast<std::uint32_t>(face);
-            const float area = face_area(mesh_, own, unit);
+            const float area = takes_samples(params_, own) ? face_area(mesh_, own, unit) : 0;
             const std::uint32_t key = params_.face_keys.empty() ? own : params_.face_keys[face];
             std::memcpy(out + 12, &area, 4);
             std::memcpy(out + 28, &key, 4);

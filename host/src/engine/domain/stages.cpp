@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constants.h"
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/tolerances.hpp"
 
 namespace geodisk {
@@ -92,6 +93,9 @@ float stage_intensity(const Stages& stages, std::uint32_t stage) {
 
 double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
                         double per_area) {
+    if (!takes_samples(params, face)) {
+        return 0;
+    }
     const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
     const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
     return per_area * 0.5 * edge.length * edge.apex_y * density;

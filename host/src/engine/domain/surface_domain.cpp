@@ -9,6 +9,7 @@
 #include "engine/capacity.hpp"
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/device_mesh.hpp"
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "support/guard.hpp"
@@ -190,6 +191,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         const PreparedMesh& mesh = *surface.mesh;
         const SampleParams& params = surface.params;
         full_ += std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance));
+        whole_ += std::max(2.0, expected_count(whole_area(mesh, params), params.min_distance));
         first_error_ = std::max(first_error_, surface.frame.error_bound);
         error.widen(ErrorModel(surface.frame));
         kernels.event_heap |= surface.frame.nearest_first;
@@ -293,6 +295,10 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     job.has_keys = std::all_of(surfaces_.begin(), surfaces_.end(), has_keys) ? 1 : 0;
     job.first_key_row =
         static_cast<std::uint32_t>((fan_bytes(surfaces_) + radii_bytes(surfaces_)) / kRowBytes);
+    job.first_mask_row =
+        mask_bytes(surfaces_) == 0
+            ? 0
+            : job.first_key_row + static_cast<std::uint32_t>(key_bytes(surfaces_) / kRowBytes);
     job.vertices = vertex_count(surfaces_);
     job.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
     for (const PlacedSurface& surface : surfaces_) {
@@ -306,7 +312,8 @@ std::size_t SurfaceDomain::upload_size(BufferRole role) const {
     case BufferRole::faces:
         return half_edge_bytes(surfaces_) + length_bytes(surfaces_);
     case BufferRole::fans:
-        return fan_bytes(surfaces_) + radii_bytes(surfaces_) + key_bytes(surfaces_);
+        return fan_bytes(surfaces_) + radii_bytes(surfaces_) + key_bytes(surfaces_) +
+               mask_bytes(surfaces_);
     case BufferRole::samples:
         return settled.size() * sizeof settled[0];
     default:
@@ -338,6 +345,7 @@ Result<UploadParts> SurfaceDomain::upload_parts(const RunPlan&, BufferRole role)
             }
         }
         add_keys(surfaces_, parts);
+        add_mask(surfaces_, parts);
     } else if (role == BufferRole::samples) {
         parts.push_back(upload_part(settled));
     }

@@ -34,13 +34,13 @@ class SurfaceDomain : public Domain::Impl {
     double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
 
   private:
-    double faces_per_disk() const { return 2.0 * face_count(surfaces_) / full_; }
+    double faces_per_disk() const { return 2.0 * face_count(surfaces_) / whole_; }
 
     std::vector<PlacedSurface> surfaces_;
     double first_error_ = 0;
     FaceCells cells_;
-    double full_ = 0; ///< Samples that full surfaces hold, at least two each: no disk covers
-                      ///< more than all faces.
+    double full_ = 0;  ///< Samples that full surfaces hold, at least two each.
+    double whole_ = 0; ///< The same without masks: no disk covers more than all faces.
 };
 
 } // namespace geodisk

@@ -1,0 +1,32 @@
+// The faces that take samples: SampleParams::face_mask.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/status.hpp>
+
+#include "engine/domain/placed_surface.hpp"
+#include "engine/domain/upload_parts.hpp"
+
+namespace geodisk {
+
+/// Returns true if the face takes samples.
+inline bool takes_samples(const SampleParams& params, std::uint32_t face) {
+    return params.face_mask.empty() || params.face_mask[face] != 0;
+}
+
+/// Returns the effective_area() without the mask. Disks reach over all of it.
+double whole_area(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+/// Checks the mask against the mesh.
+Result<Done> check_mask(const PreparedMesh& mesh, const SampleParams& params);
+
+/// Returns the bytes of the masks of all surfaces: a bit per face, in whole rows. 0 without masks.
+std::size_t mask_bytes(PlacedSurfaces surfaces);
+/// Appends the masks.
+void add_mask(PlacedSurfaces surfaces, UploadParts& parts);
+
+} // namespace geodisk
