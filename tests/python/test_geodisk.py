@@ -403,3 +403,20 @@ def test_driver_files_that_are_missing_are_named(variable):
         [sys.executable, "-c", code], env=environment, timeout=60, capture_output=True, text=True
     ).stdout
     assert variable in told and "/nowhere/driver.json, which does not exist" in told
+
+
+def test_masks_of_parts(tmp_path):
+    path = tmp_path / "m.obj"
+    path.write_text(
+        "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n"
+        "usemtl wood\nf 1 2 5 4\nusemtl steel\nf 2 3 6 5\n"
+    )
+    mesh = geodisk.Mesh(path, columns=["material", "part"])
+    assert mesh.columns["material"].tolist() == [0, 0, 1, 1]
+    assert mesh.columns["part"].tolist() == [0, 0, 0, 0]
+    steel = geodisk.sample(mesh, min_distance=0.2, face_mask=mesh.columns["material"] == 1)
+    assert steel.points[:, 0].min() >= 1 and (steel.columns["material"] == 1).all()
+    whole = geodisk.sample(mesh, min_distance=0.2, face_mask=[False, True])  # By polygons.
+    assert same(whole, steel)
+    steel.save(tmp_path / "a.npz")
+    assert (geodisk.read(tmp_path / "a.npz").columns["material"] == 1).all()

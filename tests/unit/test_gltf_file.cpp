@@ -149,6 +149,24 @@ TEST_CASE("glTF faces know their node, mesh and primitive") {
                 [&] { check_parts("a.gltf", bare, {"node"}); });
 }
 
+TEST_CASE("glTF faces know their material, and nodes those above them") {
+    Parts parts;
+    parts.nodes = R"("nodes": [{"name": "car", "children": [1]}, {"mesh": 0}], "materials":
+                       [{}, {"name": "paint"}],)";
+    parts.primitives = R"([{"attributes": {"POSITION": 0}, "indices": 1, "material": 1},
+                           {"attributes": {"POSITION": 0}, "indices": 1, "material": "x"}])";
+    const MeshFile mesh = mesh_of(parts);
+    REQUIRE(mesh.parts.size() == 2);
+    CHECK(mesh.parts[0].material == 1);
+    CHECK_FALSE(mesh.parts[1].material.has_value());
+    CHECK(mesh.part_names.materials == std::vector<std::string>{"", "paint"});
+    CHECK(mesh.part_names.nodes == std::vector<std::string>{"car", ""});
+    CHECK(mesh.part_names.node_above[1] == 0);
+    CHECK_FALSE(mesh.part_names.node_above[0].has_value());
+    CHECK(part_column_of_triangles(mesh, "material").front() == 1);
+    CHECK(part_column_of_triangles(mesh, "material").back() == 0xffffffff);
+}
+
 TEST_CASE("names of columns are checked") {
     CHECK(parse_part_columns("").empty());
     CHECK(parse_part_columns("primitive,mesh") == std::vector<std::string>{"primitive", "mesh"});

@@ -21,6 +21,14 @@ std::vector<glm::dvec3> to_points(const std::vector<double>& numbers) {
     return points;
 }
 
+/// Its number; a damaged one is none, as materials do not change the surface.
+std::optional<std::uint32_t> material_of(const GltfJson& primitive) {
+    const auto found = primitive.find("material");
+    const bool is_number = found != primitive.end() && found->is_number_unsigned() &&
+                           *found <= std::numeric_limits<std::uint32_t>::max();
+    return is_number ? std::optional(found->get<std::uint32_t>()) : std::nullopt;
+}
+
 } // namespace
 
 GltfMesh GltfMeshReader::read(std::uint64_t index, std::vector<double> weights) {
@@ -58,7 +66,8 @@ void GltfMeshReader::add_primitive(const GltfJson& primitive, std::uint32_t numb
         mesh.vertices.push_back(read_vertices(source));
     }
     const std::size_t vertices = mesh.vertices[known->second].points.size();
-    mesh.primitives.push_back({number, known->second, corners_of(source, mode, vertices)});
+    mesh.primitives.push_back(
+        {number, known->second, corners_of(source, mode, vertices), material_of(primitive)});
 }
 
 /// A primitive may bear the same data as they are, for readers that know no compression; these are

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct GltfPrimitive {
     std::uint32_t number = 0;           ///< In its mesh.
     std::size_t vertices = 0;           ///< Index of its GltfVertices.
     std::vector<std::uint32_t> corners; ///< Three of these vertices for each triangle.
+    std::optional<std::uint32_t> material;
 };
 
 struct GltfMesh {

@@ -171,6 +171,7 @@ class GltfReader {
         for (const GltfPlacement& placement : scene_.placements()) {
             add_mesh(placement);
         }
+        mesh_.part_names = {names_of("materials"), {}, names_of("nodes"), scene_.nodes_above()};
         warn();
         return std::move(mesh_);
     }
@@ -199,6 +200,21 @@ class GltfReader {
         }
     }
 
+    /// Names of the elements of a top-level array; "" for those without.
+    std::vector<std::string> names_of(const char* list) const {
+        std::vector<std::string> names;
+        const auto elements = document_.root().find(list);
+        if (elements == document_.root().end() || !elements->is_array()) {
+            return names;
+        }
+        for (const GltfJson& element : *elements) {
+            const bool has_name =
+                element.is_object() && element.contains("name") && element["name"].is_string();
+            names.push_back(has_name ? element["name"].get<std::string>() : "");
+        }
+        return names;
+    }
+
     void add_mesh(const GltfPlacement& placement) {
         const GltfMesh mesh = meshes_.read(placement.mesh, placement.weights);
         others_ += mesh.others;
@@ -224,7 +240,8 @@ class GltfReader {
         for (const GltfPrimitive& primitive : mesh.primitives) {
             const auto [first, is_mirrored] = placed[primitive.vertices];
             const auto part = static_cast<std::uint32_t>(mesh_.parts.size());
-            mesh_.parts.push_back({placement.node, placement.mesh, primitive.number});
+            mesh_.parts.push_back(
+                {placement.node, placement.mesh, primitive.number, primitive.material, {}});
             for (std::size_t i = 0; i + 2 < primitive.corners.size(); i += 3) {
                 const std::uint32_t* const c = &primitive.corners[i];
                 mesh_.corners.insert(

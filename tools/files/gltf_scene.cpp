@@ -38,6 +38,7 @@ const double* data_or_null(const std::vector<double>& numbers, std::size_t offse
 std::vector<GltfPlacement> GltfScene::placements() {
     std::vector<GltfPlacement> result;
     is_met_.assign(document_.count("nodes"), false);
+    above_.assign(document_.count("nodes"), std::nullopt);
     for (const std::uint64_t root : root_nodes()) {
         add_nodes(root, result);
     }
@@ -154,6 +155,9 @@ void GltfScene::add_nodes(std::uint64_t root, std::vector<GltfPlacement>& placem
         std::vector<std::uint64_t> children = document_.indices(object, "children", name);
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
             left.emplace_back(*child, here);
+            if (*child < above_.size()) { // Others are told of when their turn comes.
+                above_[*child] = static_cast<std::uint32_t>(index);
+            }
         }
     }
 }

@@ -33,6 +33,9 @@ class GltfScene {
     /// file.
     std::vector<GltfPlacement> placements();
 
+    /// Returns the node that each one is directly below, of those that placements() met.
+    const std::vector<std::optional<std::uint32_t>>& nodes_above() const noexcept { return above_; }
+
     /// Number of nodes, with those below them, that the file says are hidden.
     std::uint64_t hidden_nodes() const noexcept { return hidden_nodes_; }
 
@@ -50,6 +53,7 @@ class GltfScene {
     const GltfDocument& document_;
     GltfData& data_;
     std::vector<bool> is_met_;
+    std::vector<std::optional<std::uint32_t>> above_;
     std::vector<std::optional<std::uint64_t>> parents_; ///< Made for the first skin.
     std::map<std::uint64_t, glm::dmat4> globals_;       ///< By node, as skins need them.
     std::map<std::uint64_t, std::vector<glm::dmat4>> skins_;

@@ -186,8 +186,24 @@ void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
     }
 }
 
+/// Those of faces become those of triangles.
+void take_properties(PolygonMesh& polygons, MeshFile& mesh) {
+    mesh.properties = std::move(polygons.properties);
+    for (MeshProperty& property : mesh.properties) {
+        if (property.of_faces && !mesh.polygons.empty()) {
+            std::vector<double> of_triangles;
+            of_triangles.reserve(mesh.polygons.size());
+            for (const std::uint32_t polygon : mesh.polygons) {
+                of_triangles.push_back(property.values[polygon]);
+            }
+            property.values = std::move(of_triangles);
+        }
+    }
+}
+
 void take_parts(PolygonMesh& polygons, MeshFile& mesh) {
     mesh.parts = std::move(polygons.parts);
+    mesh.part_names = std::move(polygons.part_names);
     if (mesh.polygons.empty()) {
         mesh.part_of_triangle = std::move(polygons.part_of_face);
         return;
@@ -283,6 +299,7 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     check_size(path, polygons);
     split_polygons(polygons, mesh);
     take_parts(polygons, mesh);
+    take_properties(polygons, mesh);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;
     mesh.attributes = std::move(polygons.attributes);
@@ -322,6 +339,10 @@ void check_no_attributes(const MeshSources& sources) {
     if (!sources.attributes.empty()) {
         fail_input(sources.mesh, "has no vertex properties, so no " +
                                      in_quotes(sources.attributes.front()) + "; only PLY files do");
+    }
+    if (!sources.properties.empty()) {
+        fail_input(sources.mesh, "has no properties of faces or vertices, so no " +
+                                     in_quotes(sources.properties.front()) + "; only PLY files do");
     }
 }
 
@@ -384,9 +405,9 @@ MeshFile read_mesh(const MeshSources& sources) {
     }
     if (extension == ".ply") {
         const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
-        return to_triangles(sources,
-                            read_ply(path, {!has_other_source, sources.attributes, sources.has_uvs},
-                                     sources.progress));
+        const PlyWanted wanted{!has_other_source, sources.attributes, sources.properties,
+                               sources.has_uvs};
+        return to_triangles(sources, read_ply(path, wanted, sources.progress));
     }
     check_no_attributes(sources);
     check_no_uvs(sources);

@@ -20,7 +20,8 @@ struct MeshSources {
     std::string format;       ///< "obj", or "" for that of the extension.
     std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
-    std::vector<std::string> attributes; ///< Scalar vertex properties of a PLY file to read.
+    std::vector<std::string> attributes;   ///< Scalar vertex properties of a PLY file to read.
+    std::vector<std::string> properties{}; ///< Scalar properties of faces or vertices to read.
     /// Join vertices no farther apart; with a length of 0, those in one place,
     /// as of STL in any case.
     std::optional<Length> weld = std::nullopt;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,6 +59,91 @@ class UnusedIndices {
     std::vector<std::pair<std::int64_t, std::uint64_t>> ahead_;
 };
 
+/// The parts that materials, groups and objects divide the faces into.
+class ObjParts {
+  public:
+    /// Takes the words of a record; ignores other records.
+    void take(std::span<const std::string_view> words) {
+        if (words.empty()) {
+            return;
+        }
+        if (words[0] == "usemtl") {
+            material_ = number_of(materials_, names_.materials, rest_of(words));
+        } else if (words[0] == "g") {
+            groups_.clear();
+            for (const std::string_view name : words.subspan(1)) {
+                groups_.push_back(number_of(known_groups_, names_.groups, std::string(name)));
+            }
+        } else if (words[0] == "o") {
+            object_ = number_of(known_groups_, names_.groups, rest_of(words));
+        } else {
+            return;
+        }
+        current_.reset();
+    }
+
+    /// Returns the part of a face that comes next.
+    std::uint32_t current() {
+        if (!current_) {
+            MeshPart part;
+            part.material = material_;
+            part.groups = groups_;
+            if (object_) {
+                part.groups.push_back(*object_);
+            }
+            const auto [known, is_new] = known_.try_emplace(
+                {part.material, part.groups}, static_cast<std::uint32_t>(parts_.size()));
+            if (is_new) {
+                parts_.push_back(std::move(part));
+            }
+            current_ = known->second;
+        }
+        return *current_;
+    }
+
+    /// Puts them into the mesh, if the file divides its faces at all.
+    void give(PolygonMesh& mesh) {
+        if (names_.materials.empty() && names_.groups.empty()) {
+            mesh.part_of_face = {};
+            return;
+        }
+        mesh.parts = std::move(parts_);
+        mesh.part_names = std::move(names_);
+    }
+
+  private:
+    using Numbers = std::map<std::string, std::uint32_t>;
+
+    /// Names may hold blanks.
+    static std::string rest_of(std::span<const std::string_view> words) {
+        if (words.size() < 2) {
+            return {};
+        }
+        const char* const begin = words[1].data();
+        const std::string_view last = words.back();
+        return {begin, last.data() + last.size()};
+    }
+
+    static std::uint32_t number_of(Numbers& known, std::vector<std::string>& names,
+                                   const std::string& name) {
+        const auto [found, is_new] =
+            known.try_emplace(name, static_cast<std::uint32_t>(names.size()));
+        if (is_new) {
+            names.push_back(name);
+        }
+        return found->second;
+    }
+
+    PartNames names_;
+    Numbers materials_, known_groups_;
+    std::optional<std::uint32_t> material_, object_;
+    std::vector<std::uint32_t> groups_;
+    std::optional<std::uint32_t> current_;
+    std::map<std::pair<std::optional<std::uint32_t>, std::vector<std::uint32_t>>, std::uint32_t>
+        known_;
+    std::vector<MeshPart> parts_;
+};
+
 class ObjReader {
   public:
     ObjReader(const Path& path, std::string_view bytes, bool has_uvs,
@@ -81,10 +168,13 @@ class ObjReader {
                 add_uv();
             } else if (keyword == "vn") {
                 unused_normals_.add_record();
+            } else {
+                parts_.take(tokens_);
             }
         }
         check_uvs();
         warn_of_indices();
+        parts_.give(mesh_);
         return std::move(mesh_);
     }
 
@@ -169,6 +259,7 @@ class ObjReader {
             add_corner(tokens_[i]);
         }
         mesh_.face_ends.push_back(mesh_.corners.size());
+        mesh_.part_of_face.push_back(parts_.current());
         mesh_.names.face_lines.push_back(line_);
     }
 
@@ -257,6 +348,7 @@ class ObjReader {
     std::vector<std::string_view> tokens_;
     bool has_uvs_;
     PolygonMesh mesh_;
+    ObjParts parts_;
     UnusedIndices unused_uvs_, unused_normals_;
 };
 

@@ -27,7 +27,10 @@ void check_parts(const std::string& path, const MeshFile& mesh,
 std::vector<ExtraColumn> part_columns(const MeshFile& mesh, const std::vector<std::string>& names,
                                       std::span<const SampleRow> rows);
 
-/// Returns the values of one of them for all triangles of `mesh`.
+/// Returns entries for a header that name the numbers in these columns: "material: 0 wood".
+HeaderEntries part_name_entries(const MeshFile& mesh, const std::vector<std::string>& columns);
+
+/// Returns the values of one of them for all triangles of `mesh`; kNoPart for those without one.
 std::vector<std::uint32_t> part_column_of_triangles(const MeshFile& mesh, const std::string& name);
 
 } // namespace geodisk::tools

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -81,6 +83,71 @@ std::vector<std::size_t> uv_columns(const Path& path, const PlyElement& element)
                      "texture_v");
 }
 
+/// Where a property of faces or vertices stands.
+struct PropertyColumn {
+    std::size_t index; ///< In PolygonMesh::properties.
+    std::size_t column;
+};
+
+std::string names_of_scalars(const PlyFile& file) {
+    constexpr std::size_t kMost = 10;
+    std::vector<std::string> names;
+    for (const char* const of : {"face", "vertex"}) {
+        for (const PlyElement& element : file.elements()) {
+            for (const PlyProperty& property : element.properties) {
+                if (element.name == of && !property.count_type) {
+                    names.push_back(property.name);
+                }
+            }
+        }
+    }
+    const std::size_t more = names.size() - std::min(names.size(), kMost);
+    names.resize(names.size() - more);
+    if (more > 0) {
+        names.push_back(std::to_string(more) + " more");
+    }
+    return listed(names);
+}
+
+/// Finds the properties that either element has, and says of which they are.
+void find_properties(const PlyFile& file, const PlyWanted& wanted, PolygonMesh& mesh) {
+    for (const std::string& name : wanted.properties) {
+        bool of_faces = false, of_vertices = false;
+        for (const PlyElement& element : file.elements()) {
+            of_faces |= element.name == "face" && element.find_scalar(name).has_value();
+            of_vertices |= element.name == "vertex" && element.find_scalar(name).has_value();
+        }
+        if (of_faces && of_vertices) {
+            fail_input(file.path(), "both faces and vertices have a property " + in_quotes(name) +
+                                        "; rename one of them");
+        }
+        if (!of_faces && !of_vertices) {
+            fail_input(file.path(), "has no scalar property " + in_quotes(name) +
+                                        " of faces or vertices; it has " + names_of_scalars(file));
+        }
+        mesh.properties.push_back({of_faces, {}});
+    }
+}
+
+/// Returns the columns of the properties that this element has.
+std::vector<PropertyColumn> property_columns(const PlyElement& element, const PlyWanted& wanted,
+                                             const PolygonMesh& mesh) {
+    std::vector<PropertyColumn> columns;
+    for (std::size_t i = 0; i < wanted.properties.size(); ++i) {
+        if (mesh.properties[i].of_faces == (element.name == "face")) {
+            columns.push_back({i, *element.find_scalar(wanted.properties[i])});
+        }
+    }
+    return columns;
+}
+
+void add_properties(const std::vector<PropertyColumn>& columns, const PlyRecord& record,
+                    PolygonMesh& mesh) {
+    for (const auto& [index, column] : columns) {
+        mesh.properties[index].values.push_back(record.scalars[column]);
+    }
+}
+
 void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
                    const PlyWanted& wanted, PolygonMesh& mesh) {
     const std::vector<std::size_t> columns =
@@ -91,6 +158,7 @@ void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
     }
     const std::vector<std::size_t> uvs =
         wanted.has_uvs ? uv_columns(path, element) : std::vector<std::size_t>();
+    const std::vector<PropertyColumn> properties = property_columns(element, wanted, mesh);
     mesh.dimension = columns.empty() ? 3 : static_cast<std::uint32_t>(columns.size());
     mesh.attributes.resize(attributes.size());
     mesh.positions.reserve(columns.size() * file.possible_records(element));
@@ -104,6 +172,7 @@ void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
         for (std::size_t i = 0; i < attributes.size(); ++i) {
             mesh.attributes[i].push_back(record.scalars[attributes[i]]);
         }
+        add_properties(properties, record, mesh);
     });
 }
 
@@ -129,14 +198,17 @@ std::uint32_t to_corner(const PlyFile& file, const PlyElement& element, std::uin
     return corner;
 }
 
-void read_faces(PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
+void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wanted,
+                PolygonMesh& mesh) {
     const std::size_t column = index_column(file, element);
+    const std::vector<PropertyColumn> properties = property_columns(element, wanted, mesh);
     mesh.face_ends.reserve(file.possible_records(element));
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
         for (const double value : record.lists[column]) {
             mesh.corners.push_back(to_corner(file, element, index, value));
         }
         mesh.face_ends.push_back(mesh.corners.size());
+        add_properties(properties, record, mesh);
     });
 }
 
@@ -170,6 +242,7 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     PlyFile file(path, progress);
     PolygonMesh mesh;
     mesh.names = {"element face, record ", "element vertex, record ", {}, {}, 0};
+    find_properties(file, wanted, mesh);
     bool has_vertices = false;
     bool has_faces = false;
     for (const PlyElement& element : file.elements()) {
@@ -180,7 +253,7 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
         } else if (element.name == "face") {
             file.check_unique(element);
             has_faces = true;
-            read_faces(file, element, mesh);
+            read_faces(file, element, wanted, mesh);
         } else if (element.name == "tristrips") {
             file.check_unique(element);
             has_faces = true;
@@ -195,6 +268,11 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     }
     if (!has_faces) {
         fail_input(path, "has no faces: there is no element face or tristrips");
+    }
+    for (const MeshProperty& property : mesh.properties) {
+        if (property.of_faces && property.values.size() != mesh.face_ends.size()) {
+            fail_input(path, "has strips of triangles, which have no properties of faces");
+        }
     }
     if (wanted.has_uvs) {
         mesh.corner_uvs = mesh.corners;

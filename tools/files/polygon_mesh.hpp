@@ -28,6 +28,8 @@ struct PolygonMesh {
     /// Where the file divides its faces: the parts, and the index there of each face's.
     std::vector<MeshPart> parts;
     std::vector<std::uint32_t> part_of_face;
+    PartNames part_names;
+    std::vector<MeshProperty> properties; ///< Those asked for, a value per face or vertex.
     ElementNames names;
     std::vector<MeshWarning> warnings;
 
@@ -47,10 +49,10 @@ inline void warn_of_final_nuls(PolygonMesh& mesh, std::uint64_t count) {
                 "NUL bytes after the last line ignored");
 }
 
-/// Reads the `v`, `f` and, where asked for, `vt` records of an OBJ file; everything else in it is
-/// ignored. Understands every line end, line continuation, a byte order mark, relative
-/// indices and faces of any size. Throws UserError(bad_input) naming the line, like the readers of
-/// other texts below.
+/// Reads the `v`, `f`, `usemtl`, `g`, `o` and, where asked for, `vt` records of an OBJ file;
+/// everything else in it is ignored. Understands every line end, line continuation, a byte order
+/// mark, relative indices and faces of any size. Throws UserError(bad_input) naming the line, like
+/// the readers of other texts below.
 PolygonMesh read_obj(const Path& path, bool has_uvs, const ReadingProgress& progress);
 
 /// Reads an STL file, binary if its size is as it tells or it does not begin with "solid", else
@@ -66,7 +68,7 @@ PolygonMesh read_off(const Path& path, const ReadingProgress& progress);
 /// and primitive after the other. Nodes place them, or joints and the default weights of morph
 /// targets, also several times as instances; a mirrored one is turned over. Primitives of a mesh
 /// with the same positions share vertices. Compressed ones are read as this build can. Buffers are
-/// read from the folder of the file alone, materials, images and the like not at all. Throws
+/// read from the folder of the file alone, of materials just their names, images not at all. Throws
 /// UserError(bad_input) naming mesh and primitive.
 PolygonMesh read_gltf(const Path& path);
 
@@ -74,6 +76,7 @@ PolygonMesh read_gltf(const Path& path);
 struct PlyWanted {
     bool has_coordinates = true;             ///< False: if it has no coordinates, do without.
     std::span<const std::string> attributes; ///< Names of scalar properties.
+    std::span<const std::string> properties; ///< The same of either element `face` or `vertex`.
     bool has_uvs = false; ///< Texture coordinates: s t, u v or texture_u texture_v.
 };
 

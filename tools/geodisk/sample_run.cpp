@@ -28,8 +28,7 @@ void check_space(const SampleJob& job, const MeshInput& mesh) {
 }
 
 SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
-    SampleParams params = job.params;
-    params.radii = mesh.radii ? &*mesh.radii : nullptr;
+    SampleParams params = mesh.with_fields(job.params);
     const double area = effective_area(mesh.prepared, params);
     params.min_distance =
         job.min_distance
@@ -105,6 +104,7 @@ std::vector<NamedFile> files_read(const SampleJob& job) {
     std::vector<NamedFile> read;
     job.mesh.add_files(read, "the mesh");
     job.density.add_files(read, "the density");
+    job.mask.add_files(read);
     job.constraints.add_files(read);
     return read;
 }

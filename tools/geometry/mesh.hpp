@@ -24,9 +24,24 @@ struct VertexUv {
     friend auto operator<=>(const VertexUv&, const VertexUv&) = default;
 };
 
-/// A part of a mesh file, as the file divides its faces: a primitive that a node places.
+/// A part of a mesh file, as the file divides its faces: a primitive that a node places, or faces
+/// of the same material and groups.
 struct MeshPart {
     std::optional<std::uint32_t> node, mesh, primitive; ///< Their numbers in a glTF file.
+    std::optional<std::uint32_t> material;              ///< Its number in PartNames.
+    std::vector<std::uint32_t> groups;                  ///< Their numbers in PartNames.
+};
+
+/// Names by number; "" for what has none.
+struct PartNames {
+    std::vector<std::string> materials, groups, nodes;
+    std::vector<std::optional<std::uint32_t>> node_above; ///< Node that each one is below.
+};
+
+/// Values that faces or vertices have.
+struct MeshProperty {
+    bool of_faces = false; ///< Else of vertices.
+    std::vector<double> values;
 };
 
 /// What joining vertices did.
@@ -52,11 +67,14 @@ struct MeshFile {
     /// Where the file divides its faces: the parts, and the index there of each triangle's.
     std::vector<MeshPart> parts;
     std::vector<std::uint32_t> part_of_triangle;
+    PartNames part_names;
     std::uint32_t dimension = 3;
     /// Of the edges of each triangle, from corner to corner, where they and not the positions make
     /// the surface; else empty.
     std::vector<double> lengths;
     std::vector<std::vector<double>> attributes; ///< By name as asked for, a value per vertex.
+    /// Those asked for, a value per triangle, or per vertex of the file.
+    std::vector<MeshProperty> properties;
     /// Where asked for: all that the corners of faces have, ascending by vertex and each just once;
     /// several at a vertex on a seam.
     std::vector<VertexUv> uvs;

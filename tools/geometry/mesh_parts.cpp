@@ -1,7 +1,6 @@
 #include "geometry/mesh_parts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <geodisk/vertex_sets.hpp>
@@ -9,31 +8,35 @@
 namespace geodisk::tools {
 namespace {
 
-std::array<std::uint32_t, 3> corners_of(const PreparedMesh& mesh, std::uint32_t face) {
-    const HalfEdge* const edges = &mesh.half_edges()[std::size_t{3} * face];
-    return {edges[0].origin, edges[1].origin, edges[2].origin};
+bool takes_part(const std::uint32_t* corners) {
+    return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-bool takes_part(const std::array<std::uint32_t, 3>& corners) {
-    const auto [a, b, c] = corners;
-    return a != b && b != c && c != a;
+std::vector<std::uint32_t> triangles_of(const PreparedMesh& mesh) {
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(mesh.half_edges().size());
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        triangles.push_back(edge.origin);
+    }
+    return triangles;
 }
 
 } // namespace
 
-std::vector<std::uint32_t> part_of_triangles(const PreparedMesh& mesh) {
-    VertexSets sets(mesh.vertex_count());
-    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-        if (const auto corners = corners_of(mesh, face); takes_part(corners)) {
+std::vector<std::uint32_t> part_of_triangles(std::span<const std::uint32_t> triangles) {
+    const std::uint32_t last = triangles.empty() ? 0 : *std::ranges::max_element(triangles);
+    VertexSets sets(last + 1);
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+        if (const std::uint32_t* const corners = &triangles[i]; takes_part(corners)) {
             sets.join(corners[0], corners[1]);
             sets.join(corners[1], corners[2]);
         }
     }
-    std::vector<std::uint32_t> numbers(mesh.vertex_count(), kNoPart); // By lowest vertex.
-    std::vector<std::uint32_t> parts(mesh.face_count(), kNoPart);
+    std::vector<std::uint32_t> numbers(std::size_t{last} + 1, kNoPart); // By lowest vertex.
+    std::vector<std::uint32_t> parts(triangles.size() / 3, kNoPart);
     std::uint32_t count = 0;
-    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-        if (const auto corners = corners_of(mesh, face); takes_part(corners)) {
+    for (std::size_t face = 0; face < parts.size(); ++face) {
+        if (const std::uint32_t* const corners = &triangles[3 * face]; takes_part(corners)) {
             std::uint32_t& number = numbers[sets.lowest(corners[0])];
             number = number == kNoPart ? count++ : number;
             parts[face] = number;
@@ -51,7 +54,7 @@ BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t>
         bool has_sample = false, takes_samples = false;
         double area = 0; ///< That takes samples.
     };
-    const std::vector<std::uint32_t> part_of = part_of_triangles(mesh);
+    const std::vector<std::uint32_t> part_of = part_of_triangles(triangles_of(mesh));
     std::vector<Part> parts(mesh.statistics().components);
     for (const std::uint32_t face : faces) {
         if (part_of[face] != kNoPart) {

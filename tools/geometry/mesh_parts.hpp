@@ -21,10 +21,10 @@ struct BareParts {
 BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t> faces,
                         std::span<const std::uint8_t> mask);
 
-/// Returns the number of the part of each triangle. Parts are joined by common vertices, and
-/// numbered by their first triangles; a triangle that repeats a vertex belongs to none
-/// (MeshStatistics::components) and has kNoPart.
-std::vector<std::uint32_t> part_of_triangles(const PreparedMesh& mesh);
+/// Returns the number of the part of each triangle, given by three vertices. Parts are joined by
+/// common vertices, and numbered by their first triangles; a triangle that repeats a vertex belongs
+/// to none (MeshStatistics::components) and has kNoPart.
+std::vector<std::uint32_t> part_of_triangles(std::span<const std::uint32_t> triangles);
 inline constexpr std::uint32_t kNoPart = 0xffffffff;
 
 } // namespace geodisk::tools

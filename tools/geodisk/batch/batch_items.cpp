@@ -83,6 +83,7 @@ SampleOptions from_anywhere(SampleOptions options) {
         *path = from_anywhere(*path);
     }
     options.density.place_files([](const std::string& file) { return from_anywhere(file); });
+    options.mask.place_files([](const std::string& file) { return from_anywhere(file); });
     options.constraints.place_files([](const std::string& file) { return from_anywhere(file); });
     return options;
 }

@@ -140,7 +140,7 @@ class BatchRun {
     /// Throws what a single run would.
     void sample_item(const SampleJob& job, BatchEntry& entry, const Stopwatch& watch) {
         ProgressLine none(true); // That of the batch is enough.
-        const MeshInput mesh = load_silently(job.mesh, none, job.density);
+        const MeshInput mesh = load_silently(job.mesh, none, job.density, job.mask);
         for (const MeshWarning& warning : mesh.warnings) {
             entry.warnings.push_back(warning.message);
         }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "files/sample_columns.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -111,6 +112,35 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
         }
     }
     return strays;
+}
+
+std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshInput& mesh) {
+    const auto given = samples.extra_values(kGivenColumn);
+    const auto edges = mesh.prepared.half_edges();
+    const auto is_beside_mask = [&](const SampleRow& row) {
+        constexpr float kAtEdge = 1e-4f; // Weight of the corner opposite to it.
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            const std::uint32_t edge = next_in_face(3 * row.face + corner);
+            for (std::uint32_t other = around_half_edge(edges[edge].around);
+                 row.bary[corner] < kAtEdge && other != edge;
+                 other = around_half_edge(edges[other].around)) {
+                if (mesh.face_mask[other / 3] != 0) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    std::vector<std::uint32_t> masked;
+    for (std::uint32_t i = 0; i < samples.rows.size() && !mesh.face_mask.empty(); ++i) {
+        const SampleRow& row = samples.rows[i];
+        const bool is_given = i < given.size() && given[i] != 0;
+        if (mesh.face_mask[row.face] == 0 && !is_given &&
+            (samples.has_faces || !is_beside_mask(row))) {
+            masked.push_back(i);
+        }
+    }
+    return masked;
 }
 
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,

@@ -69,7 +69,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
         check_picture_path(job.picture);
     }
     ProgressLine progress(job.out.quiet);
-    const MeshInput mesh = load_mesh(job.mesh, progress, job.density);
+    const MeshInput mesh = load_mesh(job.mesh, progress, job.density, job.mask);
     if (!job.out.output.empty()) {
         check_dimension(job.out.target(), mesh.dimension());
     }

@@ -45,11 +45,14 @@ constexpr std::size_t kNamedStrays = 10;
 struct VerifyOptions {
     MeshOptions mesh;
     DensityOptions density;
+    MaskOptions mask;
     std::string samples, min_distance, tolerance;
     OutputOptions out; ///< No samples.
 
     /// What makes the surface and the radii on it, as the header of a sample file names it.
-    HeaderEntries additions() const { return density.added_to(mesh.additions()); }
+    HeaderEntries additions() const {
+        return with_entries(density.added_to(mesh.additions()), mask);
+    }
 };
 
 /// Of two samples with the largest radius.
@@ -99,8 +102,9 @@ struct Check {
     std::vector<MeshWarning> warnings;
     Spacing spacing;
     std::vector<StrayRow> strays;
-    SpacingResult result;      ///< Of all pairs but these:
-    SpacingResult among_given; ///< Of samples that were given.
+    SpacingResult result;              ///< Of all pairs but these:
+    SpacingResult among_given;         ///< Of samples that were given.
+    std::vector<std::uint32_t> masked; ///< Samples on faces that take none.
 
     /// Number of samples that were given.
     std::size_t given() const {
@@ -110,10 +114,8 @@ struct Check {
     }
     /// Of samples that a distance is known of.
     double rho() const {
-        SampleParams params;
-        params.radii = mesh.radii ? &*mesh.radii : nullptr;
-        return packing_density(effective_area(mesh.prepared, params), spacing.min_distance,
-                               static_cast<double>(samples.rows.size()));
+        return packing_density(effective_area(mesh.prepared, mesh.with_fields({})),
+                               spacing.min_distance, static_cast<double>(samples.rows.size()));
     }
 };
 
@@ -157,6 +159,11 @@ std::string result_text(const Check& check) {
     if (spacing.wrong > 0) {
         out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
+    if (!check.masked.empty()) {
+        out << "masked        " << grouped(check.masked.size()) << " on faces that "
+            << check.options.mask.names() << " left out, first sample " << check.masked.front()
+            << '\n';
+    }
     if (!strays.empty()) {
         out << "off the mesh  " << grouped(strays.size()) << '\n';
     }
@@ -171,7 +178,8 @@ std::string result_text(const Check& check) {
 }
 
 std::string report_text(const Check& check) {
-    const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given] = check;
+    const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked] =
+        check;
     const std::size_t given = check.given();
     const bool has_distance = spacing.min_distance > 0;
     return text_of(
@@ -192,6 +200,7 @@ std::string report_text(const Check& check) {
               given == 0 ? Json(nullptr)
                          : Json{{"samples", given}, {"violations", violations_json(among_given)}}},
              {"wrong_radii", spacing.wrong},
+             {"masked", mesh.face_mask.empty() ? Json(nullptr) : Json(masked.size())},
              {"off_the_mesh", strays.size()}});
 }
 
@@ -200,6 +209,7 @@ void check_files(const VerifyOptions& options) {
     std::vector<NamedFile> read{{"the samples", options.samples}};
     options.mesh.add_files(read, "the mesh");
     options.density.add_files(read, "the density");
+    options.mask.add_files(read);
     check_outputs(options.out, "", read);
 }
 
@@ -222,6 +232,8 @@ void fail_on_violations(const Check& check) {
             " farther off the mesh than --tolerance allows");
     }
     add(spacing.wrong, "radius is", "radii are", " not what the density options give");
+    add(check.masked.size(), "sample is", "samples are",
+        (" on faces that " + check.options.mask.names() + " left out").c_str());
     if (!message.empty()) {
         throw UserError(ExitCode::violation, check.options.samples + ": " + message);
     }
@@ -237,7 +249,8 @@ void check_box(const VerifyOptions& options) {
     if (!is_known) {
         fail_usage("SAMPLES is required, except for samples in a box, which need no mesh");
     }
-    if (!options.mesh.additions().empty() || options.density.is_given()) {
+    if (!options.mesh.additions().empty() || options.density.is_given() ||
+        options.mask.is_given()) {
         fail_usage(
             "options for surfaces need MESH and SAMPLES; a single file must hold samples in a box");
     }
@@ -248,6 +261,8 @@ void run_verify(const VerifyOptions& options) {
         parse_length("--min-distance", options.min_distance); // Before the files are read.
     }
     check_tolerance(options.tolerance);
+    options.mask.only_rules();
+    options.mask.mask_rules();
     if (options.samples.empty()) {
         check_box(options);
         verify_box(options.mesh.mesh, options.min_distance, options.out);
@@ -255,7 +270,7 @@ void run_verify(const VerifyOptions& options) {
     }
     check_files(options);
     ProgressLine progress(options.out.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress, options.density);
+    const MeshInput mesh = load_mesh(options.mesh, progress, options.density, options.mask);
     std::vector<MeshWarning> warnings = mesh.warnings;
     const HeaderEntries additions = options.mesh.additions();
     auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
@@ -270,7 +285,8 @@ void run_verify(const VerifyOptions& options) {
                       std::move(spacing),
                       std::move(strays),
                       std::move(found.others),
-                      std::move(found.among_given)};
+                      std::move(found.among_given),
+                      masked_samples(samples, mesh)};
     publish(options.out, report_text(check), result_text(check));
     fail_on_violations(check);
 }
@@ -294,6 +310,7 @@ void add_verify_command(Command app) {
     add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
     add_density_options(command, options->density);
+    add_mask_options(command, options->mask);
     add_json_option(command, options->out);
     add_quiet_option(command, options->out, "No progress, no result; only the exit status");
     command.has_footer(help_footer(kExamples));

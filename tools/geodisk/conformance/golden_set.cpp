@@ -87,7 +87,7 @@ FoundSet found(const std::string& fingerprint, std::uint64_t samples, const Devi
 }
 
 FoundSet find_on_surface(const SampleJob& job, RunDevice& device, ProgressLine& progress) {
-    const MeshInput mesh = load_silently(job.mesh, progress, job.density);
+    const MeshInput mesh = load_silently(job.mesh, progress, job.density, job.mask);
     const SampleResult result = sample_mesh(job, mesh, device, progress);
     return found(fingerprint_of(result.rows), result.rows.size(), result.done);
 }
@@ -99,13 +99,12 @@ FoundSet find_on_surfaces(const SampleJob& job, std::span<const std::string> nam
     for (const std::string& name : names) {
         MeshOptions options = job.mesh;
         options.mesh = name;
-        meshes.push_back(load_silently(options, progress, job.density));
+        meshes.push_back(load_silently(options, progress, job.density, job.mask));
     }
     std::vector<SurfacePart> parts;
     double expected = 0;
     for (const MeshInput& mesh : meshes) {
-        SurfacePart part{&mesh.prepared, job.params};
-        part.params.radii = mesh.radii ? &*mesh.radii : nullptr;
+        SurfacePart part{&mesh.prepared, mesh.with_fields(job.params)};
         part.params.min_distance = distance_on_mesh(*job.min_distance, mesh.prepared.statistics());
         expected +=
             expected_count(effective_area(mesh.prepared, part.params), part.params.min_distance);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/mesh_file.hpp"
+#include "geodisk/inputs/mask_input.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/lift.hpp"
@@ -43,9 +44,10 @@ PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<co
     return take(PreparedMesh::prepare({lifted.positions, file.triangles, lifted.dimension}), path);
 }
 
-/// What the lifts and the density need of the mesh file.
+/// What the lifts, the density and the mask need of the mesh file.
 MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
-                       const std::optional<DensitySource>& density) {
+                       const std::optional<DensitySource>& density,
+                       const std::vector<MaskRule>& masks) {
     using Kind = DensitySource::Kind;
     MeshSources sources;
     sources.mesh = options.mesh;
@@ -58,6 +60,13 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
     sources.keep_seams = options.keep_seams;
     if (density && density->kind == Kind::attribute) {
         sources.attributes.push_back(density->name);
+    }
+    for (const MaskRule& rule : masks) {
+        if (rule.is_map) {
+            sources.has_uvs = true;
+        } else if (!rule.axis()) {
+            sources.properties.push_back(rule.name);
+        }
     }
     return sources;
 }
@@ -104,13 +113,13 @@ void MeshInput::place(SampleRow& row) const {
 }
 
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
-                        const DensityOptions& density) {
+                        const DensityOptions& density, const MaskOptions& mask) {
     const std::string& path = options.mesh;
     const std::optional<DensitySource> source = density.source();
     const std::vector<Lift> lifts = options.parsed_lifts();
     progress.begin_stage("reading the mesh");
     Stopwatch watch;
-    MeshSources sources = sources_of(options, lifts, source);
+    MeshSources sources = sources_of(options, lifts, source, mask.mask_rules());
     sources.progress = [&](double part) {
         check_interrupted();
         progress.update(part, "");
@@ -135,8 +144,10 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
             }
         }
     }
-    MeshInput mesh{std::move(file), std::move(prepared), std::move(radii), distance_part, {},
-                   load_seconds,    watch.seconds()};
+    std::vector<std::uint8_t> face_mask = load_mask(mask, path, file);
+    MeshInput mesh{std::move(file),      std::move(prepared), std::move(radii),
+                   std::move(face_mask), distance_part,       {},
+                   load_seconds,         watch.seconds()};
     collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
     mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());
     check_interrupted();
@@ -144,8 +155,8 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
 }
 
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
-                    const DensityOptions& density) {
-    MeshInput mesh = load_silently(options, progress, density);
+                    const DensityOptions& density, const MaskOptions& mask) {
+    MeshInput mesh = load_silently(options, progress, density, mask);
     progress.clear();
     for (const MeshWarning& warning : mesh.warnings) {
         print_warning((warning.file.empty() ? "" : warning.file + ": ") + warning.message);

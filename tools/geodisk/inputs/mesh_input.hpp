@@ -9,10 +9,12 @@
 #include <vector>
 
 #include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
 #include <geodisk/radius_field.hpp>
 
 #include "files/sample_file.hpp"
 #include "geodisk/options/density_options.hpp"
+#include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geometry/mesh.hpp"
@@ -24,7 +26,8 @@ namespace geodisk::tools {
 struct MeshInput {
     MeshFile file;
     PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
-    std::optional<RadiusField> radii; ///< Where the options say that radii vary.
+    std::optional<RadiusField> radii;    ///< Where the options say that radii vary.
+    std::vector<std::uint8_t> face_mask; ///< SampleParams::face_mask, where options give one.
     /// Distances given and told, as a part of that of two samples with the largest radius: with
     /// --density they are those of the smallest.
     double distance_part = 1;
@@ -50,18 +53,24 @@ struct MeshInput {
     }
     /// Of unit length; zero for a face without area and for a mesh that is not in space.
     Vec3 normal(std::uint32_t face) const;
+    /// Returns `params` with the radii and the mask.
+    SampleParams with_fields(SampleParams params) const {
+        params.radii = radii ? &*radii : nullptr;
+        params.face_mask = face_mask;
+        return params;
+    }
     /// Sets position, normal and polygon of `row` by its face and weights.
     void place(SampleRow& row) const;
 };
 
-/// Reads and prepares a mesh. Throws UserError as read_mesh(), lifted_positions() and load_radii(),
-/// or bad_input when the mesh is rejected.
+/// Reads and prepares a mesh. Throws UserError as read_mesh(), lifted_positions(), load_radii() and
+/// load_mask(), or bad_input when the mesh is rejected.
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
-                        const DensityOptions& density);
+                        const DensityOptions& density, const MaskOptions& mask);
 
 /// The same, and writes warnings to standard error.
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
-                    const DensityOptions& density = {});
+                    const DensityOptions& density = {}, const MaskOptions& mask = {});
 
 /// `length` in mesh units. Throws UserError(usage) for % of a mesh that has no bounding box.
 double distance_on_mesh(const Length& length, const MeshStatistics& mesh);

@@ -22,22 +22,6 @@ struct Values {
     std::vector<double> values;
 };
 
-/// The mean over the texture coordinates of each vertex: where a seam runs through it, both sides
-/// have a say. Vertices without any are unused.
-std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
-                               std::size_t vertex_count) {
-    std::vector<double> sums(vertex_count, 0.0);
-    std::vector<std::uint32_t> counts(vertex_count, 0);
-    for (const auto& [vertex, u, v] : file.uvs) {
-        sums[vertex] += image.at(u, v);
-        ++counts[vertex];
-    }
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        sums[v] = counts[v] > 0 ? sums[v] / counts[v] : 1;
-    }
-    return sums;
-}
-
 Values values_of(const DensitySource& of, const std::string& path, const MeshFile& file,
                  std::size_t vertex_count) {
     switch (of.kind) {
@@ -109,6 +93,20 @@ RadiusField field_of(const DensitySource& of, Values& values, const PreparedMesh
 }
 
 } // namespace
+
+std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
+                               std::size_t vertex_count) {
+    std::vector<double> sums(vertex_count, 0.0);
+    std::vector<std::uint32_t> counts(vertex_count, 0);
+    for (const auto& [vertex, u, v] : file.uvs) {
+        sums[vertex] += image.at(u, v);
+        ++counts[vertex];
+    }
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        sums[v] = counts[v] > 0 ? sums[v] / counts[v] : 1;
+    }
+    return sums;
+}
 
 LoadedRadii load_radii(const DensitySource& of, const std::string& path, const MeshFile& file,
                        const PreparedMesh& mesh) {

@@ -3,14 +3,22 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <geodisk/mesh.hpp>
 #include <geodisk/radius_field.hpp>
 
+#include "files/grey_image.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geometry/mesh.hpp"
 
 namespace geodisk::tools {
+
+/// Returns the grey of an image at the vertices of a mesh that was read with texture coordinates:
+/// the mean over those of each vertex, as where a seam runs through it both sides have a say; 1 for
+/// unused vertices.
+std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
+                               std::size_t vertex_count);
 
 struct LoadedRadii {
     RadiusField field;

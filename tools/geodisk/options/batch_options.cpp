@@ -52,6 +52,9 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     if (!line.density.given().empty()) {
         common.density = {};
     }
+    if (line.mask.is_given()) {
+        common.mask = {};
+    }
 }
 
 } // namespace
@@ -142,6 +145,10 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     }
     if (!alone.sample.density.given().empty()) {
         sample.density.place_files(
+            [&folder](const std::string& name) { return seen_from(folder, name); });
+    }
+    if (alone.sample.mask.is_given()) {
+        sample.mask.place_files(
             [&folder](const std::string& name) { return seen_from(folder, name); });
     }
     if (alone.sample.constraints.is_given()) {

@@ -48,8 +48,9 @@ void add_text_options(Command command, OutputOptions& options) {
 
 void add_columns_option(Command command, OutputOptions& options) {
     command.add_option("--columns", options.columns, "LIST",
-                       "Add columns with numbers of a glTF file: any of mesh,\n"
-                       "primitive and node, separated by commas");
+                       "Add columns with numbers of what a sample lies in: any of\n"
+                       "part (no path joins it to others), material, group, and\n"
+                       "for glTF mesh, primitive and node, separated by commas");
 }
 
 void add_output_options(Command command, OutputOptions& options) {

@@ -70,6 +70,12 @@ std::string sample_command(const SampleOptions& options) {
     for (const auto& [name, value] : options.constraints.given()) {
         list.add(name.c_str(), value);
     }
+    for (const std::string& only : options.mask.only) {
+        list.add("--only", only);
+    }
+    for (const std::string& mask : options.mask.masks) {
+        list.add("--mask", mask);
+    }
     list.add("--metric", options.metric, usual.metric);
     list.add("--method", options.method.method, usual.method.method);
     list.add("--pool-ratio", options.method.pool_ratio);

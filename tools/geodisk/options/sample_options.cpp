@@ -51,7 +51,7 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
 } // namespace
 
 HeaderEntries SampleJob::additions() const {
-    return density.added_to(mesh.additions());
+    return with_entries(density.added_to(mesh.additions()), mask);
 }
 
 std::string metric_name(const std::optional<Metric>& metric) {
@@ -65,6 +65,7 @@ SampleJob parse_job(const SampleOptions& options) {
     SampleJob job;
     job.mesh = options.mesh;
     job.density = options.density;
+    job.mask = options.mask;
     job.constraints = options.constraints;
     job.out = options.out;
     job.columns = parse_part_columns(options.out.columns);
@@ -97,6 +98,8 @@ SampleJob parse_job(const SampleOptions& options) {
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
     job.density.is_given();
+    job.mask.only_rules();
+    job.mask.mask_rules();
     return job;
 }
 
@@ -128,6 +131,7 @@ void add_subject_options(Command command, SampleOptions& options) {
 
     add_mesh_options(command, options.mesh);
     add_density_options(command, options.density);
+    add_mask_options(command, options.mask);
     add_constraint_options(command, options.constraints);
 
     command

@@ -10,6 +10,7 @@
 
 #include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/density_options.hpp"
+#include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
@@ -21,6 +22,7 @@ namespace geodisk::tools {
 struct SampleOptions {
     MeshOptions mesh;
     DensityOptions density;
+    MaskOptions mask;
     ConstraintOptions constraints;
     OutputOptions out;
     RunOptions run;
@@ -45,6 +47,7 @@ void add_job_options(Command command, SampleOptions& options);
 struct SampleJob {
     MeshOptions mesh;
     DensityOptions density;
+    MaskOptions mask;
     ConstraintOptions constraints;
     OutputOptions out;
     std::vector<std::string> columns; ///< Of the samples, besides those that all have.

@@ -1,5 +1,6 @@
 #include "geodisk/reports/mesh_report.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "geodisk/reports/json.hpp"
@@ -34,6 +35,10 @@ std::string size_text(const MeshInput& input, std::uint64_t components_without_s
     return text + ", area " + rounded(mesh.area, 6);
 }
 
+std::uint64_t triangles_for_samples(const MeshInput& input) {
+    return static_cast<std::uint64_t>(std::ranges::count(input.face_mask, 1));
+}
+
 } // namespace
 
 std::string mesh_lines(const std::string& label, const std::string& path,
@@ -48,6 +53,9 @@ std::string mesh_lines(const std::string& label, const std::string& path,
         add(name + ' ' + one_line(value));
     }
     add(size_text(input, components_without_samples));
+    if (!input.face_mask.empty()) {
+        add("samples on " + grouped(triangles_for_samples(input)) + " of the triangles only");
+    }
     return lines;
 }
 
@@ -57,7 +65,7 @@ Json mesh_json(const std::string& path, const HeaderEntries& additions, const Me
     const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
     Json json{{"path", path}};
     for (const auto& [name, value] : additions) {
-        if (name == "lift") { // There may be several.
+        if (name == "lift" || name == "only" || name == "mask") { // There may be several.
             json[name].push_back(value);
         } else {
             json[name] = value;
@@ -77,6 +85,9 @@ Json mesh_json(const std::string& path, const HeaderEntries& additions, const Me
          {"nonmanifold_edges", mesh.nonmanifold_edges},
          {"area", mesh.area},
          {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
+    if (!input.face_mask.empty()) {
+        json["triangles_for_samples"] = triangles_for_samples(input);
+    }
     return json;
 }
 

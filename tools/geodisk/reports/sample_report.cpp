@@ -6,6 +6,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "files/part_columns.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/exact_text.hpp"
@@ -92,8 +93,10 @@ SampleHeader SampleReport::header() const {
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));
     }
-    const HeaderEntries constraints = job_.constraints.entries();
-    header.entries.insert(header.entries.end(), constraints.begin(), constraints.end());
+    for (const HeaderEntries& more :
+         {job_.constraints.entries(), part_name_entries(mesh_.file, job_.columns)}) {
+        header.entries.insert(header.entries.end(), more.begin(), more.end());
+    }
     return header;
 }
 

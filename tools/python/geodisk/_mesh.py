@@ -44,8 +44,9 @@ class Mesh:
     attributes : sequence of str
         Names of vertex attributes to read from a PLY file.
     columns : sequence of str
-        Numbers to read for each triangle of a glTF file: any of ``"mesh"``, ``"primitive"`` and
-        ``"node"``. Samples have them as well.
+        Numbers to read for each triangle of a file: any of ``"part"`` (that no path joins to
+        others), ``"material"``, ``"group"``, and for glTF ``"mesh"``, ``"primitive"`` and
+        ``"node"``; 4294967295 for none. Samples have them as well.
     mesh_format : str, optional
         Read the file as gltf, glb, obj, off, ply or stl, ignoring its extension.
 

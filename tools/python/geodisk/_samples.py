@@ -88,8 +88,7 @@ class Samples:
     polygon_index : ndarray of uint32, shape (n,) or None
         Numbers of the given faces, if polygons were split into triangles.
     columns : dict of ndarray of uint32, shape (n,)
-        Numbers of the triangles' ``"mesh"``, ``"primitive"`` and ``"node"`` in a glTF file, if
-        requested from :class:`Mesh`. ``"given"`` is 1 for existing samples that a run kept, else 0.
+        Numbers that the triangles have in a file, as requested from :class:`Mesh`. ``"given"`` is 1 for existing samples that a run kept, else 0.
 
     Raises
     ------

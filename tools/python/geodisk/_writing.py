@@ -18,7 +18,7 @@ Header = dict[str, str]
 
 #: Names of columns of whole numbers: what part of its file a triangle lies in, and whether the
 #: sample was given.
-WHOLE_COLUMNS = ("mesh", "primitive", "node", "given")
+WHOLE_COLUMNS = ("mesh", "primitive", "node", "material", "group", "part", "given")
 
 
 def header_of(samples: Samples) -> Header:

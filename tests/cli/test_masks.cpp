@@ -1,0 +1,130 @@
+// Where samples may lie: parts of meshes, properties and images, sampled, verified and refused.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "cli/command.hpp"
+#include "files/sample_file.hpp"
+#include "unit/png_bytes.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// Three unit squares side by side at x = 0, 1 and 2, of two materials, in three groups; the third
+/// is apart. Each is two triangles.
+constexpr const char* kObj = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n"
+                             "v 2.5 0 0\nv 3.5 0 0\nv 2.5 1 0\nv 3.5 1 0\n"
+                             "vt 0.25 0\nvt 0.75 0\n"
+                             "usemtl red wood\ng left all\nf 1/1 2/1 5/1 4/1\n"
+                             "usemtl steel\ng middle all\nf 2/1 3/1 6/1 5/1\n"
+                             "usemtl red wood\no third one\ng\nf 7/2 8/2 10/2 9/2\n";
+
+/// The unit square in two triangles, which have a property q, and the vertices p; "twice" is of
+/// both.
+constexpr const char* kPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float p\nproperty int twice\nelement face 2\n"
+    "property list uchar int vertex_indices\nproperty int q\nproperty int twice\nend_header\n"
+    "0 0 0 1 0\n1 0 0 2 0\n1 1 0 3 0\n0 1 0 nan 0\n3 0 1 2 7 0\n3 0 2 3 9 0\n";
+
+/// Samples, checks that just these triangles have samples, and verifies.
+void check_faces(const TemporaryFolder& folder, const std::string& mesh, const Arguments& where,
+                 const std::vector<std::uint32_t>& faces, const Arguments& how = {}) {
+    const Outcome made =
+        run(folder, joined(joined({"sample", mesh, "-o", "a.csv", "-d", "0.1"}, where), how));
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    std::vector<std::uint32_t> found;
+    for (const tools::SampleRow& row : tools::read_samples(folder / "a.csv").rows) {
+        found.push_back(row.face);
+    }
+    std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    CHECK(found == faces);
+    CHECK(run(folder, joined({"verify", mesh, "a.csv", "-q"}, where)).status == 0);
+    std::filesystem::remove(folder / "a.csv");
+}
+
+} // namespace
+
+TEST_CASE("samples lie on the parts of a mesh that are named") {
+    const TemporaryFolder folder;
+    folder.write("m.obj", kObj);
+    check_faces(folder, "m.obj", {"--only", "material:red wood"}, {0, 1, 4, 5});
+    check_faces(folder, "m.obj", {"--only", "material:1"}, {2, 3});
+    check_faces(folder, "m.obj", {"--only", "group:all"}, {0, 1, 2, 3});
+    check_faces(folder, "m.obj", {"--only", "group:third one"}, {4, 5});
+    check_faces(folder, "m.obj", {"--only", "group:left", "--only", "part:1"}, {0, 1, 4, 5});
+    check_faces(folder, "m.obj", {"--mask", "x>=1"}, {2, 3, 4, 5});
+    check_faces(folder, "m.obj", {"--mask", "x<=2", "--mask", "x>=1"}, {2, 3});
+    check_faces(folder, "m.obj", {"--only", "part:0"}, {0, 1, 2, 3},
+                {"--method", "darts", "--darts", "5000"});
+    folder.write("g.png", tools::png_bytes(2, 1, "\x10\xf0"));
+    check_faces(folder, "m.obj", {"--mask", "map:g.png"}, {4, 5});
+    check_faces(folder, "m.obj", {"--mask", "map:g.png<0.5", "--only", "group:left"}, {0, 1});
+
+    // A count is that of the faces left, and other samples are found.
+    const Outcome made = run(folder, {"sample", "m.obj", "-o", "all.ply", "-n", "300"});
+    REQUIRE(made.status == 0);
+    const Outcome found = run(folder, {"verify", "m.obj", "all.ply", "--only", "material:steel"});
+    CHECK(found.status != 0);
+    CHECK(contains(found.out, " on faces that --only left out, first sample "));
+    CHECK(contains(found.err, " samples are on faces that --only left out"));
+    const Outcome counted = run(folder, {"sample", "m.obj", "-o", "b.ply", "-n", "300", "--only",
+                                         "material:steel", "--columns", "material,group,part"});
+    INFO(counted.out);
+    REQUIRE(counted.status == 0);
+    CHECK(contains(counted.out, "samples on 2 of the triangles only"));
+    const tools::SampleFile file = tools::read_samples(folder / "b.ply");
+    CHECK(file.rows.size() > 280);
+    CHECK(file.rows.size() < 320);
+    CHECK(std::ranges::all_of(file.extra_values("material"), [](auto v) { return v == 1; }));
+    CHECK(std::ranges::all_of(file.extra_values("group"), [](auto v) { return v == 2; }));
+    CHECK(std::ranges::all_of(file.extra_values("part"), [](auto v) { return v == 0; }));
+    CHECK(*file.header.find("only") == "material:steel");
+    CHECK(*file.header.find("material") == "0 red wood");
+}
+
+TEST_CASE("samples lie where a property holds") {
+    const TemporaryFolder folder;
+    folder.write("m.ply", kPly);
+    check_faces(folder, "m.ply", {"--mask", "q>7"}, {1});
+    check_faces(folder, "m.ply", {"--mask", "q=7"}, {0});
+    check_faces(folder, "m.ply", {"--mask", "q!=9"}, {0});
+    check_faces(folder, "m.ply", {"--mask", "q>=7"}, {0, 1});
+    check_faces(folder, "m.ply", {"--mask", "p<=3"}, {0});
+    check_faces(folder, "m.ply", {"--mask", "p!=5"}, {0});
+    const auto fails = [&](const Arguments& where, int status, const std::string& part) {
+        CAPTURE(part);
+        check_fails(folder, status, part,
+                    joined({"sample", "m.ply", "-o", "a.ply", "-d", "0.1"}, where));
+    };
+    fails({"--mask", "p<3"}, 3, "m.ply: has no face that --mask allows, so no samples fit");
+    fails({"--mask", "q>7", "--only", "part:0", "--mask", "q<9"}, 3,
+          "has no face that --only and --mask allow");
+    fails({"--mask", "r>7"}, 3,
+          "m.ply: has no scalar property 'r' of faces or vertices; it has q, ");
+    fails({"--mask", "twice>0"}, 3, "both faces and vertices have a property 'twice'");
+    fails({"--mask", "q"}, 2, "--mask: 'q' is not PROPERTY<VALUE");
+    fails({"--mask", "q>x"}, 2, "--mask: 'q>x' is not PROPERTY<VALUE");
+    fails({"--mask", "q>nan"}, 2, "--mask: 'q>nan' is not PROPERTY<VALUE");
+    fails({"--mask", "m.ply"}, 2, "give map:m.ply for an image");
+    fails({"--mask", "map:"}, 2, "names nothing");
+    fails({"--only", "wood"}, 2, "--only: 'wood' is none of material:NAME");
+    fails({"--only", "part:x"}, 2, "is not the number of a part");
+    fails({"--only", "part:1"}, 3, "m.ply: has no part:1, as --only requests; its only part is 0");
+    fails({"--only", "material:a"}, 3,
+          "m.ply: has no materials for --only material:a; OBJ (usemtl) and glTF files may");
+    folder.write("m.obj", kObj);
+    check_fails(folder, 3,
+                "m.obj: no face is of material:red wod, as --only requests; the materials are "
+                "'red wood' and 'steel'; did you mean red wood?",
+                {"sample", "m.obj", "-o", "a.ply", "-d", "0.1", "--only", "material:red wod"});
+    check_fails(folder, 3, "has no properties of faces or vertices, so no 'q'",
+                {"sample", "m.obj", "-o", "a.ply", "-d", "0.1", "--mask", "q>0"});
+    check_fails(folder, 3, "does not have the group of a face, as --columns requests; use an OBJ",
+                {"sample", "m.ply", "-o", "a.ply", "-d", "0.1", "--columns", "group"});
+}
+
+} // namespace geodisk::test

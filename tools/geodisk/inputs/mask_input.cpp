@@ -1,0 +1,237 @@
+#include "geodisk/inputs/mask_input.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "files/grey_image.hpp"
+#include "geodisk/inputs/radii_input.hpp"
+#include "geometry/mesh_parts.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/suggestion.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+using Kind = OnlyRule::Kind;
+using Mask = std::vector<std::uint8_t>;
+/// Numbers of what a part of the file belongs to.
+using Numbers = std::vector<std::uint32_t>;
+
+/// What --only names, and what files have it.
+struct Naming {
+    const char* plural;
+    const char* source;
+};
+
+Naming naming_of(Kind kind) {
+    switch (kind) {
+    case Kind::material:
+        return {"materials", "; OBJ (usemtl) and glTF files may"};
+    case Kind::group:
+        return {"groups", "; OBJ files may (g, o)"};
+    default:
+        return {"nodes", "; glTF files may"};
+    }
+}
+
+const std::vector<std::string>& names_of(const MeshFile& mesh, Kind kind) {
+    const PartNames& names = mesh.part_names;
+    return kind == Kind::material ? names.materials
+           : kind == Kind::group  ? names.groups
+                                  : names.nodes;
+}
+
+Numbers numbers_of(const MeshFile& mesh, const MeshPart& part, Kind kind) {
+    if (kind == Kind::group) {
+        return part.groups;
+    }
+    if (kind == Kind::material) {
+        return part.material ? Numbers{*part.material} : Numbers{};
+    }
+    Numbers numbers;
+    const auto& above = mesh.part_names.node_above;
+    for (auto node = part.node; node; node = *node < above.size() ? above[*node] : std::nullopt) {
+        numbers.push_back(*node);
+    }
+    return numbers;
+}
+
+/// Which parts of the file have what a rule of this kind may name.
+class PartIndex {
+  public:
+    PartIndex(const MeshFile& mesh, Kind kind) : mesh_(mesh), kind_(kind) {
+        std::vector<bool> has_triangles(mesh.parts.size(), false);
+        for (const std::uint32_t part : mesh.part_of_triangle) {
+            has_triangles[part] = true;
+        }
+        for (std::size_t part = 0; part < mesh.parts.size(); ++part) {
+            numbers_.push_back(has_triangles[part] ? numbers_of(mesh, mesh.parts[part], kind)
+                                                   : Numbers{});
+            known_.insert(numbers_.back().begin(), numbers_.back().end());
+        }
+    }
+
+    /// Adds to `chosen` the parts that the rule names.
+    void choose(const std::string& path, const OnlyRule& rule, std::vector<bool>& chosen) const {
+        std::set<std::uint32_t> wanted;
+        for (const std::uint32_t number : known_) {
+            if (name_of(number) == rule.name) {
+                wanted.insert(number);
+            }
+        }
+        const auto number = parse_integer<std::uint32_t>(rule.name);
+        if (wanted.empty() && number && known_.contains(*number)) {
+            wanted.insert(*number);
+        }
+        if (wanted.empty()) {
+            fail_unknown(path, rule);
+        }
+        for (std::size_t part = 0; part < numbers_.size(); ++part) {
+            if (std::ranges::any_of(numbers_[part],
+                                    [&](std::uint32_t n) { return wanted.contains(n); })) {
+                chosen[part] = true;
+            }
+        }
+    }
+
+  private:
+    std::string name_of(std::uint32_t number) const {
+        const std::vector<std::string>& names = names_of(mesh_, kind_);
+        return number < names.size() ? names[number] : "";
+    }
+
+    [[noreturn]] void fail_unknown(const std::string& path, const OnlyRule& rule) const {
+        constexpr std::size_t kMost = 10;
+        const Naming naming = naming_of(kind_);
+        if (known_.empty()) {
+            fail_input(path, "has no " + std::string(naming.plural) + " for --only " + rule.text +
+                                 naming.source);
+        }
+        std::vector<std::string> names, shown;
+        for (const std::uint32_t number : known_) {
+            const std::string name = name_of(number);
+            names.push_back(name.empty() ? std::to_string(number) : name);
+        }
+        shown.assign(names.begin(),
+                     names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMost)));
+        for (std::string& name : shown) {
+            name = in_quotes(name);
+        }
+        if (names.size() > kMost) {
+            shown.push_back(std::to_string(names.size() - kMost) + " more");
+        }
+        fail_input(path, "no face is of " + rule.text + ", as --only requests; the " +
+                             naming.plural + " are " + listed(shown) +
+                             did_you_mean(rule.name, names));
+    }
+
+    const MeshFile& mesh_;
+    Kind kind_;
+    std::vector<Numbers> numbers_; ///< Of each part; none of a part without triangles.
+    std::set<std::uint32_t> known_;
+};
+
+/// Marks the triangles of a part that no path joins to others.
+void choose_component(const std::string& path, const MeshFile& mesh, const OnlyRule& rule,
+                      Mask& chosen) {
+    const Numbers parts = part_of_triangles(mesh.triangles);
+    const std::uint32_t wanted = parse_integer<std::uint32_t>(rule.name).value_or(kNoPart);
+    std::uint32_t count = 0;
+    bool is_known = false;
+    for (std::size_t t = 0; t < parts.size(); ++t) {
+        const bool is_wanted = parts[t] == wanted && wanted != kNoPart;
+        chosen[t] = is_wanted ? 1 : chosen[t];
+        is_known = is_known || is_wanted;
+        count = parts[t] == kNoPart ? count : std::max(count, parts[t] + 1);
+    }
+    if (!is_known) {
+        fail_input(path, "has no " + rule.text + ", as --only requests; its " +
+                             (count == 1 ? "only part is 0"
+                                         : counted(count, "part", "parts") + " are 0 to " +
+                                               std::to_string(count - 1)));
+    }
+}
+
+Mask chosen_by(const std::string& path, const MeshFile& mesh, const std::vector<OnlyRule>& rules) {
+    Mask chosen(mesh.triangle_count(), rules.empty() ? 1 : 0);
+    std::vector<bool> parts(mesh.parts.size(), false);
+    for (const OnlyRule& rule : rules) {
+        if (rule.kind == Kind::part) {
+            choose_component(path, mesh, rule, chosen);
+        } else {
+            PartIndex(mesh, rule.kind).choose(path, rule, parts);
+        }
+    }
+    for (std::size_t t = 0; t < mesh.part_of_triangle.size(); ++t) {
+        chosen[t] = parts[mesh.part_of_triangle[t]] ? 1 : chosen[t];
+    }
+    return chosen;
+}
+
+/// Takes out of the mask what the rule does not hold for, by values of the corners.
+void require_at_corners(const MaskRule& rule, const std::vector<std::uint32_t>& corners,
+                        const std::vector<double>& values, Mask& mask) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (!rule.holds(values[corners[i]])) {
+            mask[i / 3] = 0;
+        }
+    }
+}
+
+void require(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property, Mask& mask) {
+    if (const auto axis = rule.axis()) {
+        std::vector<double> coordinates;
+        for (std::size_t i = *axis; i < mesh.positions.size(); i += mesh.dimension) {
+            coordinates.push_back(mesh.positions[i]);
+        }
+        if (coordinates.empty()) {
+            fail_usage("--mask " + rule.name + " needs a mesh with coordinates");
+        }
+        require_at_corners(rule, mesh.triangles, coordinates, mask);
+        return;
+    }
+    if (property == nullptr) {
+        const std::size_t count = std::size_t{1} + *std::ranges::max_element(mesh.triangles);
+        require_at_corners(rule, mesh.triangles,
+                           map_values(GreyImage(rule.name), mesh,
+                                      std::max(count, mesh.positions.size() / mesh.dimension)),
+                           mask);
+        return;
+    }
+    if (!property->of_faces) {
+        require_at_corners(rule, mesh.corners_in_file(), property->values, mask);
+        return;
+    }
+    for (std::size_t t = 0; t < mask.size(); ++t) {
+        if (!rule.holds(property->values[t])) {
+            mask[t] = 0;
+        }
+    }
+}
+
+} // namespace
+
+std::vector<std::uint8_t> load_mask(const MaskOptions& options, const std::string& path,
+                                    const MeshFile& mesh) {
+    if (!options.is_given()) {
+        return {};
+    }
+    Mask mask = chosen_by(path, mesh, options.only_rules());
+    auto property = mesh.properties.begin();
+    for (const MaskRule& rule : options.mask_rules()) {
+        const bool has_property = !rule.is_map && !rule.axis();
+        require(rule, mesh, has_property ? &*property++ : nullptr, mask);
+    }
+    if (std::ranges::count(mask, 1) == 0) {
+        fail_input(path,
+                   "has no face that " + options.names() +
+                       (options.only.empty() || options.masks.empty() ? " allows" : " allow") +
+                       ", so no samples fit");
+    }
+    return mask;
+}
+
+} // namespace geodisk::tools

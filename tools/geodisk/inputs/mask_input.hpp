@@ -1,0 +1,21 @@
+// The triangles that take samples, by the options of a command.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geodisk/options/mask_options.hpp"
+#include "geometry/mesh.hpp"
+
+namespace geodisk::tools {
+
+/// Returns a byte per triangle of the mesh at `path`, 1 where it takes samples; empty without
+/// options. The mesh must have been read with the properties and texture coordinates of the rules.
+///
+/// Throws UserError(bad_input) for a part that the mesh does not have, naming those that it has,
+/// and if no triangle is left.
+std::vector<std::uint8_t> load_mask(const MaskOptions& options, const std::string& path,
+                                    const MeshFile& mesh);
+
+} // namespace geodisk::tools

@@ -1,0 +1,64 @@
+// The options that say where samples may lie, the same for every command that takes them.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/files_in_use.hpp"
+#include "files/sample_file.hpp"
+
+namespace geodisk::tools {
+
+class Command;
+
+/// A part of a mesh that takes samples.
+struct OnlyRule {
+    enum class Kind { material, group, node, part };
+
+    Kind kind = Kind::material;
+    std::string name; ///< Name or number; of a part, its number.
+    std::string text; ///< As given.
+};
+
+/// A comparison that holds where samples may lie.
+struct MaskRule {
+    enum class Comparison { less, at_most, equal, unequal, at_least, greater };
+
+    bool is_map = false; ///< Grey of an image; else a property of faces or vertices.
+    std::string name;    ///< File or property.
+    Comparison comparison = Comparison::at_least;
+    double value = 0;
+
+    /// False for a value that is not a number.
+    bool holds(double of) const;
+    /// The axis of x, y and z, which every mesh with coordinates has.
+    std::optional<std::size_t> axis() const;
+};
+
+/// As given on the command line.
+struct MaskOptions {
+    std::vector<std::string> only, masks;
+
+    bool is_given() const { return !only.empty() || !masks.empty(); }
+    /// Throw UserError(usage) for what they cannot read.
+    std::vector<OnlyRule> only_rules() const;
+    std::vector<MaskRule> mask_rules() const;
+    /// Adds the files that are read.
+    void add_files(std::vector<NamedFile>& read) const;
+    /// Puts `place(name)` for each file that is named.
+    void place_files(const std::function<std::string(const std::string&)>& place);
+    /// Name and value of what is given, as the header of a sample file names it.
+    HeaderEntries entries() const;
+    /// Names the options that are given, for messages.
+    std::string names() const;
+};
+
+/// Returns `entries` with those of the options behind them.
+HeaderEntries with_entries(HeaderEntries entries, const MaskOptions& options);
+
+void add_mask_options(Command command, MaskOptions& options);
+
+} // namespace geodisk::tools
