@@ -112,6 +112,29 @@ TEST_SUITE("masks") {
         }
     }
 
+    TEST_CASE("with given samples, which may lie on faces that the mask leaves out") {
+        const TestMesh shape = builtin("torus-knot", 8);
+        const PreparedMesh mesh = prepared(shape);
+        SampleParams params = params_for(mesh, 300, 3);
+        std::vector<Sample> given = sample(mesh, params).samples;
+        given.resize(60);
+        Points settled;
+        for (const Sample& one : given) {
+            settled.push_back({one.face, one.weights[1], one.weights[2]});
+        }
+        const Mask half = mask_above(shape, 0);
+        CHECK(std::ranges::any_of(given, [&](const Sample& one) { return half[one.face] == 0; }));
+        params.face_mask = half;
+        params.seed = 4;
+        const SampleParams alone = params;
+        params.given = given;
+        const SampleSet set = sample(mesh, params);
+        const Points points = points_of(set);
+        CHECK(points == settled_set(mesh, alone, set.report.plan.error_bound, settled));
+        CHECK(std::ranges::all_of(points.begin() + 60, points.end(),
+                                  [&](const SamplePoint& point) { return half[point.face] != 0; }));
+    }
+
     TEST_CASE("in more than three dimensions") {
         TestMesh shape = builtin("cube", 6);
         TestMesh lifted;
