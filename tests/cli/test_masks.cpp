@@ -28,6 +28,21 @@ constexpr const char* kPly =
     "property list uchar int vertex_indices\nproperty int q\nproperty int twice\nend_header\n"
     "0 0 0 1 0\n1 0 0 2 0\n1 1 0 3 0\n0 1 0 nan 0\n3 0 1 2 7 0\n3 0 2 3 9 0\n";
 
+/// A triangle in wheel, which is below car, and two in a node without a name.
+const std::string kGltf =
+    R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 2]}], "nodes": [
+        {"name": "car", "children": [1]}, {"name": "wheel", "mesh": 0},
+        {"mesh": 1, "translation": [3, 0, 0]}],
+        "materials": [{"name": "rubber"}, {"name": "bark"}, {}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]},
+                   {"primitives": [{"attributes": {"POSITION": 0}, "material": 2},
+                                   {"attributes": {"POSITION": 1}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36},
+                        {"buffer": 0, "byteOffset": 12, "byteLength": 36}],
+        "buffers": [{"byteLength": 48, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAACAPwAAgD8AAAAA"}]})";
+
 /// Samples, checks that just these triangles have samples, and verifies.
 void check_faces(const TemporaryFolder& folder, const std::string& mesh, const Arguments& where,
                  const std::vector<std::uint32_t>& faces, const Arguments& how = {}) {
@@ -84,6 +99,24 @@ TEST_CASE("samples lie on the parts of a mesh that are named") {
     CHECK(std::ranges::all_of(file.extra_values("part"), [](auto v) { return v == 0; }));
     CHECK(*file.header.find("only") == "material:steel");
     CHECK(*file.header.find("material") == "0 red wood");
+}
+
+TEST_CASE("samples lie on nodes and materials of glTF") {
+    const TemporaryFolder folder;
+    folder.write("m.gltf", kGltf);
+    check_faces(folder, "m.gltf", {"--only", "node:car"}, {0});
+    check_faces(folder, "m.gltf", {"--only", "node:wheel"}, {0});
+    check_faces(folder, "m.gltf", {"--only", "node:2"}, {1, 2});
+    check_faces(folder, "m.gltf", {"--only", "material:rubber"}, {0});
+    check_faces(folder, "m.gltf", {"--only", "material:2"}, {1});
+    const auto fails = [&](const std::string& only, const std::string& part) {
+        check_fails(folder, 3, part,
+                    {"sample", "m.gltf", "-o", "a.ply", "-d", "0.1", "--only", only});
+    };
+    fails("material:bark", "no face is of material:bark, as --only requests; the materials are "
+                           "'rubber' and '2'");
+    fails("node:bus", "the nodes are 'car', 'wheel' and '2'");
+    fails("group:a", "m.gltf: has no groups for --only group:a; OBJ files may (g, o)");
 }
 
 TEST_CASE("samples lie where a property holds") {
