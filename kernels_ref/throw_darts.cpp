@@ -5,15 +5,57 @@
 namespace geodisk::ref {
 namespace {
 
+/// Returns the power of two by which lengths are multiplied in the disk of a point to avoid.
+template <class Real>
+Real scale_of(Real radius) {
+    Real scale = 1;
+    while (radius > 1 && radius * scale >= 1) {
+        scale /= 2;
+    }
+    return scale;
+}
+
+/// Returns the surface with all lengths multiplied by this. Radii are all the same.
+template <class Real>
+Surface<Real> scaled(Surface<Real> surface, Real scale) {
+    for (Edge<Real>& edge : surface.edges) {
+        edge.length *= scale;
+        edge.apex_x *= scale;
+        edge.apex_y *= scale;
+    }
+    surface.radii.clear();
+    return surface;
+}
+
+/// Rejects candidates around points to avoid. Large disks are computed in a larger unit.
+template <class Real>
+void keep_out(const Surface<Real>& surface, const Pool<Real>& pool, const Tolerances& tolerances,
+              std::span<const AvoidedPoint<Real>> avoided, std::uint8_t* decided,
+              RunResult& result) {
+    for (const auto& [center, radius] : avoided) {
+        const Real scale = scale_of(radius);
+        const Surface<Real> large = scaled(surface, scale);
+        const Bins<Real> bins(large, pool.bins.points);
+        const Real limit = radius * scale + (tolerances.limit - Real{1});
+        Detector<Real, false> detector(large, bins, tolerances, limit);
+        const DiskCount disk = detector.run(
+            center, [&](std::uint32_t q) { return !decided[bins.order[q]]; },
+            [&](std::uint32_t q, Real) { decided[bins.order[q]] = 1; });
+        result.longest_chain = std::max(result.longest_chain, disk.chain);
+    }
+}
+
 template <bool kMayVary, class Real>
 RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
                      const Tolerances& tolerances, std::uint32_t most,
-                     std::span<const FacePoint<Real>> given) {
+                     std::span<const FacePoint<Real>> given,
+                     std::span<const AvoidedPoint<Real>> avoided) {
     RunResult result;
     const std::uint32_t count = pool.size();
     // Use a pointer: the callbacks would reload the vector's address after every store.
     std::vector<std::uint8_t> flags(count, 0);
     std::uint8_t* const decided = flags.data();
+    keep_out(surface, pool, tolerances, avoided, decided, result);
     Detector<Real, kMayVary> detector(surface, pool.bins, tolerances, tolerances.limit);
     const auto reject = [&](const FacePoint<Real>& source) {
         const DiskCount disk = detector.run(
@@ -43,14 +85,18 @@ RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
                       const Tolerances& tolerances, std::uint32_t most,
-                      std::span<const FacePoint<Real>> given) {
-    return surface.is_adaptive() ? throw_from<true>(surface, pool, tolerances, most, given)
-                                 : throw_from<false>(surface, pool, tolerances, most, given);
+                      std::span<const FacePoint<Real>> given,
+                      std::span<const AvoidedPoint<Real>> avoided) {
+    return surface.is_adaptive()
+               ? throw_from<true>(surface, pool, tolerances, most, given, avoided)
+               : throw_from<false>(surface, pool, tolerances, most, given, avoided);
 }
 
 template RunResult throw_darts(const Surface<float>&, const Pool<float>&, const Tolerances&,
-                               std::uint32_t, std::span<const FacePoint<float>>);
+                               std::uint32_t, std::span<const FacePoint<float>>,
+                               std::span<const AvoidedPoint<float>>);
 template RunResult throw_darts(const Surface<double>&, const Pool<double>&, const Tolerances&,
-                               std::uint32_t, std::span<const FacePoint<double>>);
+                               std::uint32_t, std::span<const FacePoint<double>>,
+                               std::span<const AvoidedPoint<double>>);
 
 } // namespace geodisk::ref

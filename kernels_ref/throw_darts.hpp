@@ -20,11 +20,20 @@ struct RunResult {
     std::uint32_t longest_chain = 0;
 };
 
-/// Visits the ranks upwards and accepts each candidate that no given sample and no accepted one
-/// rejected, until the pool is used up or there are `most` samples, given ones included.
+/// A point to avoid.
+template <class Real>
+struct AvoidedPoint {
+    FacePoint<Real> center;
+    Real radius; ///< In units of the frame.
+};
+
+/// Visits the ranks upwards and accepts each candidate that no point to avoid, no given sample and
+/// no accepted one rejected, until the pool is used up or there are `most` samples, given ones
+/// included.
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
                       const Tolerances& tolerances, std::uint32_t most = kMostCandidates,
-                      std::span<const FacePoint<Real>> given = {});
+                      std::span<const FacePoint<Real>> given = {},
+                      std::span<const AvoidedPoint<Real>> avoided = {});
 
 } // namespace geodisk::ref

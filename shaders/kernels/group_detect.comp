@@ -5,7 +5,7 @@
 // nothing is read that changes but by atomics, of which the order does not matter: so the result is the same
 // for any number of lanes. kernels_ref/kernels/group_detect.hpp is the same in plain C++; read that first.
 // reads: faces, fans, radii, cells, weights, orders   writes: pool, slots, control
-// spec: local size, rounding, adaptive, many rows
+// spec: local size, rounding, adaptive, many rows, avoids
 
 #define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"
@@ -295,7 +295,7 @@ void begin_disk(uint slot) {
     uvec4 lengths = load_lengths(face);
     precise float around = uintBitsToFloat(lengths.x) + uintBitsToFloat(lengths.y) +
                            uintBitsToFloat(lengths.z);
-    precise float third = around * 0.33333334;
+    precise float third = around * 0.33333334 * scale_of(uintBitsToFloat(slots[slot].turn));
     group.slot = slot;
     group.phase = kGroupSource;
     group.items = 3u;

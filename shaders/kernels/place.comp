@@ -81,7 +81,7 @@ float radius_of(uint face, uint part, float weight1, float weight2) {
 
 void main() {
     uint i = own_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    uint count = min(control.ready, push.most);
+    uint count = min(control.ready - min(control.ready, push.avoided), push.most);
     if (i == 0u) {
         arguments[0] = push.vertices_each;
         arguments[1] = count;
@@ -91,7 +91,7 @@ void main() {
     if (i >= count) {
         return;
     }
-    uvec4 own = samples[i];
+    uvec4 own = samples[push.avoided + i];
     uint face = own.y;
     float weight1 = uintBitsToFloat(own.z);
     float weight2 = uintBitsToFloat(own.w);

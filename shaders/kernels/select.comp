@@ -13,9 +13,16 @@ GEODISK_WORDS(kBindWeights, weights);
 
 // Declared for select_idle.glsl.
 uvec4 sample_at(uint place, uint order);
-void settle_point(uint slot, uvec4 record) {}
+void settle_point(uint slot, uvec4 record);
 
 #include "../lib/select_idle.glsl"
+
+void settle_point(uint slot, uvec4 record) {
+    if ((record.y & kKeepsOut) != 0u) {
+        slots[slot].face = record.y & ~kKeepsOut;
+        slots[slot].turn = record.x;
+    }
+}
 
 uvec4 sample_at(uint place, uint order) {
     float weight1 = weight_of(word_at(weights, 2u * place));

@@ -13,9 +13,27 @@ Edge left;          // ends where edge starts
 vec2 apex;          // in the frame of edge
 uint cell_word;
 
-// Used if radii vary.
-float own_radius;   // of the candidate whose disk this is
-vec4 radii;         // of the face
+layout(constant_id = kSpecAvoids) const bool kAvoids = false;
+
+// If radii vary, the radius of the candidate whose disk this is. For a point to avoid minus its radius.
+float own_radius;
+vec4 radii;         // of the face, if radii vary
+
+// Returns true for the disk of a point to avoid. It keeps out all candidates, whatever their radii.
+bool keeps_out() { return kAvoids && own_radius < 0.0; }
+
+// Returns what lengths are multiplied by in the disk of a point to avoid with this radius, 0 for other disks:
+// a power of two, so that distances stay below 2 and lengths exact.
+float scale_of(float radius) {
+    uint exponent = floatBitsToUint(radius) & 0x7f800000u;
+    return kAvoids && radius > 1.0 ? uintBitsToFloat(0x7e800000u - exponent) : 1.0;
+}
+
+// Returns the distance below which candidates conflict, if radii do not vary and without long chains.
+float own_limit() {
+    precise float limit = (job.limit - 1.0) - own_radius * scale_of(-own_radius);
+    return keeps_out() ? limit : job.limit;
+}
 
 // By how much a known path must beat a window before that is dropped.
 float margin;
@@ -36,7 +54,7 @@ float beyond_guard() {
 
 // Returns the distance below which the path in flight leads to a conflict.
 float path_limit() {
-    precise float limit = job.limit + beyond_guard();
+    precise float limit = own_limit() + beyond_guard();
     return limit;
 }
 
@@ -44,7 +62,7 @@ float path_limit() {
 float limit_with(float radius) {
     precise float guard = (job.limit - 1.0) + beyond_guard();
     precise float limit = (own_radius + radius) + guard;
-    return limit;
+    return keeps_out() ? path_limit() : limit;
 }
 
 // Returns the distance beyond which no path through the face leads to a conflict.
@@ -52,6 +70,20 @@ float reach() { return kAdaptive ? limit_with(radii.w) : path_limit(); }
 
 // Returns the distance beyond which no candidate in the face conflicts.
 float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : path_limit(); }
+
+// Returns the lengths of a face in the scale of the disk.
+uvec4 scaled_lengths(uint face) {
+    uvec4 lengths = load_lengths(face);
+    precise vec3 scaled = uintBitsToFloat(lengths.xyz) * scale_of(-own_radius);
+    return kAvoids ? uvec4(floatBitsToUint(scaled), lengths.w) : lengths;
+}
+
+// Returns the cells per unit of length in the scale of the disk.
+float scaled_cells_per_unit() {
+    float cells = cells_per_unit(radii);
+    precise float scaled = cells * uintBitsToFloat(0x7f000000u - floatBitsToUint(scale_of(-own_radius)));
+    return kAvoids ? scaled : cells;
+}
 
 // Loads member by member: for a struct that is assigned as a whole, by an index from its own members,
 // glslang 12 looks for `precise` without end. It does not look into functions.
@@ -62,7 +94,7 @@ void load_into(out Edge side, uint face, uint corner, uvec4 lengths) {
 void load_face() {
     uint face = lane.half_edge / 3u;
     uint corner = lane.half_edge - 3u * face;
-    uvec4 lengths = load_lengths(face);
+    uvec4 lengths = scaled_lengths(face);
     load_into(edge, face, corner, lengths);
     load_into(right, face, next_corner(corner), lengths);
     load_into(left, face, previous_corner(corner), lengths);

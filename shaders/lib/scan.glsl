@@ -30,7 +30,7 @@ void begin_scan(float sx, float sy) {
     bool to_right = base == next_corner(corner);
     float len = to_left ? left.len : (to_right ? right.len : edge.len);
     float height = to_left ? apex_of(left, right).y : (to_right ? apex_of(right, edge).y : apex.y);
-    Grid grid = face_grid(cell_word, len, height, cells_per_unit(radii));
+    Grid grid = face_grid(cell_word, len, height, scaled_cells_per_unit());
     vec2 at = in_grid_frame(to_left, to_right, sx, sy);
     precise float rest = reach_inside() - lane.sigma;
     precise float range = rest + kCellPadding * (len + 1.0);

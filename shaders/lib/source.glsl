@@ -17,6 +17,10 @@ void load_candidate(uint slot) {
     if (kAdaptive) {
         own_radius = radius_at(face_radii(own_face), own_weights.x, own_weights.y);
     }
+    if (kAvoids) {
+        float avoided = uintBitsToFloat(slots[slot].turn);
+        own_radius = avoided > 0.0 ? -avoided : (kAdaptive ? own_radius : 0.0);
+    }
 }
 
 // Places the source of an operation inside the face; returns the squared distance of the candidate from

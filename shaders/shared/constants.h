@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 20u;
+GEODISK_CONST uint kAbi = 21u;
 
 // If radii vary: maximum of proposals per candidate. It takes the first that is kept, or the last.
 GEODISK_CONST uint kMostProposals = 1024u;
@@ -75,6 +75,10 @@ GEODISK_CONST uint kCountProposal = 0xffffffffu;
 // Philox counters for the seed of a box cell, and for its number of candidates.
 GEODISK_CONST uint kCellSeed = 0xb0c5u;
 GEODISK_CONST uint kCountNumber = 0xffffffffu;
+
+// Bit of the face of a settled sample: it is a point to avoid, and its order is the word of its radius, in
+// units of the minimum distance.
+GEODISK_CONST uint kKeepsOut = 0x80000000u;
 
 // Modes of select.
 GEODISK_CONST uint kSelectPool = 0u;    // visits all candidates, and lists those that come next
@@ -237,6 +241,7 @@ GEODISK_CONST uint kSpecManyRows = 11u; // faces have several rows of cells
 GEODISK_CONST uint kSpecSlotLocalSize = 4u; // of kernels over slots and lanes
 GEODISK_CONST uint kSpecKeyed = 13u; // faces are drawn by keys of the caller
 GEODISK_CONST uint kSpecLanesApart = 12u; // pool blocks of one lane
+GEODISK_CONST uint kSpecAvoids = 15u; // points to avoid have disks
 GEODISK_CONST uint kSpecGroupLanes = 14u; // local size of group_detect: lanes that compute one disk
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.

@@ -65,6 +65,7 @@ struct PlacePush {
     uint vertices_each; // that the caller draws for each sample
     float radius;       // the largest, where there is one surface
     uint first_group;   // as above
+    uint avoided;       // points to avoid, which come before the samples
 };
 
 GEODISK_END_SHARED

@@ -57,7 +57,8 @@ struct SlotRec {
     uint place; uint phase; uint idle_conflicts; uint active_conflicts;
     uint order; uint face; uint weight1; uint weight2;
     uint blocks; uint cursor; uint longest_chain; uint tested;
-    // For distances through space: which cells are next, and the candidates left in the last.
+    // For distances through space: which cells are next, and the candidates left in the last. On surfaces
+    // `turn` is the word of the radius of a point to avoid, else 0.
     uint turn; uint scan_place; uint scan_end; uint rows_visited;
 };
 

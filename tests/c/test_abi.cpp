@@ -48,6 +48,8 @@ CHECK_FIELD(geodisk_surface_params, face_mask, 56);
 CHECK_FIELD(geodisk_surface_params, metric, 64);
 CHECK_FIELD(geodisk_surface_params, given, 72);
 CHECK_FIELD(geodisk_surface_params, given_count, 80);
+CHECK_FIELD(geodisk_surface_params, avoid, 88);
+CHECK_FIELD(geodisk_surface_params, avoid_count, 104);
 CHECK_FIELD(geodisk_surface_point, weights, 4);
 CHECK_FIELD(geodisk_surface_part, scale, 24);
 CHECK_FIELD(geodisk_box_params, min_distance, 24);

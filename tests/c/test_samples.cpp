@@ -125,6 +125,22 @@ TEST_CASE("samples that are given come first, and are told") {
     REQUIRE(geodisk_job_need(job.get(), GEODISK_SAMPLES_BUFFER, &need, nullptr) == GEODISK_OK);
     CHECK(need.upload_bytes == 20 * sizeof(geodisk_sample_record));
 
+    const geodisk_surface_point center{all.faces[0], {1, 0, 0}};
+    const double radius = 1;
+    params.given_count = 0;
+    params.avoid = &center;
+    params.avoid_radii = &radius;
+    params.avoid_count = 1;
+    const auto around = owned<geodisk_domain>([&](auto made, auto error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+    CHECK(geodisk_samples_count(sample(shared_sampler(), around.get()).get()) < all.faces.size());
+    params.avoid_radii = nullptr;
+    geodisk_domain* no_radii = nullptr;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &no_radii, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    params.avoid_count = 0;
+    params.given_count = 20;
     params.given = nullptr;
     geodisk_domain* none = nullptr;
     CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);

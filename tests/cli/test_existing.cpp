@@ -1,7 +1,8 @@
-// Samples that are kept: --existing of `geodisk sample`, and how `geodisk verify` tells them apart.
+// Samples that are kept and points that are avoided, and how `geodisk verify` tells them apart.
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -140,6 +141,73 @@ TEST_CASE("a column given of another program marks nothing") {
     CHECK(run(folder, {"verify", "builtin:plate:4", "points.csv", "-d", "0.1"}).status == 1);
 }
 
+TEST_CASE("points are avoided, each by a radius of its own, and verified") {
+    const TemporaryFolder folder;
+    write_text(folder, "wells.csv", "x,y,z,Size\n0.5,0.25,0.005,0.2\n0.2,0.2,0.005,0.05\n");
+    const char* const mesh = "builtin:plate:4";
+    REQUIRE(run(folder, {"sample", mesh, "-o", "free.ply", "-d", "0.03"}).status == 0);
+    const Outcome made = run(folder, {"sample", mesh, "-o", "b.ply", "-d", "0.03", "--avoid",
+                                      "wells.csv:Size", "--json", "b.json"});
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.out, "avoided       2 points\n"));
+    CHECK(json_in(folder, "b.json")["avoided"] == 2);
+    const tools::SampleFile all = tools::read_samples(folder / "b.ply");
+    CHECK(all.extra_values("given").empty());
+    CHECK(*all.header.find("avoid") == "wells.csv:Size");
+    for (const tools::SampleRow& row : all.rows) {
+        const bool is_above = row.position[2] > 0.004;
+        const double x = row.position[0], y = row.position[1];
+        REQUIRE((!is_above || std::hypot(x - 0.5, y - 0.25) >= 0.2));
+        REQUIRE((!is_above || std::hypot(x - 0.2, y - 0.2) >= 0.05));
+    }
+    const Outcome verified = run(folder, {"verify", mesh, "b.ply", "--avoid", "wells.csv:size"});
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "avoided       2 points; 0 samples within the radii\n"));
+    const Outcome wider =
+        run(folder, {"verify", mesh, "b.ply", "--avoid", "wells.csv:0.21", "--json", "v.json"});
+    CHECK(wider.status == 1);
+    CHECK(contains(wider.err, "within the radius of a point to avoid"));
+    CHECK(json_in(folder, "v.json")["avoided"]["intrusions"]["count"] > 0);
+    CHECK(run(folder, {"verify", mesh, "free.ply", "--avoid", "wells.csv:size"}).status == 1);
+
+    const Outcome none =
+        run(folder, {"sample", mesh, "-o", "none.ply", "-d", "0.1", "--avoid", "wells.csv:1e9"});
+    CHECK(none.status == 0);
+    CHECK(
+        contains(none.err, "no new sample fits beside the existing ones and the points to avoid"));
+
+    // With samples to keep, which may lie within; a file and a radius for each option.
+    write_text(folder, "inside.xyz", "0.5 0.25 0.005\n");
+    REQUIRE(run(folder, {"sample", mesh, "-o", "c.ply", "-d", "0.03", "--existing", "inside.xyz",
+                         "--avoid", "wells.csv:5%", "--avoid", "inside.xyz:0.1"})
+                .status == 0);
+    CHECK(run(folder, {"verify", mesh, "c.ply", "--avoid", "inside.xyz:0.1"}).status == 0);
+}
+
+TEST_CASE("points that cannot be avoided are refused") {
+    const TemporaryFolder folder;
+    write_text(folder, "wells.csv", "x,y,z,size\n0.5,0.25,0.005,0.2\n0.2,0.2,0.005,0\n");
+    write_text(folder, "far.xyz", "0.5 0.25 3.005\n");
+    write_text(folder, "empty.csv", "x,y,z\n");
+    const auto fails = [&](int status, const std::string& part, const Arguments& more) {
+        check_fails(folder, status, part,
+                    joined({"sample", "builtin:plate:4", "-o", "b.ply", "-d", "0.1"}, more));
+    };
+    fails(2, "--avoid: 'wells.csv' is not POINTS:RADIUS", {"--avoid", "wells.csv"});
+    fails(2, "--avoid", {"--avoid", "wells.csv:0"});
+    fails(2, "--avoid", {"--avoid", "wells.csv:-1"});
+    fails(3, "wells.csv: has no column width", {"--avoid", "wells.csv:width"});
+    fails(3, "wells.csv: point 1: its size is 0, not a positive radius",
+          {"--avoid", "wells.csv:size"});
+    fails(3, "far.xyz: 1 point lies farther off", {"--avoid", "far.xyz:1"});
+    fails(3, "empty.csv: has no points to avoid", {"--avoid", "empty.csv:1"});
+    fails(3, "none.csv", {"--avoid", "none.csv:1"});
+    fails(2, "--avoid goes by distances along the surface",
+          {"--avoid", "wells.csv:1", "--metric", "euclidean"});
+}
+
 TEST_CASE("existing samples that cannot be kept are refused") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "50"}).status == 0);
@@ -158,7 +226,7 @@ TEST_CASE("existing samples that cannot be kept are refused") {
     write_text(folder, "empty.csv", "x,y,z\n");
     fails(3, "empty.csv: has no samples to keep", {"-d", "0.1", "--existing", "empty.csv"});
     fails(3, "none.ply", {"-d", "0.1", "--existing", "none.ply"});
-    fails(2, "--tolerance is for points that are read; give --existing",
+    fails(2, "--tolerance is for points that are read; give --existing or --avoid",
           {"-d", "0.1", "--tolerance", "1"});
     fails(2, "--existing goes by distances along the surface, so it takes no --metric euclidean",
           {"-d", "0.1", "--metric", "euclidean", "--existing", "a.ply"}, kMesh);

@@ -140,7 +140,7 @@ TEST_CASE("distances follow the scale, however far it is from the first") {
 TEST_CASE("a cluster of samples and samples far apart are measured") {
     const TemporaryFolder folder;
     folder.write("a.obj", square("1"));
-    const tools::SampleFile two{{place(0, 0.75f, 0), place(1, 0, 0.75f)}, {}, 3, {}};
+    const tools::SampleFile two{{place(0, 0.75f, 0), place(1, 0, 0.75f)}, {}, 3, {}, {}};
     tools::write_samples(folder / "a.ply", two.header, two.rows, false);
     CHECK(distance_in(check_transfer(folder, "a.obj", "a.obj")) ==
           doctest::Approx(0.75 * std::sqrt(2.0)));

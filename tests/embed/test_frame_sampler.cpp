@@ -116,6 +116,31 @@ void check_all(Workshop& workshop, const FrameSampler& frames, const Subject& su
 } // namespace
 
 TEST_SUITE("frame sampler") {
+    TEST_CASE("given samples are drawn first, and points to avoid are not") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            Subject knot(*sampler, 200);
+            const std::vector<Sample> given =
+                samples_of(Points(knot.wanted.begin(), knot.wanted.begin() + 9));
+            const std::vector<KeepOut> avoid{
+                {{700, {0.5f, 0.25f, 0.25f}}, 2 * knot.params.min_distance},
+                {{20, {1, 0, 0}}, 0.5 * knot.params.min_distance}};
+            knot.params.given = given;
+            knot.params.avoid = avoid;
+            knot.domain = expect(Domain::surface(knot.mesh, knot.params));
+            knot.wanted =
+                float_set(knot.mesh, knot.params,
+                          expect(sampler->plan_run(knot.domain, Workshop::kPoolBytes)).error_bound);
+            Bench workshop(context);
+            FrameSampler frames =
+                expect(FrameSampler::create(sampler, knot.domain, knot.shape.view(), {}));
+            record_all(workshop, frames);
+            check_all(workshop, frames, knot);
+        }
+        check_silent(context);
+    }
+
     TEST_CASE("samples a few rounds a frame, with any number of frames in flight") {
         const Context context = validated_context();
         {

@@ -126,7 +126,7 @@ TEST_SUITE("given") {
         params.stop_count = static_cast<std::uint32_t>(given.size());
         const SampleSet all = sample(mesh, params);
         CHECK(all.samples.size() == given.size());
-        CHECK(points_of(all) == points_of({given, {}, {}, 0}));
+        CHECK(points_of(all) == points_of(SampleSet{given, {}, {}, 0}));
     }
 
     TEST_CASE("weights are rounded to multiples of 2^-24") {
@@ -257,6 +257,118 @@ TEST_SUITE("given") {
         params.given = given;
         CHECK(add_east() >= distance);
         CHECK(all.size() > before + 100);
+    }
+
+    TEST_CASE("points are avoided by radii smaller and larger than the distance") {
+        const PreparedMesh mesh = prepared(knot());
+        const RadiusField radii = radius_field(mesh, wavy_factors(knot(), 0.3));
+        SampleParams params = params_for(mesh, 400);
+        const double distance = params.min_distance;
+        const std::vector<KeepOut> avoid{{{40, {0.5f, 0.25f, 0.25f}}, 0.3 * distance},
+                                         {{200, {1, 0, 0}}, distance},
+                                         {{300, {0, 0.5f, 0.5f}}, 1.7 * distance},
+                                         {{700, {0.25f, 0.25f, 0.5f}}, 5 * distance}};
+        const std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
+        for (const RadiusField* const field : {static_cast<const RadiusField*>(nullptr), &radii}) {
+            params.radii = field;
+            params.avoid = {};
+            const std::size_t without = sample(mesh, params).samples.size();
+            params.avoid = avoid;
+            check_as_twin(mesh, params, {});
+            check_as_twin(mesh, params, given);
+            const SampleSet set = sample(mesh, params);
+            CHECK(set.samples.size() < without - 20);
+            for (const DisksBy who : {DisksBy::lanes, DisksBy::groups}) {
+                RunnerOptions options;
+                options.plan.disks_by = who;
+                CHECK(points_of(sample(mesh, params, options)) == points_of(set));
+            }
+            CHECK(points_of(set) ==
+                  double_set(mesh, params, ref::frame_of(mesh, params).first_error()));
+            std::vector<Point> points;
+            for (const SamplePoint& point : points_of(set)) {
+                points.push_back({point.face, point.weight1, point.weight2});
+            }
+            for (const auto& [center, radius] : avoid) {
+                const double reach = radius + 2 * distance;
+                GeodesicQuery<double> query(prepared(knot()), reach, points, tight_tolerances());
+                const std::vector<double> distances =
+                    query.from({center.face, center.weights[1], center.weights[2]});
+                const double smallest = *std::ranges::min_element(distances);
+                CHECK(smallest >= radius);
+                CHECK(smallest < reach);
+            }
+        }
+    }
+
+    TEST_CASE("a point may keep out all, and a job counts and places the others") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 100);
+        const std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
+        std::vector<KeepOut> avoid{{{40, {0.5f, 0.25f, 0.25f}}, 1e30}};
+        params.avoid = avoid;
+        CHECK(sample(mesh, params).samples.empty());
+        params.given = given;
+        CHECK(points_of(sample(mesh, params)) == points_of(SampleSet{given, {}, {}, 0}));
+        avoid[0].radius = 2 * params.min_distance;
+        params.given = {};
+        params.stop_count = 20;
+        const SampleSet some = sample(mesh, params);
+        CHECK(some.samples.size() == 20);
+        CHECK(some.report.candidates > 20);
+        CHECK(points_of(some) == float_set(mesh, params, some.report.plan.error_bound));
+        // Another set of settled samples takes the place of the points.
+        DeviceRun run(mesh, params);
+        expect(run.job().set_settled({}));
+        REQUIRE(run.follow_all().next == Next::complete);
+        params.avoid = {};
+        CHECK(ready_points(run) == points_of(sample(mesh, params)));
+    }
+
+    TEST_CASE("each of several surfaces has points of its own to avoid, in its scale") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 200);
+        const std::vector<KeepOut> avoid{{{700, {0.25f, 0.25f, 0.5f}}, 3 * params.min_distance}};
+        params.avoid = avoid;
+        const Points alone = points_of(sample(mesh, params));
+        SampleParams doubled = params;
+        doubled.min_distance *= 2;
+        std::vector<KeepOut> wide = avoid;
+        wide[0].radius *= 2;
+        doubled.avoid = wide;
+        const Domain domain = expect(Domain::surfaces(
+            std::vector<SurfacePart>{{&mesh, params_for(mesh, 200)}, {&mesh, doubled, 2}}));
+        Context& context = shared_context();
+        Runner runner = expect(Runner::create(context.device(), context.queue()));
+        Points of_second;
+        for (const SamplePoint& point : points_of(expect(runner.sample_and_wait(domain)))) {
+            if (point.face >= mesh.face_count()) {
+                of_second.push_back({point.face - mesh.face_count(), point.weight1, point.weight2});
+            }
+        }
+        CHECK(of_second == alone);
+    }
+
+    TEST_CASE("points that cannot be avoided are refused, by their number") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 100);
+        const auto refuses = [&](const KeepOut& wrong, const char* text) {
+            const std::vector<KeepOut> avoid{{{0, {1, 0, 0}}, 0.1}, wrong};
+            params.avoid = avoid;
+            const auto domain = Domain::surface(mesh, params);
+            REQUIRE_FALSE(domain);
+            CHECK(domain.error().message.find(text) != std::string::npos);
+        };
+        const double infinity = std::numeric_limits<double>::infinity();
+        refuses({{0, {1, 0, 0}}, 0}, "point to avoid 1 has the radius 0");
+        refuses({{0, {1, 0, 0}}, -1}, "point to avoid 1 has the radius -1");
+        refuses({{0, {1, 0, 0}}, infinity}, "point to avoid 1 has the radius");
+        refuses({{0, {1, 0, 0}}, std::numeric_limits<double>::quiet_NaN()}, "point to avoid 1");
+        refuses({{1'000'000, {1, 0, 0}}, 1}, "point to avoid 1 is in face 1000000");
+        refuses({{0, {1, 1, 0}}, 1}, "point to avoid 1 has weights");
+        const std::vector<KeepOut> avoid{{{0, {1, 0, 0}}, 0.1}};
+        params.avoid = avoid;
+        CHECK_FALSE(Domain::surface_in_space(knot().view(), mesh, params, Metric::euclidean));
     }
 
     TEST_CASE("given samples that cannot be are refused, by their number") {

@@ -20,9 +20,15 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
         points.push_back({sample.face, sample.weights[1], sample.weights[2]});
         given.push_back({sample.face, sample.weights[1], sample.weights[2]});
     }
-    const ref::RunResult result =
-        ref::throw_darts<Real>(surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
-                               params.stop_count != 0 ? params.stop_count : kMostCandidates, given);
+    std::vector<ref::AvoidedPoint<Real>> avoided;
+    for (const auto& [center, radius] : params.avoid) {
+        const double ratio = radius / ref::frame_of(mesh, params).unit;
+        avoided.push_back({{center.face, center.weights[1], center.weights[2]},
+                           static_cast<Real>(static_cast<float>(ratio))});
+    }
+    const ref::RunResult result = ref::throw_darts<Real>(
+        surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
+        params.stop_count != 0 ? params.stop_count : kMostCandidates, given, avoided);
     for (const std::uint32_t rank : result.ranks) {
         const ref::FacePoint<Real> point = pool.candidate(rank);
         points.push_back(

@@ -43,7 +43,8 @@ const Offsets kPlacePush{
     GEODISK_OFFSET(PlacePush, stride),        GEODISK_OFFSET(PlacePush, position),
     GEODISK_OFFSET(PlacePush, normal),        GEODISK_OFFSET(PlacePush, has_normals),
     GEODISK_OFFSET(PlacePush, short_indices), GEODISK_OFFSET(PlacePush, vertices_each),
-    GEODISK_OFFSET(PlacePush, radius),        GEODISK_OFFSET(PlacePush, first_group)};
+    GEODISK_OFFSET(PlacePush, radius),        GEODISK_OFFSET(PlacePush, first_group),
+    GEODISK_OFFSET(PlacePush, avoided)};
 
 const Offsets kControl{GEODISK_OFFSET(ControlRec, select_x),
                        GEODISK_OFFSET(ControlRec, select_y),

@@ -66,7 +66,7 @@ def test_wrong_ones_are_refused():
         with pytest.raises(error, match=text):
             geodisk.sample(VERTICES, FACES, existing=existing, **{"min_distance": 0.3, **options})
 
-    refuses("no face_index", geodisk.Samples(whole.points))
+    refuses("have no face_index", geodisk.Samples(whole.points))
     refuses("has no samples", whole[:0])
     refuses("a geodisk.Samples, or a pair", whole.points, TypeError)
     refuses("given sample 1 is in face 1000000", ([0, 1000000], [[1, 0, 0], [1, 0, 0]]))
@@ -78,4 +78,26 @@ def test_wrong_ones_are_refused():
     other = geodisk.Samples(
         whole.points + 1, face_index=whole.face_index, barycentric=whole.barycentric
     )
-    refuses("existing sample 0 is .* are these samples of another mesh", other)
+    refuses("existing: sample 0 is .* are these samples of another mesh", other)
+
+
+def test_points_are_avoided():
+    center = geodisk.Samples(face_index=[100], barycentric=[[0.5, 0.25, 0.25]])
+    where = VERTICES[FACES[100]].T @ [0.5, 0.25, 0.25]
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.2, avoid=(center, 0.9))
+    away = np.linalg.norm(samples.points - where, axis=1)
+    assert 0.6 < away.min() < 1.2  # A straight line is shorter.
+    assert len(samples) < len(geodisk.sample(VERTICES, FACES, min_distance=0.2))
+    two = [100, 500], [[0.5, 0.25, 0.25]] * 2
+    both = geodisk.sample(VERTICES, FACES, min_distance=0.2, avoid=(two, [0.9, 0.5]))
+    assert len(both) < len(samples)
+    for wrong, text in (
+        ((two, [1, 2, 3]), "radii of the shape"),
+        ((two, 0), "point to avoid 0 has the radius 0"),
+        ((two, [1, np.nan]), "point to avoid 1 has the radius"),
+        ((([10**6], [[1, 0, 0]]), 1), "point to avoid 0 is in face"),
+    ):
+        with pytest.raises(geodisk.InvalidArgument, match=text):
+            geodisk.sample(VERTICES, FACES, min_distance=0.2, avoid=wrong)
+    with pytest.raises(TypeError, match="a pair: points"):
+        geodisk.sample(VERTICES, FACES, min_distance=0.2, avoid=1.0)

@@ -29,14 +29,16 @@ double value_at(const char* bytes) {
 
 class PcdReader {
   public:
-    PcdReader(const Path& path, std::string_view bytes, SampleDomain domain)
-        : path_(path), bytes_(bytes), domain_(domain), lines_(bytes) {}
+    PcdReader(const Path& path, std::string_view bytes, SampleDomain domain,
+              const std::string& numbers)
+        : path_(path), bytes_(bytes), domain_(domain), numbers_(numbers), lines_(bytes) {}
 
     SampleFile read() {
         read_header();
         const ColumnPlaces places =
             find_places(path_, domain_, [this](std::string_view name) { return place_of(name); });
-        extra_.emplace([this](std::string_view name) { return place_of(name); });
+        extra_.emplace(
+            path_, [this](std::string_view name) { return place_of(name); }, numbers_);
         samples_.dimension = places.dimension();
         samples_.has_faces = places.has_faces;
         if (data_ == "ascii") {
@@ -47,7 +49,7 @@ class PcdReader {
             fail("data of the kind " + in_quotes(data_) + " is not read; write ascii or binary");
         }
         move_origin();
-        samples_.extra = std::move(*extra_).columns();
+        std::move(*extra_).move_to(samples_);
         return std::move(samples_);
     }
 
@@ -246,6 +248,7 @@ class PcdReader {
     const Path& path_;
     std::string_view bytes_;
     SampleDomain domain_;
+    const std::string& numbers_;
     TextLines lines_;
     SampleFile samples_;
     std::optional<ExtraReader> extra_;
@@ -257,8 +260,9 @@ class PcdReader {
 
 } // namespace
 
-SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain) {
-    return PcdReader(path, bytes, domain).read();
+SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+                            const std::string& numbers) {
+    return PcdReader(path, bytes, domain, numbers).read();
 }
 
 } // namespace geodisk::tools

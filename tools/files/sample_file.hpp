@@ -60,6 +60,7 @@ struct SampleFile {
     SampleHeader header;
     std::uint32_t dimension = 3;    ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
     std::vector<ExtraColumn> extra; ///< Those that part_columns() makes, and kGivenColumn.
+    std::vector<double> numbers;    ///< Values of the column that read_samples() was asked for.
     bool has_faces = true;          ///< Else rows have positions alone, as of other programs.
 
     /// The values of a column of `extra`; empty without it.
@@ -127,8 +128,8 @@ void check_box_dimension(const SampleTarget& target, std::uint32_t dimension);
 /// bary_w must be there, or none of them; and either x0 x1 ... or x y z, which may lack where faces
 /// are. The others are 0 if absent, unknown ones are skipped. A format without an extension is told
 /// by how it begins. Throws UserError(bad_input) naming the file and the line or record, also for a
-/// file that is cut short.
-SampleFile read_samples(const Path& path);
+/// file that is cut short, and for one without the column `numbers`, if that is not "".
+SampleFile read_samples(const Path& path, const std::string& numbers = {});
 
 /// The same for samples in a box, which need have neither faces nor weights, and coordinates x0 x1
 /// ... or x, x y or x y z.

@@ -13,7 +13,7 @@
 namespace geodisk::tools {
 namespace {
 
-SampleFile read_ply_samples(PlyFile file, SampleDomain domain) {
+SampleFile read_ply_samples(PlyFile file, SampleDomain domain, const std::string& numbers) {
     const Path& path = file.path();
     SampleFile samples;
     for (const std::string& comment : file.comments()) {
@@ -30,7 +30,7 @@ SampleFile read_ply_samples(PlyFile file, SampleDomain domain) {
         has_vertices = true;
         const auto place_of = [&](std::string_view name) { return element.find_scalar(name); };
         const ColumnPlaces places = find_places(path, domain, place_of);
-        ExtraReader extra(place_of);
+        ExtraReader extra(path, place_of, numbers);
         samples.dimension = places.dimension();
         samples.has_faces = places.has_faces;
         samples.rows.reserve(file.possible_records(element));
@@ -40,7 +40,7 @@ SampleFile read_ply_samples(PlyFile file, SampleDomain domain) {
                 [&](const std::string& message) { file.fail(element, index, message); }));
             extra.add_row([&](std::size_t place) { return std::optional(record.scalars[place]); });
         });
-        samples.extra = std::move(extra).columns();
+        std::move(extra).move_to(samples);
     }
     if (!has_vertices) {
         fail_input(path, "has no element vertex");
@@ -85,30 +85,33 @@ std::string format_of(const Path& path, std::string_view bytes) {
                : "csv";
 }
 
-SampleFile read_in(const Path& path, SampleDomain domain) {
+SampleFile read_in(const Path& path, SampleDomain domain, const std::string& numbers) {
     check_read_back(path);
     std::string bytes = read_text(path);
     const std::string format = format_of(path, bytes);
     if (format == "ply") {
-        return read_ply_samples(PlyFile(path, std::move(bytes)), domain);
+        return read_ply_samples(PlyFile(path, std::move(bytes)), domain, numbers);
     }
     if (format == "pcd") {
-        return read_pcd_samples(path, bytes, domain);
+        return read_pcd_samples(path, bytes, domain, numbers);
     }
     if (format == "obj") {
+        if (!numbers.empty()) {
+            fail_input(path, "has no columns, so none of the name " + numbers);
+        }
         return read_obj_points(path, bytes);
     }
-    return read_table_samples(path, bytes, domain);
+    return read_table_samples(path, bytes, domain, numbers);
 }
 
 } // namespace
 
-SampleFile read_samples(const Path& path) {
-    return read_in(path, SampleDomain::surface);
+SampleFile read_samples(const Path& path, const std::string& numbers) {
+    return read_in(path, SampleDomain::surface, numbers);
 }
 
 SampleFile read_box_samples(const Path& path) {
-    return read_in(path, SampleDomain::box);
+    return read_in(path, SampleDomain::box, {});
 }
 
 } // namespace geodisk::tools

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "files/part_columns.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
+#include "program/failure.hpp"
 
 namespace geodisk::tools {
 
@@ -65,7 +67,14 @@ SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fa
 /// Keeps the columns that part_columns() makes, where a file has them and they hold whole numbers.
 class ExtraReader {
   public:
-    explicit ExtraReader(const PlaceOf& place_of) {
+    /// Reads the column `numbers` too, if that is not "". Throws UserError(bad_input) without it.
+    ExtraReader(const Path& path, const PlaceOf& place_of, const std::string& numbers) {
+        if (!numbers.empty()) {
+            number_place_ = place_of(numbers);
+            if (!number_place_) {
+                fail_input(path, "has no column " + numbers);
+            }
+        }
         std::vector<std::string> names = part_column_names();
         names.emplace_back(kGivenColumn);
         for (const std::string& name : names) {
@@ -79,6 +88,10 @@ class ExtraReader {
     /// `value_at(place)` may be nothing, which is no number.
     template <typename ValueAt>
     void add_row(const ValueAt& value_at) {
+        if (number_place_) {
+            const std::optional<double> number = value_at(*number_place_);
+            numbers_.push_back(number.value_or(std::numeric_limits<double>::quiet_NaN()));
+        }
         for (std::size_t i = 0; i < places_.size();) {
             const std::optional<double> value = value_at(places_[i]);
             std::uint32_t index = 0;
@@ -92,11 +105,17 @@ class ExtraReader {
         }
     }
 
-    std::vector<ExtraColumn> columns() && { return std::move(columns_); }
+    /// Hands over what was read.
+    void move_to(SampleFile& samples) && {
+        samples.extra = std::move(columns_);
+        samples.numbers = std::move(numbers_);
+    }
 
   private:
     std::vector<std::size_t> places_;
     std::vector<ExtraColumn> columns_;
+    std::optional<std::size_t> number_place_;
+    std::vector<double> numbers_;
 };
 
 /// Adds "KEY: VALUE" of a comment; other comments are ignored.
@@ -111,8 +130,10 @@ void check_sample_count(const Path& path, SampleFile& samples);
 void check_last_line(const Path& path, std::string_view text);
 
 /// The readers of single formats.
-SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDomain domain);
-SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain);
+SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+                              const std::string& numbers);
+SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+                            const std::string& numbers);
 SampleFile read_obj_points(const Path& path, std::string_view bytes);
 
 } // namespace geodisk::tools

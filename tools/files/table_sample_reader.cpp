@@ -66,8 +66,10 @@ std::string column_name(std::string_view cell) {
 
 class TableReader {
   public:
-    TableReader(const Path& path, std::string_view bytes, SampleDomain domain)
-        : path_(path), bytes_(bytes), domain_(domain), lines_(bytes) {}
+    TableReader(const Path& path, std::string_view bytes, SampleDomain domain,
+                const std::string& numbers)
+        : path_(path), bytes_(bytes), domain_(domain), numbers_(column_name(numbers)),
+          lines_(bytes) {}
 
     SampleFile read() {
         std::string_view line;
@@ -92,7 +94,7 @@ class TableReader {
                                   "; the file may be cut short");
         }
         check_sample_count(path_, samples_);
-        samples_.extra = std::move(*extra_).columns();
+        std::move(*extra_).move_to(samples_);
         return std::move(samples_);
     }
 
@@ -136,7 +138,7 @@ class TableReader {
                        : std::optional(static_cast<std::size_t>(found - names.begin()));
         };
         places_ = find_places(path_, domain_, place_of);
-        extra_.emplace(place_of);
+        extra_.emplace(path_, place_of, numbers_);
         samples_.dimension = places_.dimension();
         samples_.has_faces = places_.has_faces;
         if (is_row) {
@@ -152,7 +154,7 @@ class TableReader {
         samples_.rows.push_back(make_row(
             places_, [this](std::size_t place) { return value_at(place); },
             [this](const std::string& message) { fail(message); }));
-        extra_->add_row([this](std::size_t place) { return parse_real(cells_[place]); });
+        extra_->add_row([this](std::size_t place) { return number_in(cells_[place], separator_); });
     }
 
     double value_at(std::size_t place) const {
@@ -170,6 +172,7 @@ class TableReader {
     const Path& path_;
     std::string_view bytes_;
     SampleDomain domain_;
+    std::string numbers_;
     TextLines lines_;
     SampleFile samples_;
     ColumnPlaces places_;
@@ -182,8 +185,9 @@ class TableReader {
 
 } // namespace
 
-SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDomain domain) {
-    return TableReader(path, bytes, domain).read();
+SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+                              const std::string& numbers) {
+    return TableReader(path, bytes, domain, numbers).read();
 }
 
 SampleFile read_obj_points(const Path& path, std::string_view bytes) {

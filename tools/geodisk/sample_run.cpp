@@ -89,7 +89,7 @@ void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& resul
 std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
                                        const SampleResult& result) {
     std::vector<ExtraColumn> columns = part_columns(mesh.file, job.columns, result.rows);
-    if (job.constraints.is_given() && has_columns(job.out.target())) {
+    if (!job.constraints.existing.empty() && has_columns(job.out.target())) {
         ExtraColumn given{std::string(kGivenColumn),
                           std::vector<std::uint32_t>(result.rows.size())};
         std::fill_n(given.values.begin(), result.given, 1);
@@ -120,6 +120,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     GivenInput given = load_given(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
     params.given = given.samples;
+    params.avoid = given.avoided;
     const auto task_at = [&](double min_distance) {
         params.min_distance = min_distance;
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
@@ -130,11 +131,13 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
     params.given = {};
+    params.avoid = {};
     SampleResult result;
     result.params = params;
     result.done = std::move(done);
     result.rows = to_rows(mesh, params.min_distance, set.samples);
     result.given = set.given;
+    result.avoided = given.avoided.size();
     std::vector<std::uint32_t> faces;
     for (const SampleRow& row : result.rows) {
         faces.push_back(row.face);
@@ -144,6 +147,12 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.warnings.insert(result.warnings.begin(), given.warnings.begin(), given.warnings.end());
     if (result.given > 0) {
         note_given(job, mesh, result, progress);
+    }
+    if (job.constraints.is_given() && result.rows.size() == result.given) {
+        result.warnings.push_back({"no_new_samples", 1, "",
+                                   "no new sample fits beside the existing ones and the points to "
+                                   "avoid; lower the distance or the radii",
+                                   job.mesh.mesh});
     }
     return result;
 }
@@ -161,6 +170,7 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     const GivenInput given = load_given(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
     params.given = given.samples;
+    params.avoid = given.avoided;
     const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
     return dry_run_on_device(device, {domain_of(job, mesh, params), job.method.expected(room)},
                              params.min_distance, params.seed, progress);

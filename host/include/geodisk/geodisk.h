@@ -334,6 +334,11 @@ typedef struct geodisk_surface_params {
      * are not checked. They count towards stop_count. */
     const geodisk_surface_point *given;
     size_t given_count;
+    /* Points to avoid, which are copied, and a positive radius for each; NULL for none. No sample
+     * but given ones is within the geodesic radius of its point. For GEODISK_GEODESIC only. */
+    const geodisk_surface_point *avoid;
+    const double *avoid_radii;
+    size_t avoid_count;
 } geodisk_surface_params;
 
 /* Makes the domain of one surface. */
@@ -567,7 +572,7 @@ GEODISK_C_API geodisk_status geodisk_job_create(const geodisk_device *device,
 enum {
     GEODISK_POOL_BUFFER = 6,
     GEODISK_CONTROL_BUFFER = 7,
-    GEODISK_SAMPLES_BUFFER = 10, /* One geodisk_sample_record per sample. */
+    GEODISK_SAMPLES_BUFFER = 10, /* One geodisk_sample_record per sample, points to avoid first. */
     GEODISK_ACCEPTED_BUFFER = 11,
     GEODISK_BUFFERS = 14
 };

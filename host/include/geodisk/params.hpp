@@ -54,6 +54,11 @@ struct SampleParams {
     /// this order, and new ones keep the minimum distance from them. Distances among them are not
     /// checked. They count towards `stop_count`. Weights are rounded to multiples of 2^-24.
     std::span<const Sample> given{};
+    /// Disks to keep free of samples, but for given ones. No sample is within the geodesic radius
+    /// of the center, which may be larger or smaller than `min_distance`; disks much larger take
+    /// long. Not for distances through space. A recorded job has the centers before the first
+    /// sample in its samples buffer, as records with `gpu::kKeepsOut` in their face.
+    std::span<const KeepOut> avoid{};
 };
 
 /// Source of a job's candidates: a pool, or an exact number of darts. They come in stages. Each is
@@ -128,9 +133,10 @@ GEODISK_API double packing_density(double area, double min_distance, double coun
 /// Errors: `invalid_argument` for a parameter out of range; for radii, face keys or a face mask of
 /// another number of faces; for a mask that leaves no area for samples; for a given sample, naming
 /// it, in a face that does not exist or repeats a vertex, or with weights that are negative or do
-/// not sum to 1; for more given samples than `stop_count`; for a pool of more than 2^32 candidates,
-/// naming their number; for an edge longer than 4,000 distances, where rounding would matter too
-/// much; for a face, `Error::element`, that expects more than kMostPerFace candidates in a stage.
+/// not sum to 1, likewise for a disk to avoid, or with a radius that is not positive and finite;
+/// for more given samples than `stop_count`; for a pool of more than 2^32 candidates, naming their
+/// number; for an edge longer than 4,000 distances, where rounding would matter too much; for a
+/// face, `Error::element`, that expects more than kMostPerFace candidates in a stage.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
 

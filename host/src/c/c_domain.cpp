@@ -16,6 +16,10 @@ namespace {
 
 static_assert(sizeof(geodisk_job_frame) == kJobFrameBytes);
 
+Sample sample_of(const geodisk_surface_point& point) {
+    return {point.face, {point.weights[0], point.weights[1], point.weights[2]}};
+}
+
 /// Fills in a part. Its params refer to data of the part, so it must not move afterwards.
 Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& given, Part& part) {
     if (mesh == nullptr) {
@@ -48,10 +52,16 @@ Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& g
         return wrong("params->given is NULL");
     }
     for (std::size_t i = 0; i < given.given_count; ++i) {
-        const geodisk_surface_point& point = given.given[i];
-        part.given.push_back({point.face, {point.weights[0], point.weights[1], point.weights[2]}});
+        part.given.push_back(sample_of(given.given[i]));
     }
     part.params.given = part.given;
+    if ((given.avoid == nullptr || given.avoid_radii == nullptr) && given.avoid_count != 0) {
+        return wrong("params->avoid or params->avoid_radii is NULL");
+    }
+    for (std::size_t i = 0; i < given.avoid_count; ++i) {
+        part.avoid.push_back({sample_of(given.avoid[i]), given.avoid_radii[i]});
+    }
+    part.params.avoid = part.avoid;
     return Done{};
 }
 

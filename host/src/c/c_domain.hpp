@@ -20,6 +20,7 @@ struct Part {
     std::vector<std::uint32_t> face_keys;
     std::vector<Sample> given;
     std::vector<std::uint8_t> face_mask;
+    std::vector<KeepOut> avoid;
     SampleParams params;
 };
 

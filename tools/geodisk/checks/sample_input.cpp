@@ -66,9 +66,9 @@ std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& m
 SampleInput read_silently(const std::string& path, const std::string& mesh_path,
                           const MeshInput& mesh, const HeaderEntries* additions,
                           const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                          ProgressLine& progress) {
+                          ProgressLine& progress, const std::string& numbers = {}) {
     progress.begin_stage("reading the samples");
-    SampleInput input{read_samples(path), {}};
+    SampleInput input{read_samples(path, numbers), {}};
     progress.clear();
     check_dimensions(path, input.file, mesh_path, mesh);
     if (!input.file.has_faces) {
@@ -128,10 +128,11 @@ SampleFile read_samples_exactly_on(const std::string& path, const std::string& m
 SampleFile read_samples_silently_on(const std::string& path, const std::string& mesh_path,
                                     const MeshInput& mesh, const HeaderEntries* additions,
                                     const std::string& tolerance,
-                                    std::vector<MeshWarning>& warnings, ProgressLine& progress) {
+                                    std::vector<MeshWarning>& warnings, ProgressLine& progress,
+                                    const std::string& numbers) {
     return without_strays(
         path, mesh_path,
-        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress));
+        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress, numbers));
 }
 
 } // namespace geodisk::tools

@@ -34,10 +34,12 @@ SampleFile read_samples_exactly_on(const std::string& path, const std::string& m
                                    const std::string& tolerance, std::vector<MeshWarning>& warnings,
                                    ProgressLine& progress);
 
-/// The same, and leaves the warnings to the caller to print.
+/// The same, with the column `numbers` as read_samples() has it. Leaves the warnings to the caller
+/// to print.
 SampleFile read_samples_silently_on(const std::string& path, const std::string& mesh_path,
                                     const MeshInput& mesh, const HeaderEntries* additions,
                                     const std::string& tolerance,
-                                    std::vector<MeshWarning>& warnings, ProgressLine& progress);
+                                    std::vector<MeshWarning>& warnings, ProgressLine& progress,
+                                    const std::string& numbers = {});
 
 } // namespace geodisk::tools

@@ -14,12 +14,15 @@
 #include "files/input_file.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
+#include "geodisk/checks/intrusions.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
+#include "geodisk/inputs/given_input.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -46,6 +49,7 @@ struct VerifyOptions {
     MeshOptions mesh;
     DensityOptions density;
     MaskOptions mask;
+    ConstraintOptions constraints; ///< Points to avoid.
     std::string samples, min_distance, tolerance;
     OutputOptions out; ///< No samples.
 
@@ -105,6 +109,8 @@ struct Check {
     SpacingResult result;              ///< Of all pairs but these:
     SpacingResult among_given;         ///< Of samples that were given.
     std::vector<std::uint32_t> masked; ///< Samples on faces that take none.
+    std::size_t avoided = 0;           ///< Number of points to avoid.
+    std::vector<Intrusion> intrusions;
 
     /// Number of samples that were given.
     std::size_t given() const {
@@ -156,6 +162,16 @@ std::string result_text(const Check& check) {
                                  " among these too close, no violation")
             << '\n';
     }
+    if (check.avoided > 0) {
+        out << "avoided       " << counted(check.avoided, "point", "points") << "; "
+            << counted(check.intrusions.size(), "sample", "samples") << " within the radii\n";
+    }
+    for (std::size_t i = 0; i < std::min(check.intrusions.size(), kNamedStrays); ++i) {
+        const Intrusion& one = check.intrusions[i];
+        out << "              "
+            << "sample " << one.row << ": " << rounded(one.distance, 9) << " from point "
+            << one.point << '\n';
+    }
     if (spacing.wrong > 0) {
         out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
@@ -177,31 +193,47 @@ std::string result_text(const Check& check) {
     return out.str();
 }
 
+Json intrusions_json(const std::vector<Intrusion>& intrusions) {
+    Json rows = Json::array(), points = Json::array(), distances = Json::array();
+    for (const Intrusion& one : intrusions) {
+        rows.push_back(one.row);
+        points.push_back(one.point);
+        distances.push_back(one.distance);
+    }
+    return {{"count", intrusions.size()},
+            {"rows", std::move(rows)},
+            {"points", std::move(points)},
+            {"distances", std::move(distances)}};
+}
+
 std::string report_text(const Check& check) {
-    const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked] =
-        check;
+    const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked,
+                 avoided, intrusions] = check;
     const std::size_t given = check.given();
     const bool has_distance = spacing.min_distance > 0;
-    return text_of(
-        Json{{"version", GEODISK_VERSION_STRING},
-             {"mesh", mesh_json(options.mesh.mesh, options.additions(), mesh)},
-             {"warnings", warnings_json(warnings)},
-             {"samples_file", options.samples},
-             {"samples", samples.rows.size()},
-             {"min_distance",
-              has_distance ? Json(spacing.min_distance * check.mesh.distance_part) : Json(nullptr)},
-             {"rho", has_distance ? Json(check.rho()) : Json(nullptr)},
-             {"radii_vary", spacing.radii_vary},
-             {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
-             {"smallest", pair_json(result.closest)},
-             {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
-             {"violations", violations_json(result)},
-             {"given",
-              given == 0 ? Json(nullptr)
-                         : Json{{"samples", given}, {"violations", violations_json(among_given)}}},
-             {"wrong_radii", spacing.wrong},
-             {"masked", mesh.face_mask.empty() ? Json(nullptr) : Json(masked.size())},
-             {"off_the_mesh", strays.size()}});
+    return text_of(Json{
+        {"version", GEODISK_VERSION_STRING},
+        {"mesh", mesh_json(options.mesh.mesh, options.additions(), mesh)},
+        {"warnings", warnings_json(warnings)},
+        {"samples_file", options.samples},
+        {"samples", samples.rows.size()},
+        {"min_distance",
+         has_distance ? Json(spacing.min_distance * check.mesh.distance_part) : Json(nullptr)},
+        {"rho", has_distance ? Json(check.rho()) : Json(nullptr)},
+        {"radii_vary", spacing.radii_vary},
+        {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
+        {"smallest", pair_json(result.closest)},
+        {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
+        {"violations", violations_json(result)},
+        {"given", given == 0
+                      ? Json(nullptr)
+                      : Json{{"samples", given}, {"violations", violations_json(among_given)}}},
+        {"avoided", avoided == 0
+                        ? Json(nullptr)
+                        : Json{{"points", avoided}, {"intrusions", intrusions_json(intrusions)}}},
+        {"wrong_radii", spacing.wrong},
+        {"masked", mesh.face_mask.empty() ? Json(nullptr) : Json(masked.size())},
+        {"off_the_mesh", strays.size()}});
 }
 
 /// Before the work: whether the report can be written.
@@ -210,6 +242,7 @@ void check_files(const VerifyOptions& options) {
     options.mesh.add_files(read, "the mesh");
     options.density.add_files(read, "the density");
     options.mask.add_files(read);
+    options.constraints.add_files(read);
     check_outputs(options.out, "", read);
 }
 
@@ -231,6 +264,8 @@ void fail_on_violations(const Check& check) {
         add(check.strays.size(), "point lies", "points lie",
             " farther off the mesh than --tolerance allows");
     }
+    add(check.intrusions.size(), "sample is", "samples are",
+        " within the radius of a point to avoid");
     add(spacing.wrong, "radius is", "radii are", " not what the density options give");
     add(check.masked.size(), "sample is", "samples are",
         (" on faces that " + check.options.mask.names() + " left out").c_str());
@@ -250,7 +285,7 @@ void check_box(const VerifyOptions& options) {
         fail_usage("SAMPLES is required, except for samples in a box, which need no mesh");
     }
     if (!options.mesh.additions().empty() || options.density.is_given() ||
-        options.mask.is_given()) {
+        options.mask.is_given() || options.constraints.is_given()) {
         fail_usage(
             "options for surfaces need MESH and SAMPLES; a single file must hold samples in a box");
     }
@@ -263,6 +298,7 @@ void run_verify(const VerifyOptions& options) {
     check_tolerance(options.tolerance);
     options.mask.only_rules();
     options.mask.mask_rules();
+    options.constraints.parsed_avoid();
     if (options.samples.empty()) {
         check_box(options);
         verify_box(options.mesh.mesh, options.min_distance, options.out);
@@ -278,6 +314,16 @@ void run_verify(const VerifyOptions& options) {
     Spacing spacing = spacing_of(options, samples, mesh);
     GivenSpacing found = check_spacing(mesh, samples.rows, spacing.radii,
                                        samples.extra_values(kGivenColumn), progress);
+    ConstraintOptions constraints = options.constraints;
+    constraints.tolerance = options.tolerance;
+    const std::size_t before = warnings.size();
+    const std::vector<KeepOut> avoided =
+        load_avoided(constraints, options.mesh, mesh, warnings, progress);
+    for (std::size_t i = before; i < warnings.size(); ++i) {
+        print_warning(warnings[i].file + ": " + warnings[i].message);
+    }
+    std::vector<Intrusion> intrusions =
+        find_intrusions(mesh, samples.rows, samples.extra_values(kGivenColumn), avoided, progress);
     const Check check{options,
                       samples,
                       mesh,
@@ -286,7 +332,9 @@ void run_verify(const VerifyOptions& options) {
                       std::move(strays),
                       std::move(found.others),
                       std::move(found.among_given),
-                      masked_samples(samples, mesh)};
+                      masked_samples(samples, mesh),
+                      avoided.size(),
+                      std::move(intrusions)};
     publish(options.out, report_text(check), result_text(check));
     fail_on_violations(check);
 }
@@ -307,6 +355,7 @@ void add_verify_command(Command app) {
                        "Minimum distance along the surface, in mesh units or % of the\n"
                        "bounding-box diagonal (default: radii in the file, else the\n"
                        "distance in its header)");
+    add_avoid_option(command, options->constraints);
     add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
     add_density_options(command, options->density);

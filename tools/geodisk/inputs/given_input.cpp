@@ -1,9 +1,10 @@
 #include "geodisk/inputs/given_input.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "geodisk/checks/sample_input.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -18,11 +19,40 @@ void check_count(const SampleJob& job, std::size_t given) {
     }
 }
 
+Sample sample_of(const SampleRow& row) {
+    return {row.face, {row.bary[0], row.bary[1], row.bary[2]}};
+}
+
 } // namespace
+
+std::vector<KeepOut> load_avoided(const ConstraintOptions& options, const MeshOptions& of_mesh,
+                                  const MeshInput& mesh, std::vector<MeshWarning>& warnings,
+                                  ProgressLine& progress) {
+    std::vector<KeepOut> avoided;
+    const HeaderEntries additions = of_mesh.additions();
+    for (const auto& [points, length, column] : options.parsed_avoid()) {
+        const SampleFile file = read_samples_silently_on(
+            points, of_mesh.mesh, mesh, &additions, options.tolerance, warnings, progress, column);
+        if (file.rows.empty()) {
+            fail_input(points, "has no points to avoid; leave out --avoid");
+        }
+        for (std::size_t i = 0; i < file.rows.size(); ++i) {
+            const double radius =
+                length ? distance_on_mesh(*length, mesh.prepared.statistics()) : file.numbers[i];
+            if (!(radius > 0) || !std::isfinite(radius)) {
+                fail_input(points, "point " + std::to_string(i) + ": its " + column + " is " +
+                                       exact_text(radius) + ", not a positive radius");
+            }
+            avoided.push_back({sample_of(file.rows[i]), radius});
+        }
+    }
+    return avoided;
+}
 
 GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress) {
     GivenInput given;
     const ConstraintOptions& options = job.constraints;
+    given.avoided = load_avoided(options, job.mesh, mesh, given.warnings, progress);
     if (options.existing.empty()) {
         return given;
     }
@@ -35,7 +65,7 @@ GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine&
     }
     check_count(job, file.rows.size());
     for (const SampleRow& row : file.rows) {
-        given.samples.push_back({row.face, {row.bary[0], row.bary[1], row.bary[2]}});
+        given.samples.push_back(sample_of(row));
     }
     return given;
 }

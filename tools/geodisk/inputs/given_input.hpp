@@ -1,4 +1,4 @@
-// The samples that a job keeps, read and put on its mesh.
+// The samples that a job keeps and the points that it avoids, read and put on its mesh.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,23 @@
 
 namespace geodisk::tools {
 
-/// The samples of --existing, and what is odd about them.
+/// The samples of --existing and the points of --avoid, and what is odd about them.
 struct GivenInput {
     std::vector<Sample> samples;
+    std::vector<KeepOut> avoided;
     std::vector<MeshWarning> warnings; ///< Not printed.
 };
 
-/// Reads the samples of --existing, if there are any. Throws UserError for a file without samples,
-/// for those that are not on the mesh, and for no fewer than --count asks for.
+/// Reads the points of --avoid, if there are any, and adds warnings without printing them. Throws
+/// UserError for a file without points, for those that are not on the mesh, and for a radius that
+/// is not positive.
+std::vector<KeepOut> load_avoided(const ConstraintOptions& options, const MeshOptions& of_mesh,
+                                  const MeshInput& mesh, std::vector<MeshWarning>& warnings,
+                                  ProgressLine& progress);
+
+/// Reads the samples of --existing, if there are any, and the points of --avoid. Throws UserError
+/// for a file without samples, for those that are not on the mesh, and for no fewer than --count
+/// asks for.
 GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
 
 } // namespace geodisk::tools

@@ -151,9 +151,13 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
         sample.mask.place_files(
             [&folder](const std::string& name) { return seen_from(folder, name); });
     }
-    if (alone.sample.constraints.is_given()) {
-        sample.constraints.place_files(
-            [&folder](const std::string& name) { return seen_from(folder, name); });
+    ConstraintOptions& own = alone.sample.constraints;
+    own.place_files([&folder](const std::string& name) { return seen_from(folder, name); });
+    if (!own.existing.empty()) {
+        sample.constraints.existing = own.existing;
+    }
+    if (!own.avoid.empty()) {
+        sample.constraints.avoid = own.avoid;
     }
     return line;
 }

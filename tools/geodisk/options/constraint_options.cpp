@@ -1,19 +1,53 @@
 #include "geodisk/options/constraint_options.hpp"
 
+#include <cctype>
+#include <utility>
+
 #include "geodisk/options/tolerance_option.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
+namespace {
+
+AvoidOption parse_avoid(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) {
+        fail_usage("--avoid: " + in_quotes(text) +
+                   " is not POINTS:RADIUS, such as wells.csv:5 or wells.csv:size");
+    }
+    AvoidOption option{text.substr(0, colon), {}, {}};
+    const std::string radius = text.substr(colon + 1);
+    const bool is_number = std::isdigit(static_cast<unsigned char>(radius.front())) != 0 ||
+                           std::string("+-.").find(radius.front()) != std::string::npos;
+    if (is_number) {
+        option.radius = parse_length("--avoid", radius);
+    } else {
+        option.column = radius;
+    }
+    return option;
+}
+
+} // namespace
+
+std::vector<AvoidOption> ConstraintOptions::parsed_avoid() const {
+    std::vector<AvoidOption> options;
+    for (const std::string& text : avoid) {
+        options.push_back(parse_avoid(text));
+    }
+    return options;
+}
 
 void ConstraintOptions::check(const std::string& metric) const {
     check_tolerance(tolerance);
+    parsed_avoid();
     if (!is_given() && !tolerance.empty()) {
-        fail_usage("--tolerance is for points that are read; give --existing");
+        fail_usage("--tolerance is for points that are read; give --existing or --avoid");
     }
     if (is_given() && metric != "geodesic") {
-        fail_usage("--existing goes by distances along the surface, so it takes no --metric " +
-                   metric);
+        fail_usage(std::string(existing.empty() ? "--avoid" : "--existing") +
+                   " goes by distances along the surface, so it takes no --metric " + metric);
     }
 }
 
@@ -21,27 +55,53 @@ void ConstraintOptions::add_files(std::vector<NamedFile>& read) const {
     if (!existing.empty()) {
         read.push_back({"the existing samples", existing});
     }
+    for (const AvoidOption& option : parsed_avoid()) {
+        read.push_back({"the points to avoid", option.points});
+    }
 }
 
 void ConstraintOptions::place_files(const std::function<std::string(const std::string&)>& place) {
     if (!existing.empty()) {
         existing = place(existing);
     }
+    for (std::string& text : avoid) {
+        const std::size_t colon = text.rfind(':');
+        if (colon != std::string::npos) {
+            text = place(text.substr(0, colon)) + text.substr(colon);
+        }
+    }
 }
 
 HeaderEntries ConstraintOptions::entries() const {
-    return existing.empty() ? HeaderEntries{} : HeaderEntries{{"existing", existing}};
+    HeaderEntries entries;
+    if (!existing.empty()) {
+        entries.emplace_back("existing", existing);
+    }
+    for (const std::string& text : avoid) {
+        entries.emplace_back("avoid", text);
+    }
+    return entries;
 }
 
 HeaderEntries ConstraintOptions::given() const {
     HeaderEntries options;
-    for (const auto& [name, value] :
-         {std::pair{"--existing", &existing}, {"--tolerance", &tolerance}}) {
-        if (!value->empty()) {
-            options.emplace_back(name, *value);
-        }
+    for (const auto& [name, value] : entries()) {
+        options.emplace_back("--" + name, value);
+    }
+    if (!tolerance.empty()) {
+        options.emplace_back("--tolerance", tolerance);
     }
     return options;
+}
+
+void add_avoid_option(Command command, ConstraintOptions& options, const std::string& group) {
+    command
+        .add_option("--avoid", options.avoid, "POINTS:RADIUS",
+                    "Place no new sample within RADIUS of the points of a file,\n"
+                    "along the surface. RADIUS: a length, or the name of a column\n"
+                    "of the file with one per point. May be given several times",
+                    group)
+        .takes_one_value();
 }
 
 void add_constraint_options(Command command, ConstraintOptions& options) {
@@ -52,6 +112,7 @@ void add_constraint_options(Command command, ConstraintOptions& options) {
                        "count towards --count. Samples of this mesh, or points of\n"
                        "another program",
                        group);
+    add_avoid_option(command, options, group);
     add_tolerance_option(command, options.tolerance, group);
 }
 

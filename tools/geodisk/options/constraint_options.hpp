@@ -2,22 +2,34 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "files/files_in_use.hpp"
 #include "files/sample_file.hpp"
+#include "program/arguments.hpp"
 
 namespace geodisk::tools {
 
 class Command;
 
+/// A value of --avoid.
+struct AvoidOption {
+    std::string points; ///< File.
+    std::optional<Length> radius;
+    std::string column; ///< Of radii, where there is no `radius`.
+};
+
 /// As given on the command line.
 struct ConstraintOptions {
-    std::string existing;  ///< File of samples to keep, or "".
-    std::string tolerance; ///< For points without faces, or "".
+    std::string existing;           ///< File of samples to keep, or "".
+    std::vector<std::string> avoid; ///< Files of points to avoid, with radii.
+    std::string tolerance;          ///< For points without faces, or "".
 
-    bool is_given() const { return !existing.empty(); }
+    bool is_given() const { return !existing.empty() || !avoid.empty(); }
+    /// Throws UserError(usage) for what is not POINTS:RADIUS.
+    std::vector<AvoidOption> parsed_avoid() const;
     /// Throws UserError(usage) for options that contradict each other, or `metric`, the name of the
     /// job's, and for a tolerance that is no length.
     void check(const std::string& metric) const;
@@ -32,5 +44,9 @@ struct ConstraintOptions {
 };
 
 void add_constraint_options(Command command, ConstraintOptions& options);
+
+/// Adds --avoid alone.
+void add_avoid_option(Command command, ConstraintOptions& options,
+                      const std::string& group = "Options");
 
 } // namespace geodisk::tools

@@ -36,16 +36,19 @@ std::string distance_line(const SampleJob& job, const MeshInput& mesh, double la
            ") in mesh units" + (job.is_geodesic() ? "" : ", " + metric_text(job)) + '\n';
 }
 
-/// Says how many samples were given, if any were.
-std::string given_line(const SampleResult& result) {
-    const std::size_t pairs = result.among_given.violations.size();
-    return result.given == 0
-               ? ""
-               : "given         " + grouped(result.given) + " of them" +
-                     (pairs == 0
-                          ? ""
-                          : "; " + counted(pairs, "pair", "pairs") + " among these too close") +
-                     '\n';
+/// Says how many samples were given and points avoided, if any were.
+std::string constraint_lines(const SampleResult& result) {
+    std::string text;
+    if (result.given > 0) {
+        const std::size_t pairs = result.among_given.violations.size();
+        text += "given         " + grouped(result.given) + " of them";
+        text += pairs == 0 ? "" : "; " + counted(pairs, "pair", "pairs") + " among these too close";
+        text += '\n';
+    }
+    if (result.avoided > 0) {
+        text += "avoided       " + counted(result.avoided, "point", "points") + '\n';
+    }
+    return text;
 }
 
 } // namespace
@@ -122,7 +125,8 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"radius", distance / 2},
                   {"metric", metric_text(job_)},
                   {"sample_radii", nullptr}, // Where they do not vary.
-                  {"given", nullptr},        // Without --existing.
+                  {"given", nullptr},
+                  {"avoided", result_.avoided}, // Without --existing.
                   {"seed", params.seed}};
     document["mesh"]["components_without_samples"] = result_.bare.count;
     if (result_.picture) {
@@ -160,7 +164,7 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
             << " at the samples\n";
     }
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
-        << given_line(result_) << candidates_text(drawn(), result_.params.seed);
+        << constraint_lines(result_) << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(after), job_.out.output);
     if (result_.picture) {
         out << "picture       " << one_line(job_.picture) << '\n';

@@ -25,6 +25,7 @@ struct SampleResult {
     std::vector<SampleRow> rows;
     std::size_t given = 0;     ///< Number of rows that were given: the first.
     SpacingResult among_given; ///< Their pairs.
+    std::size_t avoided = 0;   ///< Number of points to avoid.
     BareParts bare;
     std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;

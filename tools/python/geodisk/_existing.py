@@ -1,4 +1,4 @@
-"""Samples that a run keeps."""
+"""Samples that a run keeps, and points that it avoids."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from ._surface import Surface
 #: Samples of the mesh, or their triangles and weights.
 ExistingLike = Union[Samples, Tuple[ArrayLike, ArrayLike]]
 
+#: Points, as of ExistingLike, and their radius or radii.
+AvoidLike = Tuple[ExistingLike, ArrayLike]
+
 #: geodisk_surface_point.
 _POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
 
@@ -24,35 +27,56 @@ def existing_of(mesh: Mesh, existing: ExistingLike | None) -> NDArray[Any]:
     """Returns the samples to keep as the library takes them; none for None."""
     if existing is None:
         return np.empty(0, _POINT)
-    if isinstance(existing, Samples):
-        if existing.face_index is None or existing.barycentric is None:
+    return _points_of(mesh, existing, "existing")
+
+
+def avoided_of(mesh: Mesh, avoid: AvoidLike | None) -> tuple[NDArray[Any], NDArray[np.float64]]:
+    """Returns points to avoid and their radii as the library takes them; none for None."""
+    if avoid is None:
+        return np.empty(0, _POINT), np.empty(0)
+    if not isinstance(avoid, (tuple, list)) or len(avoid) != 2:
+        raise TypeError("avoid is a pair: points, as for existing, and their radius or radii")
+    points = _points_of(mesh, avoid[0], "avoid")
+    radii = real(avoid[1], "avoid").astype(np.float64)
+    if radii.ndim > 0 and radii.shape != points.shape:
+        raise e.invalid(f"avoid has {len(points)} points and radii of the shape {radii.shape}")
+    return points, np.ascontiguousarray(np.broadcast_to(radii, points.shape))
+
+
+def _points_of(mesh: Mesh, given: ExistingLike, name: str) -> NDArray[Any]:
+    if isinstance(given, Samples):
+        if given.face_index is None or given.barycentric is None:
             raise e.invalid(
-                "existing samples have no face_index and barycentric; the program puts points "
-                "without them on a mesh (geodisk sample --existing)"
+                f"{name}: these samples have no face_index and barycentric; the program puts "
+                f"points without them on a mesh (geodisk sample --{name})"
             )
-        faces, weights = existing.face_index, existing.barycentric
-        _check_places(mesh._surface, existing, faces, weights)
+        faces, weights = given.face_index, given.barycentric
+        _check_places(mesh._surface, given, faces, weights, name)
     else:
-        if not isinstance(existing, (tuple, list)) or len(existing) != 2:
+        if not isinstance(given, (tuple, list)) or len(given) != 2:
             raise TypeError(
-                "existing is a geodisk.Samples, or a pair of face_index and barycentric"
+                f"{name}: points are a geodisk.Samples, or a pair of face_index and barycentric"
             )
-        faces = indices(existing[0], "face_index").astype(np.uint32)
-        weights = real(existing[1], "barycentric").astype(np.float64)
+        faces = indices(given[0], "face_index").astype(np.uint32)
+        weights = real(given[1], "barycentric").astype(np.float64)
     if faces.ndim != 1 or weights.shape != (len(faces), 3):
         raise e.invalid(
-            f"existing: face_index has the shape {faces.shape}, barycentric {weights.shape}, not "
+            f"{name}: face_index has the shape {faces.shape}, barycentric {weights.shape}, not "
             "(n,) and (n, 3)"
         )
     points = np.empty(len(faces), _POINT)
     points["face"], points["weights"] = faces, weights
     if len(points) == 0:
-        raise e.invalid("existing has no samples; leave it out")
+        raise e.invalid(f"{name} has no samples; leave it out")
     return points
 
 
 def _check_places(
-    surface: Surface, samples: Samples, faces: NDArray[Any], weights: NDArray[Any]
+    surface: Surface,
+    samples: Samples,
+    faces: NDArray[Any],
+    weights: NDArray[Any],
+    name: str,
 ) -> None:
     """Checks that positions are those of faces and weights, which those of another mesh are not."""
     if samples.points is None or surface.edge_lengths is not None:
@@ -64,7 +88,7 @@ def _check_places(
     points = np.einsum("ij,ijk->ik", weights, vertices[corners[faces]])
     if points.shape != samples.points.shape:
         raise e.invalid(
-            f"existing samples have {samples.points.shape[1]} coordinates, the vertices of the "
+            f"{name}: points have {samples.points.shape[1]} coordinates, the vertices of the "
             f"mesh {points.shape[1]}"
         )
     used = vertices[corners.ravel()]
@@ -74,6 +98,6 @@ def _check_places(
     if not (offsets <= allowed).all():
         first = int(np.argmax(~(offsets <= allowed)))
         raise e.invalid(
-            f"existing sample {first} is {offsets[first]:.3g} from the point given by its face "
+            f"{name}: sample {first} is {offsets[first]:.3g} from the point given by its face "
             "and weights; are these samples of another mesh?"
         )

@@ -13,7 +13,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
-from ._existing import ExistingLike, existing_of
+from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
@@ -40,6 +40,7 @@ def sample(
     face_keys: ArrayLike | None = None,
     face_mask: ArrayLike | None = None,
     existing: ExistingLike | None = None,
+    avoid: AvoidLike | None = None,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
@@ -85,6 +86,10 @@ def sample(
         Samples of the mesh to keep: the first of the result, with a 1 in ``columns["given"]``. New
         ones keep the minimum distance from them. They count towards `count` and `stop_count`.
         Distances among them are not checked; :func:`verify` tells them apart.
+    avoid : pair of points and radius, optional
+        Points to keep away from, as for `existing`, and their radius or radii along the surface.
+        No new sample is within the radius of its point, which may be larger or smaller than the
+        minimum distance.
     metric : {"geodesic", "euclidean", "approximate"}
         Distance to use; the last two are for comparison.
     edge_lengths, weld, keep_seams, columns, mesh_format
@@ -145,6 +150,7 @@ def sample(
     keys = None if face_keys is None else keys_of(mesh, face_keys)
     mask = None if face_mask is None else mask_of(mesh, face_mask)
     kept = existing_of(mesh, existing)
+    points, point_radii = avoided_of(mesh, avoid)
     if count is not None and len(kept) >= count:
         raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
     params = s.SurfaceParams(
@@ -157,6 +163,9 @@ def sample(
         metric=s.METRICS[metric],
         given=kept.ctypes.data,
         given_count=len(kept),
+        avoid=points.ctypes.data,
+        avoid_radii=point_radii.ctypes.data,
+        avoid_count=len(points),
     )
 
     def domain_at(at: float, stop: int) -> c.Handle:

@@ -118,6 +118,9 @@ class SurfaceParams(_Sized):
         ("metric", c_int32),
         ("given", c_void_p),
         ("given_count", c_size_t),
+        ("avoid", c_void_p),
+        ("avoid_radii", c_void_p),
+        ("avoid_count", c_size_t),
     ]
 
 

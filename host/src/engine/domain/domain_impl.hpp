@@ -29,8 +29,10 @@ struct Domain::Impl {
     double samples = 0; ///< Expected samples, limited by the stop count and the number of darts.
     std::uint32_t stop_count = 0; ///< Stop count, or 0.
     std::uint64_t seed = 0;
-    std::vector<gpu::SampleRec> settled; ///< Given samples, to upload as the first samples.
-    ErrorModel error;                    ///< Bound on the error of distances.
+    /// Points to avoid, then given samples, to upload as the first samples.
+    std::vector<gpu::SampleRec> settled;
+    std::uint32_t avoided = 0; ///< How many of them are points to avoid.
+    ErrorModel error;          ///< Bound on the error of distances.
     /// Number of units that candidates are drawn by: faces, or cells of a box.
     std::uint64_t units = 0;
     /// Device memory per candidate, approximately.

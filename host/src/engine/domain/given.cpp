@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string>
 
+#include "constants.h"
+#include "engine/domain/tolerances.hpp"
 #include "support/invalid.hpp"
+#include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
 
+// Smallest radius of a point to avoid, in units of the job: far below the guard.
+constexpr double kLeastRadius = 0x1p-20;
 // Error of weights that other programs rounded.
 constexpr double kWeightTolerance = 1e-5;
 
@@ -55,6 +61,17 @@ Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params) {
             return invalid("given sample " + std::to_string(i) + " " + fault);
         }
     }
+    for (std::size_t i = 0; i < params.avoid.size(); ++i) {
+        const KeepOut& avoided = params.avoid[i];
+        const std::string name = "point to avoid " + std::to_string(i);
+        if (const std::string fault = fault_of(avoided.center, mesh); !fault.empty()) {
+            return invalid(name + " " + fault);
+        }
+        if (!(avoided.radius > 0) || !std::isfinite(avoided.radius)) {
+            return invalid(name + " has the radius " + number_text(avoided.radius) +
+                           ", which is not positive and finite");
+        }
+    }
     if (params.stop_count != 0 && params.given.size() > params.stop_count) {
         return invalid("there are " + std::to_string(params.given.size()) +
                        " given samples, more than the stop count of " +
@@ -68,6 +85,16 @@ void add_given(std::span<const Sample> given, std::uint32_t first_face,
     for (const Sample& sample : given) {
         const auto [second, third] = rounded(sample.weights);
         settled.push_back({0, first_face + sample.face, second, third});
+    }
+}
+
+void add_avoided(const PlacedSurface& surface, std::vector<gpu::SampleRec>& settled) {
+    for (const auto& [center, radius] : surface.params.avoid) {
+        const double length = working_distance(*surface.mesh, radius / surface.scale);
+        const auto ratio = static_cast<float>(std::max(length / surface.frame.unit, kLeastRadius));
+        const auto [second, third] = rounded(center.weights);
+        settled.push_back({std::bit_cast<std::uint32_t>(ratio),
+                           (surface.first_face + center.face) | gpu::kKeepsOut, second, third});
     }
 }
 

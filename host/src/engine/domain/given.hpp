@@ -1,4 +1,4 @@
-// Samples that are given to a job: checked, and as the device takes them.
+// Samples that are given to a job, and points to avoid: checked, and as the device takes them.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,22 @@
 #include <geodisk/sample.hpp>
 #include <geodisk/status.hpp>
 
+#include "engine/domain/placed_surface.hpp"
 #include "engine/domain/upload_parts.hpp"
 #include "samples.h"
 
 namespace geodisk {
 
-/// Checks the given samples of a job. Errors name the sample.
+/// Checks the given samples and points to avoid of a job. Errors name the sample.
 Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params);
 
 /// Appends given samples that check_given() finds no fault with. Their faces are numbered from
 /// `first_face` on; weights are rounded to multiples of 2^-24.
 void add_given(std::span<const Sample> given, std::uint32_t first_face,
                std::vector<gpu::SampleRec>& settled);
+
+/// Appends the points to avoid on a surface.
+void add_avoided(const PlacedSurface& surface, std::vector<gpu::SampleRec>& settled);
 
 /// Returns the part that uploads settled samples, which must outlive it.
 UploadPart upload_part(std::span<const gpu::SampleRec> settled);

@@ -17,6 +17,7 @@ struct PlacedSurface {
     JobFrame frame;      ///< Frame of the mesh, or of one that it is a part of.
     Stages stages;       ///< Stages of the surface in its frame.
     std::uint32_t first_face, first_vertex, first_corner;
+    double scale = 1; ///< Length in the instance of a unit of the mesh.
 };
 
 /// All surfaces of a job, at least one.

@@ -124,6 +124,10 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
             return Error{Status::invalid_argument,
                          "SampleParams::radii is for geodesic distances alone"};
         }
+        if (!params.avoid.empty()) {
+            return Error{Status::invalid_argument,
+                         "SampleParams::avoid is for geodesic distances alone"};
+        }
         if (auto checked = check_view(view, mesh); !checked) {
             return checked.error();
         }

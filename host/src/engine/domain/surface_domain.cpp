@@ -82,7 +82,7 @@ Result<Domain> wrapped(Result<std::unique_ptr<const Domain::Impl>> made) {
 }
 
 PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame) {
-    return {&mesh, params, frame, stages_in(frame, mesh, params), 0, 0, 0};
+    return {&mesh, params, frame, stages_in(frame, mesh, params), 0, 0, 0, 1};
 }
 
 Error in_part(std::size_t part, Error error) {
@@ -107,7 +107,9 @@ Result<PlacedSurface> place(const SurfacePart& part) {
     if (params.throws != 0 || params.stop_count != 0) {
         return invalid("of several surfaces, darts and samples are not counted");
     }
-    return placed(*part.mesh, params, *frame);
+    PlacedSurface surface = placed(*part.mesh, params, *frame);
+    surface.scale = part.scale;
+    return surface;
 }
 
 } // namespace
@@ -197,12 +199,17 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         kernels.event_heap |= surface.frame.nearest_first;
         meshes.push_back(mesh.identity());
         first_faces.push_back(surface.first_face);
-        add_given(params.given, surface.first_face, settled);
+        add_avoided(surface, settled);
+    }
+    avoided = static_cast<std::uint32_t>(settled.size());
+    for (const PlacedSurface& surface : surfaces_) {
+        add_given(surface.params.given, surface.first_face, settled);
     }
     first_faces.push_back(face_count(surfaces_));
     kernels.domain = DomainKind::surface;
     kernels.adaptive = has_radii(surfaces_);
     kernels.several = surfaces_.size() > 1;
+    kernels.avoids = avoided > 0;
     kernels.keyed = !kernels.several && !surfaces_[0].params.face_keys.empty();
     kernels.many_rows = cells_.count != 0;
     samples_per_measure = samples_per_area();

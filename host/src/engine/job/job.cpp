@@ -195,6 +195,10 @@ Result<Done> Job::set_settled(std::span<const gpu::SampleRec> samples) noexcept 
             return checked;
         }
         impl_->given = static_cast<std::uint32_t>(samples.size());
+        if (impl_->constants.stop_count != kMostCandidates) {
+            impl_->constants.stop_count -= impl_->avoided;
+        }
+        impl_->avoided = 0;
         impl_->begin_first_stages();
         return Done{};
     });
@@ -301,6 +305,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     error = of.error;
     dispatches = 0;
     given = static_cast<std::uint32_t>(of.settled.size());
+    avoided = of.avoided;
     push = {};
     constants = {};
     constants.capacity = capacity_for(of.stages, new_plan.stages);
@@ -309,7 +314,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     constants.cells =
         static_cast<std::uint32_t>(of.cells(constants.capacity, new_plan.error_bound));
     set_seed(of.seed);
-    constants.stop_count = of.stop_count != 0 ? of.stop_count : kMostCandidates;
+    constants.stop_count = of.stop_count != 0 ? of.stop_count + avoided : kMostCandidates;
     constants.idle_capacity = new_plan.idle_capacity;
     of.set_constants(constants, new_plan);
     apply_plan(new_plan);

@@ -41,7 +41,8 @@ std::string text_of(const KernelVariant& variant) {
     case DomainKind::surface:
         return surfaces + (variant.many_rows ? ", rows of cells" : "") +
                (variant.event_heap ? ", heap" : ", ring") + (variant.trims ? ", trimming" : "") +
-               (variant.lanes_apart ? ", lanes apart" : "") + (variant.keyed ? ", keys" : "");
+               (variant.lanes_apart ? ", lanes apart" : "") + (variant.keyed ? ", keys" : "") +
+               (variant.avoids ? ", points to avoid" : "");
     case DomainKind::placement:
         return surfaces;
     case DomainKind::box:

@@ -219,6 +219,7 @@ Result<Done> Placement::record(VkCommandBuffer commands, const Job& job) const n
         for (std::uint32_t group = 0; group < groups; group += kMostGroups) {
             gpu::PlacePush push = impl_->push;
             push.first_group = group;
+            push.avoided = own.avoided;
             vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push,
                                   &push);
             vk.vkCmdDispatch(commands, std::min(groups - group, kMostGroups), 1, 1);

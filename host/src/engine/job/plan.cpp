@@ -231,7 +231,7 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan.stages = stages_at_once(of.stages, of.most_candidates(report.limits, plan.slots));
         const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
         plan.sample_capacity =
-            wanted_sample_capacity(of.samples, of.stop_count, plan.slots, report);
+            of.avoided + wanted_sample_capacity(of.samples, of.stop_count, plan.slots, report);
         const auto settled = static_cast<std::uint32_t>(of.settled.size());
         plan.sample_capacity = std::max(plan.sample_capacity, settled + plan.slots + 1);
         plan.idle_capacity = wanted_idle_capacity(plan.slots, candidates);

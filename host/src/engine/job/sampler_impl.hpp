@@ -93,7 +93,8 @@ struct Job::Impl {
     Cursor begun, finished, counted; ///< Positions in record_begin, record_finish, record_count.
     std::uint32_t generation = 0;    ///< See ControlRec.
     bool is_begin_due = true;        ///< record_begin() of the stages at hand.
-    std::uint32_t given = 0;         ///< Samples that are settled from the start.
+    std::uint32_t given = 0;         ///< Samples that are settled from the start,
+    std::uint32_t avoided = 0;       ///< of which so many, the first, are points to avoid.
     std::uint64_t thrown = 0;        ///< Candidates of the stages before.
     /// Lowest order, of these stages, that does not take part. Unknown while the exact number of
     /// darts is still to be found: none is decided until then.

@@ -58,13 +58,15 @@ std::vector<KernelVariant> all_kernel_variants() {
             variants.push_back(surface);
             for (bool KernelVariant::*const also :
                  {&KernelVariant::event_heap, &KernelVariant::trims, &KernelVariant::lanes_apart,
-                  &KernelVariant::several, &KernelVariant::keyed}) {
+                  &KernelVariant::several, &KernelVariant::keyed, &KernelVariant::avoids}) {
                 variants.emplace_back(surface).*also = true;
             }
         }
         KernelVariant& of_groups = variants.emplace_back();
         of_groups.adaptive = adaptive;
         of_groups.groups = true;
+        variants.push_back(of_groups);
+        variants.back().avoids = true;
         for (const bool of_several : {false, true}) {
             KernelVariant& placement = variants.emplace_back();
             placement.domain = DomainKind::placement;

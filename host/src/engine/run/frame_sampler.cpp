@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/domain/domain_impl.hpp"
 #include "engine/job/sampler_impl.hpp"
 #include "engine/run/frame_memory.hpp"
 #include "engine/run/runner_impl.hpp"
@@ -124,7 +125,7 @@ Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
     } else if (advice->next == Next::larger_samples) {
         plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
     } else {
-        ready = advice->ready;
+        ready = advice->ready - std::min(advice->ready, Domain::Impl::of(domain).avoided);
         return advice;
     }
     if (auto replaced = replace(plan); !replaced) {

@@ -19,7 +19,8 @@ void take_counts(const gpu::ControlRec& control, RunReport& report) {
 
 SampleSet to_set(const Domain::Impl& domain, std::span<const gpu::SampleRec> records,
                  const RunReport& report) {
-    SampleSet set{{}, {}, report, domain.settled.size()};
+    SampleSet set{{}, {}, report, domain.settled.size() - domain.avoided};
+    records = records.subspan(domain.avoided);
     const std::size_t n = domain.dimension;
     set.samples.reserve(n == 0 ? records.size() : 0);
     set.points.resize(n * records.size());

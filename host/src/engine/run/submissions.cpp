@@ -168,7 +168,8 @@ Progress Submissions::how_far() const {
     const double stepped = all_steps_ > 0 ? std::min(kMostExpected, steps_ / all_steps_) : 0;
     const double decided = std::max(job().decided(control_), stepped * all);
     return {static_cast<std::uint32_t>(std::min(decided, all)), static_cast<std::uint32_t>(all),
-            control_.accepted, control_.disks, wide(control_.windows_low, control_.windows_high)};
+            control_.accepted - std::min(control_.accepted, of_.avoided), control_.disks,
+            wide(control_.windows_low, control_.windows_high)};
 }
 
 } // namespace geodisk

@@ -1,0 +1,30 @@
+// Samples too close to points to avoid, found in double precision by the reference implementation.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/sample.hpp>
+
+#include "files/sample_file.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+
+namespace geodisk::tools {
+
+/// A sample within the radius of a point to avoid.
+struct Intrusion {
+    std::uint32_t row;
+    std::size_t point;
+    double distance;
+};
+
+/// Finds the rows within the radii of the points by more than a billionth, point by point. Rows
+/// with `given` other than 0 may be anywhere; none were given if that is empty. Throws UserError
+/// when interrupted.
+std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const SampleRow> rows,
+                                       std::span<const std::uint32_t> given,
+                                       std::span<const KeepOut> avoided, ProgressLine& progress);
+
+} // namespace geodisk::tools
