@@ -81,11 +81,12 @@ class Detector : public Windows<Real, kMayVary> {
 
   private:
     using Base = Windows<Real, kMayVary>;
-    using Base::adaptive, Base::begin_operation, Base::leave, Base::lit_child, Base::makes_many,
+    using Base::adaptive, Base::arrival_at_apex, Base::begin_operation, Base::entry_through,
+        Base::error_of, Base::leave, Base::leave_shadow, Base::lit_child, Base::makes_many,
         Base::reach_through, Base::remember;
     using Base::count_, Base::limit_, Base::margin_, Base::own_radius_, Base::slack_;
-    using Base::in_shadow, Base::square, Base::surface_, Base::turns_back;
     using Base::kFull, Base::kNearVertex, Base::kNoEdge, Base::kWholeFan;
+    using Base::square, Base::surface_, Base::turns_back;
     using typename Base::Child;
     using typename Base::Window;
     using Event = ref::Event<Real>;
@@ -107,15 +108,15 @@ class Detector : public Windows<Real, kMayVary> {
     }
 
     /// Handles a path of the given length that ends at v, having come in through `corner`.
-    void reach(std::uint32_t v, Real distance, std::uint32_t corner, std::uint32_t through,
-               Real crossing, bool whole_fan, std::uint32_t chain) {
+    void reach(std::uint32_t v, Real distance, std::uint32_t corner, std::uint32_t arrival,
+               std::uint32_t through, Real crossing, bool whole_fan, std::uint32_t chain) {
         if (!(distance < distance_at(v)) || !(distance < reach_through(corner / 3))) {
             return;
         }
         count_.vertices += vertices_[v].generation != generation_;
         vertices_[v] = {distance, crossing, through, generation_};
         if (whole_fan || (surface_.fans[v].flags & gpu::kFanBends)) {
-            waiting_.push(Event{v, whole_fan ? kWholeFan : corner, distance, chain});
+            waiting_.push(Event{v, whole_fan ? kWholeFan : corner, distance, chain, arrival});
         }
     }
 
@@ -135,7 +136,8 @@ class Detector : public Windows<Real, kMayVary> {
             begin_operation(0, waiting_.longest_chain());
             const auto p = position_in(surface_, e, source);
             const Real distance = root(p.x * p.x + p.y * p.y);
-            reach(surface_.edges[e].origin, distance, e, kNoEdge, 0,
+            reach(surface_.edges[e].origin, distance, e,
+                  arrival_from(p.x, p.y, blur_of(error_of(1), distance)), kNoEdge, 0,
                   distance <= static_cast<Real>(kNearVertex), 1);
             push(leave(e, distance_at(surface_.edges[e].origin),
                        distance_at(surface_.edges[next_in_face(e)].origin), p.x, p.y, 0,
@@ -150,22 +152,24 @@ class Detector : public Windows<Real, kMayVary> {
             return;
         }
         const VertexFan& fan = surface_.fans[v];
+        const Entry entry = entry_through(fan, event.corner, event.arrival);
         for (std::uint32_t i = 0; i < fan.corner_count; ++i) {
             const std::uint32_t corner = surface_.corners[fan.first_corner + i];
-            if (!in_shadow(fan, event.corner, corner)) {
+            const Shadow shadow = shadow_in(entry, surface_.edges[corner].fan_angles);
+            if (shadow.low > shadow.high) {
                 continue;
             }
             const std::uint32_t e = next_in_face(corner);
             const std::uint32_t back = previous_in_face(corner);
             const Edge<Real>& edge = surface_.edges[e];
             begin_operation(event.chain, waiting_.longest_chain());
-            reach(edge.origin, event.sigma + surface_.edges[corner].length, e, kNoEdge, 0, false,
-                  event.chain + 1);
-            reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back,
+            reach(edge.origin, event.sigma + surface_.edges[corner].length, e,
+                  gpu::kArrivedAlongPrevious, kNoEdge, 0, false, event.chain + 1);
+            reach(surface_.edges[back].origin, event.sigma + surface_.edges[back].length, back, 0,
                   kNoEdge, 0, false, event.chain + 1);
-            push(leave(e, distance_at(edge.origin), distance_at(surface_.edges[back].origin),
-                       edge.apex_x, edge.apex_y, 0, edge.length, event.sigma, event.chain + 1,
-                       remember(e, event.chain + 1, e)));
+            push(leave_shadow(e, shadow, distance_at(edge.origin),
+                              distance_at(surface_.edges[back].origin), event.sigma,
+                              event.chain + 1));
             light.face(e, edge.apex_x, edge.apex_y, event.sigma);
         }
     }
@@ -237,9 +241,11 @@ class Detector : public Windows<Real, kMayVary> {
         bool to_right = crossing < b1;
         const std::uint32_t apex = surface_.edges[left].origin;
         if (crossing >= b0 - slack_ && crossing <= b1 + slack_) {
-            const Real distance = sigma + root(square(edge.apex_x - x) + square(edge.apex_y + y));
+            const Real way = root(square(edge.apex_x - x) + square(edge.apex_y + y));
+            const Real distance = sigma + way;
             split_once(apex, h, crossing, distance, to_left, to_right);
-            reach(apex, distance, left, h, crossing, false, window.chain + 1);
+            reach(apex, distance, left, arrival_at_apex(edge, window, way), h, crossing, false,
+                  window.chain + 1);
         }
         const Real known = distance_at(apex);
         const Child over_left =

@@ -54,11 +54,11 @@ class GroupDetector : public Windows<Real, kMayVary> {
 
   private:
     using Base = Windows<Real, kMayVary>;
-    using Base::adaptive, Base::begin_operation, Base::leave, Base::lit_child, Base::makes_many,
-        Base::reach_through, Base::remember;
+    using Base::adaptive, Base::begin_operation, Base::entry_through, Base::error_of, Base::leave,
+        Base::leave_shadow, Base::lit_child, Base::makes_many, Base::reach_through, Base::remember;
     using Base::count_, Base::margin_, Base::own_radius_, Base::slack_;
-    using Base::in_shadow, Base::square, Base::surface_, Base::turns_back;
     using Base::kFull, Base::kNearVertex, Base::kWholeFan;
+    using Base::square, Base::surface_, Base::turns_back;
     using typename Base::Child;
     using typename Base::Window;
 
@@ -69,8 +69,8 @@ class GroupDetector : public Windows<Real, kMayVary> {
         std::uint32_t generation = 0;
         std::uint32_t first_way = ~0u, last_way = 0; ///< Lowest and highest of those that tie.
         Real crossing = static_cast<Real>(kFar);     ///< Lowest of those that tie.
-        std::uint32_t chain = 0;                     ///< Longest of those that tie.
-        Real lit = -1;                               ///< Distance that an event was made for.
+        std::uint32_t path = 0; ///< Longest chain of those that tie, and the blur of that one.
+        Real lit = -1;          ///< Distance that an event was made for.
     };
     static constexpr std::uint32_t kWholeWay = 0;
     static std::uint32_t way_of(std::uint32_t corner, bool along_edge) {
@@ -79,12 +79,13 @@ class GroupDetector : public Windows<Real, kMayVary> {
 
     /// A window that enters the face of half_edge, from an edge of the same or the other direction;
     /// or a source inside that face, `window` then has only sigma and chain, and for the candidate
-    /// (chain 0) its position.
+    /// (chain 0) its position. Another source is at the apex, and lights the shadow there.
     struct Item {
         std::uint32_t half_edge;
         bool inside, same_way;
         Window window;
         Real distance;
+        Shadow shadow{};
     };
     struct Event {
         std::uint32_t vertex;
@@ -164,7 +165,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
                                                       : static_cast<Real>(kFar);
     }
 
-    /// Proposes a path of the item to v.
+    /// Proposes a path of the item to v; `crossing` is where it crosses the edge opposite to v.
     void propose(const Item& item, std::uint32_t v, std::uint32_t way, Real distance,
                  Real crossing) {
         if (!(distance < reach_through(item.half_edge / 3))) {
@@ -191,11 +192,17 @@ class GroupDetector : public Windows<Real, kMayVary> {
         if (note.distance != proposal.distance) {
             return;
         }
-        const std::uint32_t chain = proposal.item->window.chain + 1;
+        const Window& window = proposal.item->window;
+        const std::uint32_t chain = window.chain + 1;
+        // At the corners of its own face the direction of the candidate is left open.
+        const std::uint32_t blur = window.chain == 0 ? gpu::kMostBlur
+                                   : proposal.item->inside
+                                       ? 0
+                                       : blur_of(error_of(chain), proposal.distance - window.sigma);
         note.first_way = std::min(note.first_way, proposal.way);
         note.last_way = std::max(note.last_way, proposal.way);
         note.crossing = std::min(note.crossing, proposal.crossing);
-        note.chain = std::max(note.chain, chain);
+        note.path = std::max(note.path, chain << gpu::kBlurBits | blur);
         const bool bends = (surface_.fans[proposal.vertex].flags & gpu::kFanBends) != 0;
         if (note.lit != note.distance && (bends || proposal.way == kWholeWay)) {
             note.lit = note.distance;
@@ -257,7 +264,8 @@ class GroupDetector : public Windows<Real, kMayVary> {
             return;
         }
         light.face(h, edge.apex_x, edge.apex_y, sigma);
-        propose(item, edge.origin, way_of(h, true), sigma + surface_.edges[left].length, Real{0});
+        propose(item, edge.origin, way_of(h, true), sigma + surface_.edges[left].length,
+                surface_.edges[right].length);
         propose(item, surface_.edges[right].origin, way_of(right, true),
                 sigma + surface_.edges[right].length, Real{0});
     }
@@ -293,11 +301,11 @@ class GroupDetector : public Windows<Real, kMayVary> {
         const Edge<Real>& edge = surface_.edges[h];
         if (item.inside) {
             const std::uint32_t chain = item.window.chain + 1;
-            const bool is_source = chain == 1;
-            push(leave(
-                h, distance_at(edge.origin), distance_at(surface_.edges[next_in_face(h)].origin),
-                is_source ? item.window.x : edge.apex_x, is_source ? item.window.y : edge.apex_y, 0,
-                edge.length, item.window.sigma, chain, remember(h, chain, h)));
+            const Real start = distance_at(edge.origin);
+            const Real end = distance_at(surface_.edges[next_in_face(h)].origin);
+            push(chain > 1 ? leave_shadow(h, item.shadow, start, end, item.window.sigma, chain)
+                           : leave(h, start, end, item.window.x, item.window.y, 0, edge.length, 0,
+                                   chain, remember(h, chain, h)));
             return;
         }
         if (!turns_back(h, item.window)) {
@@ -369,15 +377,28 @@ class GroupDetector : public Windows<Real, kMayVary> {
     void light_corners(const VertexFan& fan, const VertexNote& note, std::uint32_t first,
                        std::uint32_t end) {
         const std::uint32_t from = note.first_way == kWholeWay ? kWholeFan : note.first_way / 2 - 1;
+        const Entry entry = entry_through(fan, from, arrival_at(note, from));
         for (std::uint32_t i = first; i < end; ++i) {
             const std::uint32_t corner = surface_.corners[fan.first_corner + i];
-            if (in_shadow(fan, from, corner)) {
-                Item item{next_in_face(corner), true, true, {}, note.distance};
+            const Shadow shadow = shadow_in(entry, surface_.edges[corner].fan_angles);
+            if (shadow.low <= shadow.high) {
+                Item item{next_in_face(corner), true, true, {}, note.distance, shadow};
                 item.window.sigma = note.distance;
-                item.window.chain = note.chain;
+                item.window.chain = note.path >> gpu::kBlurBits;
                 push(item);
             }
         }
+    }
+
+    /// Returns how the shortest path came in through corner `from`, by where it crossed the edge
+    /// opposite to it.
+    std::uint32_t arrival_at(const VertexNote& note, std::uint32_t from) const {
+        if (note.first_way != note.last_way || from == kWholeFan) {
+            return gpu::kMostBlur;
+        }
+        const Edge<Real>& edge = surface_.edges[next_in_face(from)];
+        const Real along = square(edge.apex_x) + square(edge.apex_y) - edge.apex_x * note.crossing;
+        return arrival_from(along, edge.apex_y * note.crossing, note.path & gpu::kMostBlur);
     }
 
     std::vector<VertexNote> vertices_;

@@ -22,12 +22,12 @@ struct Window {
     std::uint32_t remembered;
 };
 
-/// A vertex reached by a path of length sigma that came in through `corner`.
+/// A vertex reached by a path of length sigma that came in through `corner`, see shadow.hpp.
 template <class Real>
 struct Event {
     std::uint32_t vertex, corner;
     Real sigma;
-    std::uint32_t chain;
+    std::uint32_t chain, arrival;
 };
 
 /// Waiting work. Windows go first, latest first; events follow when no window is left, nearest or
@@ -65,7 +65,7 @@ class Waiting {
     void push(const Window<Real>& window, Real distance) {
         if (trims_) {
             // Equally near windows go in the order they came.
-            push_row({{gpu::kWindowWaits, pushed_, distance, window.chain}, place_for(window)});
+            push_row({{gpu::kWindowWaits, pushed_, distance, window.chain, 0}, place_for(window)});
         } else {
             windows_.push_back(window);
             count(windows_.size(), window.chain);

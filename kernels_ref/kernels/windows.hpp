@@ -14,6 +14,7 @@
 #include "constants.h"
 #include "geodisk/params.hpp"
 #include "kernels/bins.hpp"
+#include "kernels/shadow.hpp"
 #include "kernels/waiting.hpp"
 #include "lib/frame.hpp"
 #include "lib/scalar.hpp"
@@ -209,33 +210,34 @@ class Windows {
         return rest < 0 || rest * rest < own_square;
     }
 
-    /// Returns true if a shortest path that came in through corner `from` may go on into `corner`:
-    /// it must keep an angle of pi on both sides, or on one side of an open fan.
-    bool in_shadow(const VertexFan& fan, std::uint32_t from, std::uint32_t corner) const {
-        if (from == kWholeFan || (fan.flags & gpu::kFanIrregular)) {
-            return true;
-        }
-        const auto [from_start, from_end] = angles(from);
-        const auto [start, end] = angles(corner);
-        const std::uint32_t left = end - from_start;
-        const std::uint32_t right = from_end - start;
-        // Angles are in steps, so a needle may begin where its neighbour does: either may be the
-        // first.
-        const bool may_come_before = start < from_start || (start == from_start && corner != from);
-        const bool may_come_behind = start >= from_start;
-        const std::uint32_t needed = gpu::kAnglePi - gpu::kAngleTolerance;
-        if (fan.flags & gpu::kFanOpen) {
-            return (may_come_before && right >= needed) || (may_come_behind && left >= needed);
-        }
-        const std::uint32_t around = corner != from ? fan.total_angle : 0u;
-        return (may_come_before && left + around >= needed && right >= needed) ||
-               (may_come_behind && left >= needed && right + around >= needed);
+    /// Returns from where paths enter the fan that came in through corner `from`.
+    Entry entry_through(const VertexFan& fan, std::uint32_t from, std::uint32_t arrival) const {
+        return from == kWholeFan ? kEntersFromAnywhere
+                                 : entry_of(fan, surface_.edges[from].fan_angles, arrival);
     }
 
-    std::pair<std::uint32_t, std::uint32_t> angles(std::uint32_t corner) const {
-        const std::uint32_t word = surface_.edges[corner].fan_angles;
-        const std::uint32_t start = word & 0xffffu;
-        return {start, start + (word >> 16)};
+    /// Returns the window over the edge e of paths of length sigma, which light this shadow in the
+    /// opposite corner; `start` and `end` are as for leave().
+    Child leave_shadow(std::uint32_t e, Shadow shadow, Real start, Real end, Real sigma,
+                       std::uint32_t chain) {
+        const Edge<Real>& edge = surface_.edges[e];
+        const auto crossing = [&](std::int32_t angle) {
+            return ray_crossing(angle, edge.apex_x, edge.apex_y, edge.length);
+        };
+        const std::int32_t size = corner_size(surface_.edges[previous_in_face(e)].fan_angles);
+        const Real b0 = shadow.low > 0 ? crossing(shadow.low) : Real{0};
+        const Real b1 = shadow.high < size ? crossing(shadow.high) : edge.length;
+        return leave(e, start, end, edge.apex_x, edge.apex_y, b0, b1, sigma, chain,
+                     remember(e, chain, e));
+    }
+
+    /// Returns how a window's straight path arrives at the apex of the face that it enters, through
+    /// the corner of the left edge. The window's source is at (x, -y).
+    std::uint32_t arrival_at_apex(const Edge<Real>& edge, const Window& window, Real way) const {
+        const Real aside = window.y + edge.apex_y;
+        const Real along = edge.apex_x * (edge.apex_x - window.x) + edge.apex_y * aside;
+        const Real across = edge.apex_x * window.y + edge.apex_y * window.x;
+        return arrival_from(along, across, blur_of(error_of(window.chain + 1), way));
     }
 
     static constexpr Real kFull = -1;

@@ -35,7 +35,7 @@ GEODISK_CONTROL;
 #include "../lib/waiting.glsl"
 #include "../lib/vertex_table.glsl"
 #include "../lib/propagate.glsl"
-#include "../lib/fan_light.glsl"
+#include "../lib/shadow.glsl"
 #include "../lib/trim.glsl"
 
 void note_conflict(uint place, bool is_active, bool conflicts) {
@@ -143,14 +143,11 @@ void take_event(uvec4 row) {
         return;
     }
     lane.sigma = uintBitsToFloat(row.y);
-    lane.chain = row.z;
-    lane.entered_by = row.w;
+    lane.chain = row.z >> kChainShift;
     uvec4 fan = row_at(fans, vertex);
     lane.cursor = fan.x;
     lane.cursor_end = fan.x + fan.y;
-    lane.fan_angle = fan.z;
-    lane.fan_flags = fan.w;
-    lane.entry_angles = lane.entered_by == kWholeFan ? 0u : corner_angles(lane.entered_by);
+    enter_fan(fan.z, fan.w, row.w, row.z & kArrivalMask);
     lane.corner_ahead = kNoHalfEdge;
     lane.mode = kModeInside;
     lane.phase = kPhaseFan;
@@ -198,18 +195,24 @@ void take_next() {
     }
 }
 
-// The next lit corner of the fan, or none; looks one lit corner ahead, to tell when it is the last.
+// The next lit corner of the fan, or none, with its shadow; looks one lit corner ahead, to tell when it is
+// the last.
 uint next_lit_corner() {
     uint corner = lane.corner_ahead;
+    lane.known = lane.shadow_ahead;
     lane.corner_ahead = kNoHalfEdge;
     for (uint i = 0u; i < kCornersPerTrip && lane.cursor < lane.cursor_end &&
                       lane.corner_ahead == kNoHalfEdge;
          ++i) {
         uvec2 next = fan_corner(lane.cursor);
         ++lane.cursor;
-        if (in_shadow(next)) {
-            lane.corner_ahead = corner == kNoHalfEdge ? kNoHalfEdge : next.x;
-            corner = corner == kNoHalfEdge ? next.x : corner;
+        uint shadow = shadow_in(next.y);
+        if (shadow != kNoShadow) {
+            bool is_first = corner == kNoHalfEdge;
+            lane.corner_ahead = is_first ? kNoHalfEdge : next.x;
+            lane.shadow_ahead = shadow;
+            lane.known = is_first ? shadow : lane.known;
+            corner = is_first ? next.x : corner;
         }
     }
     return corner;

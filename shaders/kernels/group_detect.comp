@@ -28,7 +28,7 @@ GEODISK_CONTROL;
 #include "../lib/group.glsl"
 #include "../lib/many_windows.glsl"
 #include "../lib/windows.glsl"
-#include "../lib/fan_light.glsl"
+#include "../lib/shadow.glsl"
 #include "../lib/group_table.glsl"
 #include "../lib/scan.glsl"
 #include "../lib/source.glsl"
@@ -118,7 +118,8 @@ void propose_item(uint number) {
         uint origin = i == 0u ? edge.origin : (i == 1u ? right.origin : left.origin);
         float distance = i == 0u ? start_distance : (i == 1u ? end_distance : m.distance);
         bool is_wanted = is_due && (i == 0u || (i == 1u ? of_fan : m.sees_apex));
-        propose(item << 1 | (i & 1u), origin, is_wanted ? distance : kFar, inside ? 0.0 : m.crossing);
+        float crossing = inside ? (i == 0u ? right.len : 0.0) : m.crossing;
+        propose(item << 1 | (i & 1u), origin, is_wanted ? distance : kFar, crossing);
     }
 }
 
@@ -149,7 +150,11 @@ void settle_proposal(uint proposal) {
     bool whole = inside && row1.z == 0u && uintBitsToFloat(row.z) <= kNearVertex;
     uint next = next_in_face(half_edge);
     uint corner = !inside ? next_in_face(next) : ((row.x & 1u) != 0u ? next : half_edge);
-    settle(row.y, row.z, whole ? kWholeWay : way_of(corner, inside), uintBitsToFloat(row.w), row1.z + 1u);
+    // At the corners of its own face the direction of the candidate is left open.
+    precise float way = uintBitsToFloat(row.z) - uintBitsToFloat(row1.y);
+    uint chain = row1.z + 1u;
+    uint blur = inside ? (row1.z == 0u ? kMostBlur : 0u) : blur_of(error_of(chain), way);
+    settle(row.y, row.z, whole ? kWholeWay : way_of(corner, inside), uintBitsToFloat(row.w), chain, blur);
 }
 
 // Looks up the distances of start, end and apex, those of a window's edge only if it does not carry them.
@@ -222,6 +227,20 @@ void spread_item(uint number) {
     }
 }
 
+// Returns how the shortest path to a vertex came in through its corner, by where it crossed the edge opposite
+// to that; `paths` is the second row of the vertex.
+uint arrival_at(uvec4 paths) {
+    if (paths.x != ~paths.y || ~paths.y == kWholeWay) {
+        return kMostBlur;
+    }
+    lane.half_edge = next_in_face(corner_of(paths.x));
+    load_face();
+    float crossing = from_ordered(~paths.z);
+    precise float along = apex.x * apex.x + apex.y * apex.y - apex.x * crossing;
+    precise float across = apex.y * crossing;
+    return arrival_from(along, across, paths.w & kMostBlur);
+}
+
 // Lights the fan of a vertex, unless it was reached sooner by now. A wide fan is halved, for the next wave.
 void light_fan(uint event) {
     uvec4 row = own_row_at(pool, event_row(group.turn, event));
@@ -241,14 +260,12 @@ void light_fan(uint event) {
         }
         return;
     }
-    lane.entered_by = corner_of(~paths.y);
-    lane.fan_angle = fan.z;
-    lane.fan_flags = fan.w;
-    lane.entry_angles = lane.entered_by == kWholeFan ? 0u : corner_angles(lane.entered_by);
+    enter_fan(fan.z, fan.w, corner_of(~paths.y), arrival_at(paths));
     for (uint i = first; i < (is_current ? end : first); ++i) {
         uvec2 corner = fan_corner(fan.x + i);
-        if (in_shadow(corner)) {
-            push_inside(next_in_face(corner.x), distance, paths.w);
+        uint shadow = shadow_in(corner.y);
+        if (shadow != kNoShadow) {
+            push_inside(next_in_face(corner.x), distance, paths.w >> kBlurBits, shadow);
         }
     }
 }

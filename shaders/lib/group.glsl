@@ -10,7 +10,8 @@
 //   table        kGroupVertexRows rows per vertex
 //   vertices     a word each: where they are in the table
 // Rows of a window: (next half-edge around the edge, with its direction bit, x, y, b0), (b1, sigma, chain,
-// known), as of a lane. A source inside a face has b1 = kInsideFace, and that of the disk a chain of 0.
+// known), as of a lane. A source inside a face has b1 = kInsideFace and its shadow in place of known,
+// and that of the disk a chain of 0.
 #ifndef GEODISK_GROUP_GLSL
 #define GEODISK_GROUP_GLSL
 
@@ -134,10 +135,10 @@ void push_item(float distance, uvec4 row0, uvec4 row1, uint remembered) {
     own_nearest = min(own_nearest, floatBitsToUint(distance));
 }
 
-// Pushes a source inside the face of h, at its apex.
-void push_inside(uint h, float sigma, uint chain) {
+// Pushes a source inside the face of h, at its apex, which lights a shadow there.
+void push_inside(uint h, float sigma, uint chain, uint shadow) {
     push_item(sigma, uvec4(h << 1, 0u, 0u, 0u),
-              uvec4(floatBitsToUint(kInsideFace), floatBitsToUint(sigma), chain, 0u), kNoHalfEdge);
+              uvec4(floatBitsToUint(kInsideFace), floatBitsToUint(sigma), chain, shadow), kNoHalfEdge);
 }
 
 void push_event(float distance, uvec4 row) {

@@ -1,7 +1,7 @@
 // Vertices that a disk in waves has reached: an open-addressed table that the invocations of a work group
 // fill together. Rows of a vertex:
 //   (1 + vertex, nearness, nearness that an event was made for, -)
-//   (highest way, lowest way, lowest crossing, longest chain)  of all shortest paths to it
+//   (highest way, lowest way, lowest crossing, longest chain and its blur)  of all shortest paths to it
 // Nearness is the complement of the distance's word: larger is nearer, and 0 is not reached. What is lowest
 // is a complement as well, and a crossing an ordered word, so that 0 is less than all.
 //
@@ -95,7 +95,7 @@ void propose(uint window, uint origin, float distance, float crossing) {
 }
 
 // Keeps a proposed path to a vertex, if none is shorter. Makes an event if the fan is lit.
-void settle(uint vertex, uint distance, uint way, float crossing, uint chain) {
+void settle(uint vertex, uint distance, uint way, float crossing, uint chain, uint blur) {
     uint at = vertex & ~kBendsThere;
     uint row = table_row(at);
     if (own_row_at(pool, row).y != ~distance) {
@@ -104,7 +104,7 @@ void settle(uint vertex, uint distance, uint way, float crossing, uint chain) {
     atomicMax(pool[row + 1u].x, way);
     atomicMax(pool[row + 1u].y, ~way);
     atomicMax(pool[row + 1u].z, ~ordered_word(crossing));
-    atomicMax(pool[row + 1u].w, chain);
+    atomicMax(pool[row + 1u].w, chain << kBlurBits | blur);
     bool is_lit = way == kWholeWay || (vertex & kBendsThere) != 0u;
     if (is_lit && atomicExchange(pool[row].z, ~distance) != ~distance) {
         uint event = atomicAdd(group.events, 1u);

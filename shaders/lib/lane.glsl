@@ -50,7 +50,8 @@ void load_lane(uint index) {
     lane.scan_place = f.x, lane.scan_end = f.y, lane.scan_row = f.z, lane.scan_row_end = f.w;
     lane.scan_columns = g.x, lane.scan_stride = g.y, lane.tested = g.z, lane.pushed = g.w;
     lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z, lane.remembered = h.w;
-    lane.entered_by = i.x, lane.entry_angles = i.y, lane.fan_angle = i.z, lane.fan_flags = i.w;
+    lane.entry_low = int(i.x), lane.entry_high = int(i.y), lane.entry_turn = int(i.z);
+    lane.shadow_ahead = i.w;
     lane.trims = j.x, lane.free_place = j.y;
     if (kHolds) {
         lane.held_known = j.z, lane.held_b1 = uintBitsToFloat(j.w);
@@ -73,7 +74,7 @@ void save_lane() {
     pool[own_row(7u)] =
         uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, lane.remembered);
     pool[own_row(8u)] =
-        uvec4(lane.entered_by, lane.entry_angles, lane.fan_angle, lane.fan_flags);
+        uvec4(lane.entry_low, lane.entry_high, lane.entry_turn, lane.shadow_ahead);
     pool[own_row(9u)] =
         uvec4(lane.trims, lane.free_place, lane.held_known, floatBitsToUint(lane.held_b1));
     pool[own_row(10u)] = uvec4(lane.held_around, floatBitsToUint(lane.held_x),

@@ -1,11 +1,25 @@
 // Spreads the operation in flight in a lane that works alone, see windows.glsl. kernels_ref/kernels/
 // detect.hpp is the same in plain C++; read that first.
 //
-// The event of a vertex is one row: (vertex, sigma, chain, corner its path came in through).
+// The event of a vertex is one row: (vertex, sigma, chain and arrival of its path, corner that it came in
+// through).
 #ifndef GEODISK_PROPAGATE_GLSL
 #define GEODISK_PROPAGATE_GLSL
 
+#include "shadow.glsl"
 #include "windows.glsl"
+
+// Returns how the straight path in flight arrives: from the candidate at the start of edge, or from a window
+// at the apex.
+uint arrival_of_path(Meeting m, float distance) {
+    bool inside = lane.mode == kModeInside;
+    float sx = entry_x();
+    precise float aside = lane.y + apex.y;
+    precise float along = apex.x * (apex.x - sx) + apex.y * aside;
+    precise float across = apex.x * lane.y + apex.y * sx;
+    uint blur = blur_of(error_of(lane.chain + 1u), inside ? distance : m.way);
+    return arrival_from(inside ? lane.x : along, inside ? lane.y : across, blur);
+}
 
 // Ends the paths in flight at vertices: those of a window at the apex, others at the ends of the edge.
 // Vertices where shortest paths may bend become events. Returns the known distances of start, end and
@@ -16,6 +30,7 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
     vec3 distances = vec3(known_ends(), kFar);
     precise float start_distance = lane.sigma + (from_vertex ? left.len : root(source_square));
     precise float end_distance = lane.sigma + right.len;
+    uint arrival = arrival_of_path(m, start_distance);
     for (uint i = inside ? 0u : 2u; i < (inside ? 2u : 3u); ++i) {
         uint origin = i == 0u ? edge.origin : (i == 1u ? right.origin : left.origin);
         uint vertex = origin & kVertexMask;
@@ -37,7 +52,9 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
                               : i == 1u ? next_in_face(lane.half_edge)
                                         : next_in_face(next_in_face(lane.half_edge));
                 lane.longest_chain = max(lane.longest_chain, lane.chain + 1u);
-                push_event(uvec4(vertex, floatBitsToUint(distance), lane.chain + 1u,
+                uint arrived = !from_vertex ? arrival : (i == 0u ? kArrivedAlongPrevious : 0u);
+                push_event(uvec4(vertex, floatBitsToUint(distance),
+                                 (lane.chain + 1u) << kChainShift | arrived,
                                  whole_fan ? kWholeFan : corner));
             }
         }

@@ -5,6 +5,7 @@
 #include "lists.glsl"
 #include "operation.glsl"
 #include "scan.glsl"
+#include "shadow.glsl"
 
 uint own_face;
 vec2 own_weights;
@@ -27,14 +28,19 @@ void load_candidate(uint slot) {
 // the start of half_edge.
 float place_source() {
     if (lane.phase == kPhaseFan) {
+        vec2 lit = lit_by_shadow(lane.known);
         lane.x = apex.x;
         lane.y = apex.y;
+        lane.b0 = lit.x;
+        lane.b1 = lit.y;
     }
     if (lane.phase == kPhaseSource) {
         vec2 at =
             position_in(lane.half_edge % 3u, edge.len, apex, own_weights.x, own_weights.y);
         lane.x = at.x;
         lane.y = at.y;
+        lane.b0 = 0.0;
+        lane.b1 = edge.len;
         lane.sigma = 0.0;
         lane.chain = 0u;
     }

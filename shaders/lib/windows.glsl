@@ -55,6 +55,7 @@ float along(float b, float sx, float sy, vec2 top, float child_length) {
 // Relation of the window in flight to the apex of the face it enters.
 struct Meeting {
     float crossing;       // where the ray to the apex crosses half_edge
+    float way;            // from the source straight to the apex
     float distance;       // of the apex
     bool sees_apex;
     bool to_left;         // a child crosses the left edge, from the apex on if another crosses the right
@@ -69,10 +70,12 @@ Meeting meet_apex(float sx, vec2 lit) {
     precise float apex_dx = apex.x - sx;
     precise float apex_dy = apex.y + lane.y;
     precise float crossing = sx + apex_dx * ratio(lane.y, apex_dy);
-    precise float distance = lane.sigma + root(squared(apex_dx, apex_dy));
+    float way = root(squared(apex_dx, apex_dy));
+    precise float distance = lane.sigma + way;
     precise float slack_low = lit.x - job.slack;
     precise float slack_high = lit.y + job.slack;
     m.crossing = crossing;
+    m.way = way;
     m.distance = distance;
     m.sees_apex = crossing >= slack_low && crossing <= slack_high;
     m.reaches_left = crossing > lit.x;
@@ -144,8 +147,8 @@ Window leave(bool is_left, Meeting m, float sx, vec2 lit, vec3 distances) {
     vec2 ends = distances.xy; // known of the edge's start and end
     float px = lane.x;
     float py = lane.y;
-    float i0 = 0.0;
-    float i1 = edge.len;
+    float i0 = lane.b0;
+    float i1 = lane.b1;
     bool useless = false;
     if (!inside) {
         uint next = next_in_face(lane.half_edge);

@@ -13,10 +13,22 @@ GEODISK_CONST uint kAbi = 21u;
 GEODISK_CONST uint kMostProposals = 1024u;
 
 // Angles around a vertex are integers in units of 2^-13 radian, so that comparing them is exact
-// everywhere. A corner's word holds its start in the low half and its size in the high half.
+// everywhere. A corner's word holds its start in the low half and its size in the high half, with
+// kCornerTurned if the fan turns from the previous half-edge of the face to that of the corner.
+GEODISK_CONST uint kCornerTurned = 0x80000000u;
 GEODISK_CONST uint kAnglePi = 25736u;         // pi * 2^13
 GEODISK_CONST uint kAngleTolerance = 8u;      // 2^-10 radian
 GEODISK_CONST uint kLargestFanAngle = 65535u; // wider fans count as irregular
+GEODISK_CONST uint kFarAngle = 1048576u;      // beyond all angles
+
+// How a path came to a vertex through a corner, see lib/shadow.glsl: the angle from the corner's half-edge in
+// units of 2^-11 radian, above kBlurBits that tell its error. It is in the word of the path's chain, below
+// that.
+GEODISK_CONST uint kBlurBits = 2u;
+GEODISK_CONST uint kMostBlur = 3u; // the angle is not known
+GEODISK_CONST uint kArrivedAlongPrevious = 0x7ffcu; // along the other edge of the corner
+GEODISK_CONST uint kChainShift = 15u;
+GEODISK_CONST uint kArrivalMask = 0x7fffu;
 
 // Flags of a vertex fan.
 GEODISK_CONST uint kFanBends = 1u;     // the angle sum allows a shortest path to bend here

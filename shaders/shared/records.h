@@ -72,7 +72,7 @@ struct LaneRec {
     // the distance of the source, crossings so far.
     uint half_edge; uint mode; float x; float y;
     float b0; float b1; float sigma; uint chain;
-    // Known distances of the window's edge, see leave(); progress of a phase: the next table row, edge or
+    // Known distances of the window's edge, see leave(), or the shadow of a fan; progress of a phase: the next table row, edge or
     // corner, and the end; the next lit corner.
     uint known; uint cursor; uint cursor_end; uint corner_ahead;
     // Next candidates in the current row of cells; first cell within reach of the next row, and of the row
@@ -81,8 +81,9 @@ struct LaneRec {
     uint scan_columns; uint scan_stride; uint tested; uint pushed; // candidates; windows and events
     uint most_waiting; uint longest_chain; uint vertices; // waiting on the stack, or of events
     uint remembered; // half-edge of a face that the window came through, see turns_back()
-    // The vertex whose fan is lit: the corner its path came in through, or kWholeFan.
-    uint entered_by; uint entry_angles; uint fan_angle; uint fan_flags;
+    // The fan that is lit: angles that its path came from, and the one all around; the shadow in corner_ahead.
+    // See lib/shadow.glsl.
+    int entry_low; int entry_high; int entry_turn; uint shadow_ahead;
     // Windows and events pushed before the disk restarted to trim, 0 if it has not; then the first free
     // window, see lib/waiting.glsl.
     uint trims; uint free_place;

@@ -84,7 +84,7 @@ void check_angles(const PreparedMesh& mesh, std::uint32_t v) {
     for (const std::uint32_t corner : corners_of(mesh, v)) {
         const HalfEdge& edge = mesh.half_edges()[corner];
         const double low = edge.fan_angles & 0xffffu;
-        const double high = low + (edge.fan_angles >> 16);
+        const double high = low + ((edge.fan_angles & ~gpu::kCornerTurned) >> 16);
         // Each corner counts in units of 2^-20.
         const double rounding = 0.01 * mesh.fans()[v].corner_count;
         REQUIRE(low <= start + rounding);

@@ -153,9 +153,9 @@ TEST_CASE("saved: damaged and foreign bytes are refused") {
         }
     }
     Bytes other = bytes;
-    other[8] = std::byte{2};
+    other[8] = std::byte{1};
     CHECK(refusal(other).message ==
-          "the mesh was saved in version 2 of the format; this is version 1");
+          "the mesh was saved in version 1 of the format; this is version 2");
     std::swap(other[12], other[15]);
     std::swap(other[13], other[14]);
     CHECK(refusal(other).message == "the mesh was saved by a machine of another byte order");

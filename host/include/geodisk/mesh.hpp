@@ -30,7 +30,8 @@ struct HalfEdge {
     std::uint32_t around;     ///< Next half-edge of the same edge, see around_half_edge().
     std::uint32_t fan_angles; ///< Angles of the corner at the origin, in units of 2^-13 radian: its
                               ///< start within the vertex's fan in the low 16 bits, its size in the
-                              ///< high 16 bits.
+                              ///< next 15 bits. The highest bit is set if the fan turns the other
+                              ///< way through the corner: from the previous half-edge to this one.
 
     /// Returns the face's angle at the origin; {1, 0} if the third corner is the origin.
     GEODISK_API Direction angle() const noexcept;

@@ -23,7 +23,7 @@ namespace geodisk {
 namespace {
 
 constexpr char kMagic[8] = {'g', 'e', 'o', 'd', 'i', 's', 'k', 'M'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {

@@ -35,37 +35,8 @@ bool at_short_side(double from, double to) {
     return std::min(from, to) <= kShort * std::max(from, to);
 }
 
-/// One step of a walk around a vertex: the corner, and true if it was entered through its own
-/// half-edge and is left through the previous one of its face, false for the reverse.
-struct Step {
-    std::uint32_t corner;
-    bool entered_by_own;
-};
-
-std::uint32_t exit_edge(Step step) {
-    return step.entered_by_own ? previous_in_face(step.corner) : step.corner;
-}
-
-std::uint32_t entry_edge(Step step) {
-    return step.entered_by_own ? step.corner : previous_in_face(step.corner);
-}
-
 bool is_border(std::span<const Link> links, std::uint32_t h) {
     return around_half_edge(links[h].around) == h;
-}
-
-/// Crosses the exit edge into the next corner at vertex v. Returns nothing at a border, or where
-/// three or more faces meet.
-std::optional<Step> next_step(std::span<const Link> links, std::uint32_t v, Step step) {
-    const std::uint32_t h = exit_edge(step);
-    const std::uint32_t g = around_half_edge(links[h].around);
-    if (g == h || around_half_edge(links[g].around) != h) {
-        return std::nullopt;
-    }
-    if (links[g].origin == v) {
-        return Step{g, true};
-    }
-    return Step{next_in_face(g), false};
 }
 
 } // namespace
@@ -75,6 +46,26 @@ std::uint32_t pack_corner_angle(const HalfEdge& from, const HalfEdge& to) {
     const long angle = std::lround(std::atan2(direction.sine, direction.cosine) * 0x1p20);
     return static_cast<std::uint32_t>(angle) |
            (at_short_side(from.length, to.length) ? kShortSide : 0u);
+}
+
+std::uint32_t FanBuilder::exit_edge(Step step) {
+    return step.entered_by_own ? previous_in_face(step.corner) : step.corner;
+}
+
+std::uint32_t FanBuilder::entry_edge(Step step) {
+    return step.entered_by_own ? step.corner : previous_in_face(step.corner);
+}
+
+std::optional<FanBuilder::Step> FanBuilder::next_step(std::uint32_t v, Step step) const {
+    const std::uint32_t h = exit_edge(step);
+    const std::uint32_t g = around_half_edge(links_[h].around);
+    if (g == h || around_half_edge(links_[g].around) != h) {
+        return std::nullopt;
+    }
+    if (links_[g].origin == v) {
+        return Step{g, true};
+    }
+    return Step{next_in_face(g), false};
 }
 
 void FanBuilder::build(std::uint32_t v, std::span<std::uint32_t> corners, VertexFan& fan) {
@@ -94,10 +85,10 @@ bool FanBuilder::order_corners(std::uint32_t v, std::span<std::uint32_t> corners
             }
         }
     }
-    walk_.assign(1, start.corner);
+    walk_.assign(1, start);
     bool complete = false;
     for (Step step = start; walk_.size() <= corners.size();) {
-        const std::optional<Step> next = next_step(links_, v, step);
+        const std::optional<Step> next = next_step(v, step);
         if (!next) {
             complete = open && is_border(links_, exit_edge(step));
             break;
@@ -107,12 +98,12 @@ bool FanBuilder::order_corners(std::uint32_t v, std::span<std::uint32_t> corners
             break;
         }
         step = *next;
-        walk_.push_back(step.corner);
+        walk_.push_back(step);
     }
     if (!complete || walk_.size() != corners.size()) {
         return false;
     }
-    std::copy(walk_.begin(), walk_.end(), corners.begin());
+    std::ranges::transform(walk_, corners.begin(), &Step::corner);
     return true;
 }
 
@@ -120,14 +111,17 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
                          VertexFan& fan) {
     std::uint64_t fine = 0;
     bool too_wide = false;
-    for (const std::uint32_t corner : corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t corner = corners[i];
         const std::uint32_t packed = std::exchange(links_[corner].angle, 0);
         const std::uint64_t start = fine / kFinePerUnit;
         fine += packed & ~kShortSide;
         const std::uint64_t end = (fine + kFinePerUnit - 1) / kFinePerUnit;
         too_wide = too_wide || end > gpu::kLargestFanAngle;
         if (!too_wide) {
-            links_[corner].angle = static_cast<std::uint32_t>(start | (end - start) << 16);
+            const bool is_turned = ordered && !walk_[i].entered_by_own;
+            links_[corner].angle = static_cast<std::uint32_t>(start | (end - start) << 16) |
+                                   (is_turned ? gpu::kCornerTurned : 0u);
         }
         ordered = ordered && !too_wide && (packed & kShortSide) == 0;
     }
@@ -141,7 +135,7 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
 
 bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed) {
     const std::uint32_t fine = packed & ~kShortSide;
-    const std::uint32_t size = (fan_angles >> 16) * kFinePerUnit;
+    const std::uint32_t size = ((fan_angles & ~gpu::kCornerTurned) >> 16) * kFinePerUnit;
     // Starts are rounded down, ends up.
     return (packed & kShortSide) == 0 && size + 1 >= fine && size <= fine + 2 * kFinePerUnit;
 }
@@ -161,12 +155,15 @@ bool FanBuilder::fits(std::uint32_t v, const VertexFan& fan,
         return false;
     }
     std::uint32_t end = 0;
-    for (const std::uint32_t corner : corners) {
-        const std::uint32_t start = links_[corner].angle & 0xffffu;
-        if (start != end && start + 1 != end) { // Starts are rounded down, ends up.
+    for (const Step& step : walk_) {
+        const std::uint32_t angle = links_[step.corner].angle;
+        const std::uint32_t start = angle & 0xffffu;
+        const bool is_turned = (angle & gpu::kCornerTurned) != 0;
+        if ((start != end && start + 1 != end) || // Starts are rounded down, ends up.
+            is_turned == step.entered_by_own) {
             return false;
         }
-        end = start + (links_[corner].angle >> 16);
+        end = start + ((angle & ~gpu::kCornerTurned) >> 16);
     }
     return end == fan.total_angle && end <= gpu::kLargestFanAngle;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,14 +33,26 @@ class FanBuilder {
     bool fits(std::uint32_t v, const VertexFan& fan, std::span<const std::uint32_t> corners);
 
   private:
-    /// Orders the corners along a walk around v. Returns false, and changes nothing, if no single
-    /// walk covers them.
+    /// One step of a walk around a vertex: the corner, and true if it was entered through its own
+    /// half-edge and is left through the previous one of its face, false for the reverse.
+    struct Step {
+        std::uint32_t corner;
+        bool entered_by_own;
+    };
+
+    static std::uint32_t exit_edge(Step step);
+    static std::uint32_t entry_edge(Step step);
+    /// Crosses the exit edge into the next corner at vertex v. Returns nothing at a border, or
+    /// where three or more faces meet.
+    std::optional<Step> next_step(std::uint32_t v, Step step) const;
+    /// Orders the corners along a walk around v, which walk_ then holds. Returns false, and leaves
+    /// the corners as they are, if no single walk covers them.
     bool order_corners(std::uint32_t v, std::span<std::uint32_t> corners, bool& open);
     void measure(std::span<const std::uint32_t> corners, bool ordered, bool open, VertexFan& fan);
 
     std::span<Link> links_;
     std::vector<std::uint32_t> copy_; ///< Scratch memory of fits().
-    std::vector<std::uint32_t> walk_; ///< Scratch memory of order_corners().
+    std::vector<Step> walk_;          ///< The last walk.
 };
 
 } // namespace geodisk
