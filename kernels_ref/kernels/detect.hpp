@@ -64,7 +64,8 @@ class Detector : public Windows<Real, kMayVary> {
         const auto on_window = [&](const Window& window) { cross_edge(window, light); };
         const auto on_event = [&](const Event& event) { spread_from_vertex(event, light); };
         do {
-            if (!waiting_.trims() && makes_many(gpu::kUntrimmedWindows, waiting_.pushed())) {
+            if (!waiting_.trims() &&
+                makes_many(gpu::kUntrimmedWindows, waiting_.longest_chain(), waiting_.pushed())) {
                 untrimmed_ = waiting_.pushed();
                 waiting_.begin(true);
                 begin();

@@ -42,7 +42,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
         begin_disk(source);
         while (!items_.empty() || !events_.empty()) {
             spread_wave(light);
-            if (makes_many(gpu::kUntrimmedInGroups, count_.windows)) {
+            if (makes_many(gpu::kUntrimmedInGroups, count_.chain, count_.windows)) {
                 throw ManyWindows();
             }
         }
@@ -109,7 +109,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
         items_.clear();
         events_.clear();
-        waves_ = 0;
+        waves_ = lit_again_ = 0;
         nearest_ = 0;
         Real around = 0;
         for (std::uint32_t e = 3 * source.face; e < 3 * source.face + 3; ++e) {
@@ -158,6 +158,11 @@ class GroupDetector : public Windows<Real, kMayVary> {
         if (++waves_ % gpu::kWavesPerStep == 0) {
             step_ *= 2;
         }
+        // Vertices that are lit again and again waste windows: smaller waves have them in order.
+        if (lit_again_ > gpu::kLitAgain + count_.vertices / 4) {
+            step_ *= static_cast<Real>(0.5);
+            lit_again_ = 0;
+        }
     }
 
     Real distance_at(std::uint32_t v) const {
@@ -205,6 +210,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
         note.path = std::max(note.path, chain << gpu::kBlurBits | blur);
         const bool bends = (surface_.fans[proposal.vertex].flags & gpu::kFanBends) != 0;
         if (note.lit != note.distance && (bends || proposal.way == kWholeWay)) {
+            lit_again_ += note.lit >= 0 ? 1u : 0u;
             note.lit = note.distance;
             events_.push_back({proposal.vertex, note.distance, 0, ~0u});
             ++count_.windows;
@@ -404,6 +410,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
     std::uint32_t waves_ = 0;
+    std::uint32_t lit_again_ = 0;     ///< Events of vertices that had one, since the step changed.
     std::uint32_t longest_chain_ = 0; ///< When the wave began.
     Real step_ = 0;                   ///< By how much a wave goes beyond the nearest.
     Real nearest_ = 0;                ///< Of the windows and events of the next wave.

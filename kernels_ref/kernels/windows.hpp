@@ -94,9 +94,13 @@ class Windows {
 
     /// Returns true if there are so many windows and events that windows must be trimmed: more than
     /// `least`, and than suits the vertices reached.
-    bool makes_many(std::uint32_t least, std::uint32_t pushed) const {
+    bool makes_many(std::uint32_t least, std::uint32_t longest_chain, std::uint32_t pushed) const {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
-        const std::uint32_t each = gpu::kUntrimmedEach + (vertices >> gpu::kUntrimmedShift);
+        const auto across = static_cast<std::uint32_t>(root(static_cast<float>(vertices)));
+        const bool is_strip = longest_chain > count_.vertices / gpu::kStripChain;
+        const std::uint32_t each =
+            gpu::kUntrimmedEach +
+            gpu::kUntrimmedPerRoot * (is_strip ? std::min(across, gpu::kStripRoot) : across);
         return pushed > least + vertices * each;
     }
 

@@ -167,7 +167,8 @@ void put_aside() {
 // Takes what comes next of all that waits. Once there were very many windows the disk begins again,
 // trimming, with those listed that it has found.
 void take_next() {
-    if (!trims() && makes_many(kUntrimmedWindows, lane.vertices, lane.pushed)) {
+    if (!trims() &&
+        makes_many(kUntrimmedWindows, lane.vertices, lane.longest_chain, lane.pushed)) {
         if (kTrims) {
             lane.trims = lane.pushed;
             begin_windows();

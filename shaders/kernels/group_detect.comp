@@ -322,6 +322,7 @@ void begin_disk(uint slot) {
     group.end = third;
     group.nearest = 0xffffffffu;
     group.waves = 0u;
+    group.lit_again = 0u;
     group.idle_conflicts = 0u;
     group.active_conflicts = 0u;
     group.conflicts = 0u;
@@ -357,11 +358,16 @@ void end_wave() {
     group.longest_before = group.longest_chain;
     float doubled = group.step * 2.0;
     float step = group.waves % kWavesPerStep == 0u ? doubled : group.step;
+    // Vertices that are lit again and again waste windows: smaller waves have them in order.
+    if (group.lit_again > kLitAgain + group.vertices / 4u) {
+        step *= 0.5;
+        group.lit_again = 0u;
+    }
     precise float end = uintBitsToFloat(group.nearest) + step;
     group.step = step;
     group.end = end;
     group.nearest = 0xffffffffu;
-    if (makes_many(kUntrimmedInGroups, group.vertices, group.pushed)) {
+    if (makes_many(kUntrimmedInGroups, group.vertices, group.longest_chain, group.pushed)) {
         group_overflow |= kOverflowTrims; // Lanes do that, each with memory for it.
     }
     group.phase = group.items + group.events > 0u ? kGroupSort : kGroupBlock;

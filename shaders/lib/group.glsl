@@ -71,7 +71,7 @@ void load_group() {
     group.conflicts = e.z, group.vertices = e.w;
     group.tested = f.x, group.pushed = f.y;
     group.most_waiting = f.z, group.longest_chain = f.w;
-    group.taken = g.x, group.longest_before = g.y;
+    group.taken = g.x, group.longest_before = g.y, group.lit_again = g.z;
 }
 
 void save_group() {
@@ -86,7 +86,7 @@ void save_group() {
                                    group.vertices);
     pool[group_slice + 5u] =
         uvec4(group.tested, group.pushed, group.most_waiting, group.longest_chain);
-    pool[group_slice + 6u] = uvec4(group.taken, group.longest_before, 0u, 0u);
+    pool[group_slice + 6u] = uvec4(group.taken, group.longest_before, group.lit_again, 0u);
 }
 
 // What an invocation adds to the record at the end of a step.
@@ -94,12 +94,14 @@ uint own_tested;
 uint own_pushed;
 uint own_longest;
 uint own_nearest;
+uint own_lit_again;
 
 void begin_step() {
     own_tested = 0u;
     own_pushed = 0u;
     own_longest = 0u;
     own_nearest = 0xffffffffu;
+    own_lit_again = 0u;
 }
 
 void end_step() {
@@ -114,6 +116,9 @@ void end_step() {
     }
     if (own_nearest != 0xffffffffu) {
         atomicMin(group.nearest, own_nearest);
+    }
+    if (own_lit_again != 0u) {
+        atomicAdd(group.lit_again, own_lit_again);
     }
     if (overflow != 0u) {
         atomicOr(group_overflow, overflow);

@@ -106,7 +106,8 @@ void settle(uint vertex, uint distance, uint way, float crossing, uint chain, ui
     atomicMax(pool[row + 1u].z, ~ordered_word(crossing));
     atomicMax(pool[row + 1u].w, chain << kBlurBits | blur);
     bool is_lit = way == kWholeWay || (vertex & kBendsThere) != 0u;
-    if (is_lit && atomicExchange(pool[row].z, ~distance) != ~distance) {
+    uint lit_at = is_lit ? atomicExchange(pool[row].z, ~distance) : ~distance;
+    if (lit_at != ~distance) {
         uint event = atomicAdd(group.events, 1u);
         if (event >= push.window_capacity) {
             overflow |= kOverflowWindows;
@@ -114,6 +115,7 @@ void settle(uint vertex, uint distance, uint way, float crossing, uint chain, ui
         }
         pool[event_row(group.turn, event)] = uvec4(at, ~distance, 0u, kWholeRange);
         ++own_pushed;
+        own_lit_again += lit_at != 0u ? 1u : 0u;
         own_longest = max(own_longest, chain);
     }
 }

@@ -2,11 +2,15 @@
 #ifndef GEODISK_MANY_WINDOWS_GLSL
 #define GEODISK_MANY_WINDOWS_GLSL
 
+#include "rounding.glsl"
+
 // Returns true if a disk has too many windows and events: more than `least`, and than suits the vertices
 // that it has reached.
-bool makes_many(uint least, uint vertices, uint pushed) {
+bool makes_many(uint least, uint vertices, uint longest_chain, uint pushed) {
     uint counted = min(vertices, kUntrimmedVertices);
-    uint each = kUntrimmedEach + (counted >> kUntrimmedShift);
+    uint across = uint(root(float(counted)));
+    bool is_strip = longest_chain > vertices / kStripChain;
+    uint each = kUntrimmedEach + kUntrimmedPerRoot * (is_strip ? min(across, kStripRoot) : across);
     return pushed > least + counted * each;
 }
 

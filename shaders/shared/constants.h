@@ -181,6 +181,8 @@ GEODISK_CONST uint kTrimIterationsPerStep = kTripsPerStep * 5u * (kMostLevels + 
 GEODISK_CONST uint kItemsPerStep = 32u;
 GEODISK_CONST uint kCornersPerEvent = 16u;
 GEODISK_CONST uint kWavesPerStep = 256u;
+// A step is halved after so many vertices that were lit again, and a quarter of those in the disk.
+GEODISK_CONST uint kLitAgain = 16u;
 // Such a step counts as so many of a lane that works alone.
 GEODISK_CONST uint kGroupStepCost = 16u;
 // All phases: vertices looked up to propose and to spread, candidates scanned, windows left and pushed,
@@ -209,12 +211,15 @@ GEODISK_CONST uint kIterationsPerGridTrip =
     1u + 3u * kMostAxes + kGridDigits + kScanPerGridTrip * (1u + kMostAxes);
 
 // A disk of v vertices restarts to trim once it has pushed kUntrimmedWindows + v (kUntrimmedEach +
-// 2^-kUntrimmedShift v) windows and events, for v up to kUntrimmedVertices. Disks of real meshes mostly
-// have about v sqrt(v).
+// kUntrimmedPerRoot sqrt(v)) windows and events, for v up to kUntrimmedVertices. Disks of real meshes mostly
+// have about v sqrt(v). In a strip all windows go the same way: where a chain is longer than v / kStripChain,
+// the root counts as kStripRoot at most.
 GEODISK_CONST uint kUntrimmedWindows = 1024u;
 GEODISK_CONST uint kUntrimmedInGroups = 65536u; // in place of kUntrimmedWindows
 GEODISK_CONST uint kUntrimmedEach = 32u;
-GEODISK_CONST uint kUntrimmedShift = 2u;
+GEODISK_CONST uint kUntrimmedPerRoot = 4u;
+GEODISK_CONST uint kStripChain = 4u;
+GEODISK_CONST uint kStripRoot = 24u;
 GEODISK_CONST uint kUntrimmedVertices = 65536u;
 // Edges whose windows a trimming disk keeps, a power of two; kKeptPerEdge windows each.
 GEODISK_CONST uint kKeptEdges = 2048u;

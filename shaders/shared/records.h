@@ -99,7 +99,8 @@ struct GroupRec {
     uint slot; uint phase; uint cursor; uint turn; // kGroup*; progress; which lists are this wave's
     uint items; uint next_items; uint events; uint next_events; // of this wave and of the next
     uint scans; uint next_scans; uint scan_turn; uint proposals;
-    uint taken; uint longest_before; uint spare0; uint spare1; // of this wave; chain when it began
+    // Windows of this wave; chain when it began; events of vertices that had one, since the step changed.
+    uint taken; uint longest_before; uint lit_again; uint spare;
     // Windows nearer than `end` belong to the wave, which goes so far beyond the nearest; of the next wave
     // the nearest distance, as a word; waves.
     float end; float step; uint nearest; uint waves;
