@@ -111,8 +111,8 @@ TEST_CASE("disks that begin to trim late, among many vertices, end") {
     for (const Point& source : points) {
         const auto found = query.from(source);
         const auto wanted = exact.from(source);
-        many +=
-            query.count().windows > gpu::kMostWindows && query.count().vertices > 1000 ? 1u : 0u;
+        many += query.count().windows > gpu::kMostWindows / 4 && query.count().vertices > 1000 ? 1u
+                                                                                               : 0u;
         for (std::size_t i = 0; i < points.size(); ++i) {
             CHECK((found[i] == doctest::Approx(wanted[i]).epsilon(tolerances.guard) ||
                    std::min(found[i], wanted[i]) > reach * (1 - tolerances.guard)));
