@@ -51,8 +51,10 @@ uint angle_units(float x, float y) {
 // Returns the blur of the direction of a straight path of length `way`, at the end of a path whose distance
 // has this error: the direction is off by twice the error, over the way.
 uint blur_of(float error, float way) {
-    return (error * 2048.0 > way ? 1u : 0u) + (error * 256.0 > way ? 1u : 0u) +
-           (error * 32.0 > way ? 1u : 0u);
+    precise float sharp = error * 2048.0;
+    precise float dull = error * 256.0;
+    precise float faint = error * 32.0;
+    return (sharp > way ? 1u : 0u) + (dull > way ? 1u : 0u) + (faint > way ? 1u : 0u);
 }
 
 // Returns the arrival of a path that came from the direction (x, y), in the frame of the corner's half-edge.
