@@ -9,11 +9,29 @@
 namespace geodisk::test {
 namespace {
 
+/// Returns the pool of these candidates, in this order.
 template <class Real>
-Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
+ref::Pool<Real> pool_of(const ref::Surface<Real>& surface, const Points& candidates) {
+    std::vector<ref::FacePoint<Real>> points;
+    for (const auto& [face, second, third] : candidates) {
+        points.push_back({face, second, third});
+    }
+    ref::Pool<Real> pool;
+    pool.bins = ref::Bins<Real>(surface, points);
+    pool.places.resize(points.size());
+    for (std::uint32_t place = 0; place < points.size(); ++place) {
+        pool.places[pool.bins.order[place]] = place;
+    }
+    return pool;
+}
+
+template <class Real>
+Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                      const Points* candidates = nullptr) {
     expect(pool_size(mesh, params));
     const ref::Surface<Real> surface(mesh, params);
-    const ref::Pool<Real> pool = ref::draw_pool(surface, params);
+    const ref::Pool<Real> pool =
+        candidates != nullptr ? pool_of(surface, *candidates) : ref::draw_pool(surface, params);
     Points points;
     std::vector<ref::FacePoint<Real>> given;
     for (const Sample& sample : params.given) {
@@ -41,6 +59,11 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
 
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
     return sequential_set<float>(mesh, params, error_bound);
+}
+
+Points listed_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                  const Points& candidates) {
+    return sequential_set<float>(mesh, params, error_bound, &candidates);
 }
 
 Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {

@@ -29,6 +29,10 @@ Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double 
 /// As float_set, in double precision.
 Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 
+/// What it accepts of listed candidates behind the given samples.
+Points listed_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                  const Points& candidates);
+
 Points points_of(const SampleSet& set);
 std::vector<Sample> samples_of(const Points& points);
 

@@ -202,6 +202,32 @@ Result<FaceCells> count_cells(PlacedSurfaces surfaces) {
                : FaceCells{static_cast<std::uint32_t>(cells), std::move(firsts)};
 }
 
+std::uint32_t FaceGrid::cell_of(const PreparedMesh& mesh, std::uint32_t face, double weight1,
+                                double weight2) const {
+    const double weights[3] = {1 - weight1 - weight2, weight1, weight2};
+    const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face + corner];
+    const double apex = weights[(corner + 2) % 3];
+    const double x = weights[(corner + 1) % 3] * edge.length + apex * edge.apex_x;
+    const auto index = [this](double length, std::uint32_t count) {
+        return static_cast<std::uint32_t>(std::clamp(length / cell, 0.0, count - 1.0));
+    };
+    return first + index(apex * edge.apex_y, rows) * columns + index(x, columns);
+}
+
+void for_face_grids(const PlacedSurface& surface,
+                    const std::function<void(std::uint32_t face, const FaceGrid&)>& visit) {
+    const double unit = surface.frame.unit;
+    std::uint32_t first = 0;
+    for (std::uint32_t f = 0; f < surface.mesh->face_count(); ++f) {
+        const auto [columns, rows, corner] = face_grid(*surface.mesh, surface.params, f, unit);
+        const FaceGrid grid{first, static_cast<std::uint32_t>(columns),
+                            static_cast<std::uint32_t>(rows), corner,
+                            unit / cells_per_unit(radii_of(surface.params, f))};
+        visit(f, grid);
+        first += grid.columns * grid.rows;
+    }
+}
+
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
     const float height = previous_length(mesh, 3 * face, unit) * direction(edge.angle().sine);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <geodisk/status.hpp>
@@ -22,6 +23,23 @@ struct FaceCells {
 
 /// Counts the cells. Errors: more than 2^30, naming the face.
 Result<FaceCells> count_cells(PlacedSurfaces surfaces);
+
+/// The grid of cells over a face, in the frame of its longest edge.
+struct FaceGrid {
+    std::uint32_t first; ///< First cell, row by row.
+    std::uint32_t columns, rows;
+    std::uint32_t corner; ///< Where the longest edge starts.
+    double cell;          ///< Width of a cell, in mesh units.
+
+    /// Returns the cell of the point with these weights of the second and third corner. A point on
+    /// a border between cells may be in either.
+    std::uint32_t cell_of(const PreparedMesh& mesh, std::uint32_t face, double weight1,
+                          double weight2) const;
+};
+
+/// Visits the grids of all faces of a surface that has more cells than faces.
+void for_face_grids(const PlacedSurface& surface,
+                    const std::function<void(std::uint32_t face, const FaceGrid&)>& visit);
 
 /// Returns the area of a face as kernels compute it, with lengths in units of `unit`.
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit);

@@ -33,6 +33,8 @@ struct Domain::Impl {
     std::vector<gpu::SampleRec> settled;
     std::uint32_t avoided = 0; ///< How many of them are points to avoid.
     ErrorModel error;          ///< Bound on the error of distances.
+    /// True if the host gives the candidates, and upload_parts() has them.
+    bool is_listed = false;
     /// Number of units that candidates are drawn by: faces, or cells of a box.
     std::uint64_t units = 0;
     /// Device memory per candidate, approximately.

@@ -98,11 +98,4 @@ void add_avoided(const PlacedSurface& surface, std::vector<gpu::SampleRec>& sett
     }
 }
 
-UploadPart upload_part(std::span<const gpu::SampleRec> settled) {
-    return {sizeof(gpu::SampleRec), settled.size(),
-            [settled](std::size_t begin, std::size_t end, std::byte* out) {
-                std::memcpy(out, &settled[begin], (end - begin) * sizeof(gpu::SampleRec));
-            }};
-}
-
 } // namespace geodisk

@@ -27,7 +27,4 @@ void add_given(std::span<const Sample> given, std::uint32_t first_face,
 /// Appends the points to avoid on a surface.
 void add_avoided(const PlacedSurface& surface, std::vector<gpu::SampleRec>& settled);
 
-/// Returns the part that uploads settled samples, which must outlive it.
-UploadPart upload_part(std::span<const gpu::SampleRec> settled);
-
 } // namespace geodisk

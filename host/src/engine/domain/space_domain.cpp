@@ -185,7 +185,7 @@ std::size_t SpaceDomain::upload_size(BufferRole role) const {
 
 Result<UploadParts> SpaceDomain::upload_parts(const RunPlan& plan, BufferRole role) const {
     if (role == BufferRole::samples) {
-        return UploadParts{upload_part(settled)};
+        return UploadParts{upload_part(std::span(settled))};
     }
     if (role != BufferRole::corners) {
         return GridDomain::upload_parts(plan, role);

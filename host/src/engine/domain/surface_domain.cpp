@@ -186,6 +186,23 @@ SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
         std::make_unique<SurfaceDomain>(std::move(surfaces), std::move(*cells)));
 }
 
+Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParams& params,
+                                     const JobFrame& frame,
+                                     std::span<const ListedCandidate> candidates) {
+    PlacedSurface surface = placed(mesh, params, frame);
+    surface.stages = listed_stages(surface.stages.samples, candidates.size());
+    auto cells = count_cells({&surface, 1});
+    if (!cells) {
+        return cells.error();
+    }
+    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
+    made->is_listed = true;
+    made->listed_ = listed_buffers(surface, made->cells_, candidates);
+    const double most = static_cast<double>(made->settled.size() + candidates.size());
+    made->samples = std::min(made->samples, most);
+    return Domain::Impl::wrap(std::move(made));
+}
+
 SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells)
     : surfaces_(std::move(surfaces)), cells_(std::move(cells)) {
     stages = stages_of(surfaces_);
@@ -324,7 +341,22 @@ std::size_t SurfaceDomain::upload_size(BufferRole role) const {
     case BufferRole::samples:
         return settled.size() * sizeof settled[0];
     default:
-        return 0;
+        return listed_words(role).size_bytes();
+    }
+}
+
+std::span<const std::uint32_t> SurfaceDomain::listed_words(BufferRole role) const {
+    switch (role) {
+    case BufferRole::starts:
+        return listed_.starts;
+    case BufferRole::cells:
+        return listed_.cells;
+    case BufferRole::weights:
+        return listed_.weights;
+    case BufferRole::orders:
+        return listed_.orders;
+    default:
+        return {};
     }
 }
 
@@ -354,7 +386,9 @@ Result<UploadParts> SurfaceDomain::upload_parts(const RunPlan&, BufferRole role)
         add_keys(surfaces_, parts);
         add_mask(surfaces_, parts);
     } else if (role == BufferRole::samples) {
-        parts.push_back(upload_part(settled));
+        parts.push_back(upload_part(std::span(settled)));
+    } else {
+        parts.push_back(upload_part(listed_words(role)));
     }
     return parts;
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/domain/device_mesh.hpp"
 #include "engine/domain/domain_impl.hpp"
+#include "engine/domain/listed.hpp"
 #include "engine/domain/placed_surface.hpp"
 #include "engine/domain/tolerances.hpp"
 
@@ -16,6 +18,10 @@ class SurfaceDomain : public Domain::Impl {
   public:
     SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells);
     static Result<std::unique_ptr<const Impl>> make(std::vector<PlacedSurface> surfaces);
+    /// Implements listed_domain(), for candidates that are checked.
+    static Result<Domain> listed(const PreparedMesh& mesh, const SampleParams& params,
+                                 const JobFrame& frame,
+                                 std::span<const ListedCandidate> candidates);
 
     std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
@@ -34,13 +40,16 @@ class SurfaceDomain : public Domain::Impl {
     double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
 
   private:
+    /// Returns what the host gives of a buffer of candidates.
+    std::span<const std::uint32_t> listed_words(BufferRole role) const;
     double faces_per_disk() const { return 2.0 * face_count(surfaces_) / whole_; }
 
     std::vector<PlacedSurface> surfaces_;
     double first_error_ = 0;
     FaceCells cells_;
-    double full_ = 0;  ///< Samples that full surfaces hold, at least two each.
-    double whole_ = 0; ///< The same without masks: no disk covers more than all faces.
+    ListedBuffers listed_; ///< Empty unless the host gives the candidates.
+    double full_ = 0;      ///< Samples that full surfaces hold, at least two each.
+    double whole_ = 0;     ///< The same without masks: no disk covers more than all faces.
 };
 
 } // namespace geodisk

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace geodisk {
@@ -19,5 +21,14 @@ struct UploadPart {
 
 /// All data of a buffer, in order.
 using UploadParts = std::vector<UploadPart>;
+
+/// Returns the part that uploads these records, which must outlive it.
+template <class Record>
+UploadPart upload_part(std::span<const Record> records) {
+    return {sizeof(Record), records.size(),
+            [records](std::size_t begin, std::size_t end, std::byte* out) {
+                std::memcpy(out, &records[begin], (end - begin) * sizeof(Record));
+            }};
+}
 
 } // namespace geodisk

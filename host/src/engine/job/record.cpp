@@ -246,6 +246,23 @@ class Recorder {
     gpu::Push bound_push_{};
 };
 
+/// Counts, sorts by cell and draws the candidates of the stages at hand.
+void draw_candidates(Recorder& recorder, Job::Impl& job) {
+    const gpu::Push& push = job.push;
+    const DomainKernels own = kernels_of(job.variant.domain);
+    recorder.clear(BufferRole::cells,
+                   job.has_cells() ? (VkDeviceSize{job.constants.cells} + 2) * 4 : 0);
+    recorder.pass_over_faces(own.count);
+    recorder.scan(job.constants.faces * push.stages + 1, SetRole::start_scan);
+    if (job.has_cells()) {
+        recorder.stage(Stage::bin);
+        recorder.pass_over_candidates(own.bin, gpu::kDrawBlock, push);
+        recorder.scan(job.constants.cells + 2, SetRole::cell_scan);
+    }
+    recorder.stage(Stage::draw);
+    recorder.pass_over_candidates(own.draw, gpu::kDrawBlock, push);
+}
+
 } // namespace
 
 bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
@@ -255,8 +272,6 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     }
     Recorder recorder(commands, job, job.begun, budget);
     const gpu::Push& push = job.push;
-    const DomainKernels own = kernels_of(job.variant.domain);
-    const bool has_cells = job.has_cells();
     recorder.stage(Stage::count);
     recorder.change([&] { recorder.write_constants(); });
     recorder.change([&] {
@@ -278,16 +293,9 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     });
     recorder.clear(BufferRole::pool,
                    push.first_stage == 0 ? VkDeviceSize{push.first_list_row} * 16 : 0);
-    recorder.clear(BufferRole::cells, has_cells ? (VkDeviceSize{job.constants.cells} + 2) * 4 : 0);
-    recorder.pass_over_faces(own.count);
-    recorder.scan(job.constants.faces * push.stages + 1, SetRole::start_scan);
-    if (has_cells) {
-        recorder.stage(Stage::bin);
-        recorder.pass_over_candidates(own.bin, gpu::kDrawBlock, push);
-        recorder.scan(job.constants.cells + 2, SetRole::cell_scan);
+    if (!job.is_listed) {
+        draw_candidates(recorder, job);
     }
-    recorder.stage(Stage::draw);
-    recorder.pass_over_candidates(own.draw, gpu::kDrawBlock, push);
     recorder.single(Kernel::begin_chunk, push);
     job.is_end_changed = false;
     return recorder.is_complete();

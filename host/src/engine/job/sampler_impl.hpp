@@ -82,6 +82,7 @@ struct Job::Impl {
     std::uint32_t most_lanes = 0; ///< Of the first plan.
     // As Domain::Impl has them.
     bool has_lane_per_slot = false;
+    bool is_listed = false;
     Stages stages;
     double samples_per_measure = 0;
     ErrorModel error;

@@ -48,8 +48,9 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
         }
         Fitting fitting{overridden(*planned, runner.options.plan)};
         RunPlan& plan = fitting.plan;
-        // Darts always come one stage at a time.
-        const bool is_fixed = runner.options.plan.stages != 0 && !of.stages.is_counted();
+        // Darts always come one stage at a time, and a list has one.
+        const bool is_fixed =
+            runner.options.plan.stages != 0 && !of.stages.is_counted() && !of.is_listed;
         plan.stages = is_fixed ? plan.stages : std::min(plan.stages, stages);
         plan.sample_capacity = std::max(plan.sample_capacity, samples);
         const auto needs = sampler.workspace_needs(domain, plan);

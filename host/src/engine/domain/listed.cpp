@@ -1,0 +1,131 @@
+#include "engine/domain/listed.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include <geodisk/job_frame.hpp>
+
+#include "constants.h"
+#include "engine/capacity.hpp"
+#include "engine/domain/surface_domain.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr std::uint32_t kOneWeight = 1u << 24;
+constexpr std::size_t kMostListed = std::size_t{1} << gpu::kPriorityBits;
+
+Result<Done> check_listed(const PreparedMesh& mesh, const SampleParams& params,
+                          std::span<const ListedCandidate> candidates) {
+    if (candidates.empty() || candidates.size() > kMostListed) {
+        return invalid("a list of candidates has 1 to 2^28, not " +
+                       std::to_string(candidates.size()));
+    }
+    if (params.throws != 0) {
+        return invalid("candidates are listed, so there are no darts to throw");
+    }
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const auto [face, weight1, weight2] = candidates[i];
+        if (face >= mesh.face_count()) {
+            return invalid("listed candidate " + std::to_string(i) + " is in face " +
+                           std::to_string(face) + ", but there are " +
+                           std::to_string(mesh.face_count()));
+        }
+        if (weight1 > kOneWeight || weight2 > kOneWeight - weight1) {
+            return invalid("listed candidate " + std::to_string(i) +
+                           " has weights that sum to more than 1");
+        }
+    }
+    return Done{};
+}
+
+/// Returns the numbers of the candidates in the order of their faces, and adds the first of each
+/// face to `starts`, and the end.
+std::vector<std::uint32_t> sorted_by_face(std::uint32_t faces,
+                                          std::span<const ListedCandidate> candidates,
+                                          std::vector<std::uint32_t>& starts) {
+    starts.assign(std::size_t{faces} + 1, 0);
+    for (const ListedCandidate& candidate : candidates) {
+        ++starts[candidate.face + 1];
+    }
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+    std::vector<std::uint32_t> sorted(candidates.size());
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+        sorted[next[candidates[i].face]++] = i;
+    }
+    return sorted;
+}
+
+/// Sorts the candidates of each face by their cells, and returns the table of cells.
+std::vector<std::uint32_t> sort_by_cell(const PlacedSurface& surface, const FaceCells& cells,
+                                        std::span<const ListedCandidate> candidates,
+                                        std::span<const std::uint32_t> starts,
+                                        std::span<std::uint32_t> sorted) {
+    if (cells.count == 0) {
+        return {};
+    }
+    std::vector<std::uint32_t> table(std::size_t{cells.count} + 2, 0);
+    std::vector<std::uint32_t> cell_of(candidates.size());
+    for_face_grids(surface, [&](std::uint32_t face, const FaceGrid& grid) {
+        const auto own = sorted.subspan(starts[face], starts[face + 1] - starts[face]);
+        for (const std::uint32_t i : own) {
+            const auto [in, weight1, weight2] = candidates[i];
+            cell_of[i] = grid.cell_of(*surface.mesh, in, weight1 * 0x1p-24, weight2 * 0x1p-24);
+            ++table[cell_of[i] + 1];
+        }
+        std::ranges::stable_sort(own, {}, [&](std::uint32_t i) { return cell_of[i]; });
+    });
+    std::partial_sum(table.begin(), table.end(), table.begin());
+    return table;
+}
+
+} // namespace
+
+Stages listed_stages(double samples, std::size_t candidates) {
+    Stages stages{samples, static_cast<double>(candidates) / samples};
+    stages.most_stages = 1;
+    stages.most_expected = static_cast<double>(candidates);
+    return stages;
+}
+
+ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cells,
+                             std::span<const ListedCandidate> candidates) {
+    ListedBuffers buffers;
+    std::vector<std::uint32_t> sorted =
+        sorted_by_face(surface.mesh->face_count(), candidates, buffers.starts);
+    buffers.cells = sort_by_cell(surface, cells, candidates, buffers.starts, sorted);
+    const std::uint32_t capacity = capacity_for(surface.stages, 1);
+    const auto count = static_cast<std::uint32_t>(candidates.size());
+    // Batches are chosen as if orders were spread evenly.
+    const std::uint32_t step = (1u << gpu::kPriorityBits) / count;
+    buffers.weights.resize(2 * candidates.size());
+    buffers.orders.resize(capacity + state_words(capacity), 0);
+    for (std::uint32_t place = 0; place < count; ++place) {
+        const ListedCandidate& candidate = candidates[sorted[place]];
+        buffers.weights[2 * std::size_t{place}] = candidate.weight1;
+        buffers.weights[2 * std::size_t{place} + 1] = candidate.weight2;
+        buffers.orders[place] = sorted[place] * step;
+        buffers.orders[capacity + (place >> 5 << 1)] |= 1u << (place & 31); // Undecided.
+    }
+    return buffers;
+}
+
+Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
+                             std::span<const ListedCandidate> candidates) noexcept {
+    return guarded([&]() -> Result<Domain> {
+        const auto frame = frame_of(mesh, params);
+        if (!frame) {
+            return frame.error();
+        }
+        if (auto checked = check_listed(mesh, params, candidates); !checked) {
+            return checked.error();
+        }
+        return SurfaceDomain::listed(mesh, params, *frame, candidates);
+    });
+}
+
+} // namespace geodisk

@@ -1,0 +1,50 @@
+// Candidates that the host gives, in place of those that kernels draw from a seed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/domain.hpp>
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/status.hpp>
+
+#include "engine/domain/device_mesh.hpp"
+#include "engine/domain/placed_surface.hpp"
+
+namespace geodisk {
+
+/// A candidate of the host: a point of a face.
+struct ListedCandidate {
+    std::uint32_t face;
+    std::uint32_t weight1, weight2; ///< Weights of the second and third corner, in units of 2^-24.
+
+    friend bool operator==(const ListedCandidate&, const ListedCandidate&) = default;
+};
+
+/// Makes the domain of a surface whose only candidates are these, decided in the order of the list
+/// after the given samples of `params`. Samples are the accepted ones in that order, behind the
+/// given ones. The seed and the pool ratio have no effect. Kernels draw nothing: a recorded job
+/// must upload the data again before it restarts. `mesh` and `params` as for Domain::surface().
+///
+/// Errors: those of Domain::surface(); `invalid_argument` for no candidate, more than 2^28, darts
+/// (`throws`), or a candidate, naming it, in a face that does not exist or with weights that sum to
+/// more than 1.
+GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
+                                         std::span<const ListedCandidate> candidates) noexcept;
+
+/// What the device holds of listed candidates: the contents of these buffers.
+struct ListedBuffers {
+    std::vector<std::uint32_t> starts, cells, weights, orders;
+};
+
+/// Returns the stages of a job with so many listed candidates: a single one.
+Stages listed_stages(double samples, std::size_t candidates);
+
+/// Sorts the candidates by face and cell.
+ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cells,
+                             std::span<const ListedCandidate> candidates);
+
+} // namespace geodisk
