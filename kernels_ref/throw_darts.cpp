@@ -24,6 +24,7 @@ Surface<Real> scaled(Surface<Real> surface, Real scale) {
         edge.apex_y *= scale;
     }
     surface.radii.clear();
+    surface.classes = {};
     return surface;
 }
 
@@ -49,6 +50,7 @@ template <bool kMayVary, class Real>
 RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
                      const Tolerances& tolerances, std::uint32_t most,
                      std::span<const FacePoint<Real>> given,
+                     std::span<const std::uint8_t> given_classes,
                      std::span<const AvoidedPoint<Real>> avoided) {
     RunResult result;
     const std::uint32_t count = pool.size();
@@ -57,7 +59,10 @@ RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
     std::uint8_t* const decided = flags.data();
     keep_out(surface, pool, tolerances, avoided, decided, result);
     Detector<Real, kMayVary> detector(surface, pool.bins, tolerances, tolerances.limit);
-    const auto reject = [&](const FacePoint<Real>& source) {
+    const auto reject = [&](const FacePoint<Real>& source, std::uint32_t own_class) {
+        if (kMayVary && surface.has_classes()) {
+            detector.set_class(own_class, pool.words);
+        }
         const DiskCount disk = detector.run(
             source, [decided](std::uint32_t q) { return !decided[q]; },
             [decided](std::uint32_t q, Real) { decided[q] = 1; });
@@ -66,7 +71,9 @@ RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
         result.most_waiting = std::max(result.most_waiting, disk.most_waiting);
         result.longest_chain = std::max(result.longest_chain, disk.chain);
     };
-    std::ranges::for_each(given, reject);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        reject(given[i], given_classes.empty() ? 0 : given_classes[i]);
+    }
     for (std::uint32_t rank = 0; rank < count && given.size() + result.ranks.size() < most;
          ++rank) {
         const std::uint32_t place = pool.places[rank];
@@ -75,7 +82,7 @@ RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
         }
         decided[place] = 1;
         result.ranks.push_back(rank);
-        reject(pool.bins.points[place]);
+        reject(pool.bins.points[place], surface.has_classes() ? pool.class_at(place) : 0);
     }
     return result;
 }
@@ -86,17 +93,19 @@ template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
                       const Tolerances& tolerances, std::uint32_t most,
                       std::span<const FacePoint<Real>> given,
-                      std::span<const AvoidedPoint<Real>> avoided) {
-    return surface.is_adaptive()
-               ? throw_from<true>(surface, pool, tolerances, most, given, avoided)
-               : throw_from<false>(surface, pool, tolerances, most, given, avoided);
+                      std::span<const AvoidedPoint<Real>> avoided,
+                      std::span<const std::uint8_t> given_classes) {
+    return surface.is_adaptive() || surface.has_classes()
+               ? throw_from<true>(surface, pool, tolerances, most, given, given_classes, avoided)
+               : throw_from<false>(surface, pool, tolerances, most, given, given_classes, avoided);
 }
 
 template RunResult throw_darts(const Surface<float>&, const Pool<float>&, const Tolerances&,
                                std::uint32_t, std::span<const FacePoint<float>>,
-                               std::span<const AvoidedPoint<float>>);
+                               std::span<const AvoidedPoint<float>>, std::span<const std::uint8_t>);
 template RunResult throw_darts(const Surface<double>&, const Pool<double>&, const Tolerances&,
                                std::uint32_t, std::span<const FacePoint<double>>,
-                               std::span<const AvoidedPoint<double>>);
+                               std::span<const AvoidedPoint<double>>,
+                               std::span<const std::uint8_t>);
 
 } // namespace geodisk::ref

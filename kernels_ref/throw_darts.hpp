@@ -29,11 +29,12 @@ struct AvoidedPoint {
 
 /// Visits the ranks upwards and accepts each candidate that no point to avoid, no given sample and
 /// no accepted one rejected, until the pool is used up or there are `most` samples, given ones
-/// included.
+/// included. Given samples have class 0 unless `given_classes` has one for each.
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
                       const Tolerances& tolerances, std::uint32_t most = kMostCandidates,
                       std::span<const FacePoint<Real>> given = {},
-                      std::span<const AvoidedPoint<Real>> avoided = {});
+                      std::span<const AvoidedPoint<Real>> avoided = {},
+                      std::span<const std::uint8_t> given_classes = {});
 
 } // namespace geodisk::ref

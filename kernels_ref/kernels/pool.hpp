@@ -21,6 +21,8 @@ struct Pool {
     std::uint32_t size() const { return static_cast<std::uint32_t>(places.size()); }
     FacePoint<Real> candidate(std::uint32_t rank) const { return bins.points[places[rank]]; }
     std::uint32_t word(std::uint32_t rank) const { return words[places[rank]]; }
+    /// Returns the class of a place, if candidates have classes.
+    std::uint32_t class_at(std::uint32_t place) const { return words[place] % 8; }
     std::vector<FacePoint<Real>> by_rank() const;
     /// Returns the ranks in the order of the bins.
     std::vector<std::uint32_t> ranks() const;

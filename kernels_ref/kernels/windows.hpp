@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -51,7 +52,8 @@ inline Tolerances double_tolerances() {
 }
 
 /// What all ways to compute a geodesic disk share: how windows cross faces, and which points they
-/// light. With kMayVary false it is faster, and only for surfaces whose radii do not vary.
+/// light. With kMayVary false it is faster, and only for surfaces whose radii do not vary
+/// and without classes.
 template <class Real, bool kMayVary>
 class Windows {
   public:
@@ -66,6 +68,14 @@ class Windows {
 
     /// Sets the limit of later disks.
     void set_limit(Real limit) { limit_ = limit; }
+
+    /// Sets the class of the sources of later disks. `words` are those of the points by place,
+    /// whose lowest bits are their classes; they must outlive the disks.
+    void set_class(std::uint32_t own, std::span<const std::uint32_t> words) {
+        own_class_ = own;
+        words_ = words;
+        limit_ = surface_.classes.reach[own] + guard_;
+    }
 
   protected:
     using Window = ref::Window<Real>;
@@ -108,6 +118,8 @@ class Windows {
 
     /// Returns true if radii vary.
     bool adaptive() const { return kMayVary && surface_.is_adaptive(); }
+    /// Returns true if points have classes.
+    bool classed() const { return kMayVary && !words_.empty(); }
 
     Real error_of(std::uint32_t crossings) const {
         return base_error_ + static_cast<Real>(crossings) * crossing_error_;
@@ -316,7 +328,7 @@ class Windows {
                 const Real dx = q.x - x;
                 const Real dy = q.y - y;
                 const Real distance2 = dx * dx + dy * dy;
-                const Real limit2 = adaptive() ? near_square(place, sigma) : rest2;
+                const Real limit2 = adaptive() || classed() ? near_square(place, sigma) : rest2;
                 if (distance2 < limit2 && lit(dx, dy)) {
                     hit(place, sigma + std::sqrt(distance2));
                 }
@@ -330,7 +342,7 @@ class Windows {
         const Real reach =
             rest + static_cast<Real>(kCellPadding) * (surface_.edges[grid.base].length + 1);
         const Real per_unit =
-            adaptive() ? surface_.cells_per_unit(f) : static_cast<Real>(gpu::kCellsPerDistance);
+            kMayVary ? surface_.cells_per_unit(f) : static_cast<Real>(gpu::kCellsPerDistance);
         const std::uint32_t column0 = cell_at(center.x - reach, grid.columns, per_unit);
         const std::uint32_t column1 = cell_at(center.x + reach, grid.columns, per_unit);
         const std::uint32_t row1 = cell_at(center.y + reach, grid.rows, per_unit);
@@ -341,10 +353,13 @@ class Windows {
         }
     }
 
-    /// Returns, if radii vary, the squared distance from a source at sigma below which a place is
-    /// near.
+    /// Returns, if radii vary or points have classes, the squared distance from a source at sigma
+    /// below which a place is near.
     Real near_square(std::uint32_t place, Real sigma) const {
-        const Real rest = limit_with(surface_.radius_at(bins_.points[place])) - sigma;
+        const Real limit = adaptive() ? limit_with(surface_.radius_at(bins_.points[place]))
+                                      : surface_.classes.distance[own_class_][words_[place] % 8] +
+                                            (guard_ + beyond_guard_);
+        const Real rest = limit - sigma;
         return rest > 0 ? rest * rest : Real{0};
     }
 
@@ -371,6 +386,8 @@ class Windows {
     Real margin_ = 0;       ///< By how much a known path must beat a window in this operation.
     Real beyond_guard_ = 0; ///< By how much its error exceeds the guard.
     Real own_radius_ = 0;   ///< Radius of the source, if radii vary.
+    std::uint32_t own_class_ = 0;
+    std::span<const std::uint32_t> words_; ///< Of the points, if they have classes.
     DiskCount count_;
 };
 

@@ -137,7 +137,8 @@ double Frame::samples_on(double area) const {
 }
 
 float Frame::intensity(std::uint32_t stage) const {
-    return static_cast<float>(stages.per_sample(stage) * ref::samples_on(1, 1));
+    return static_cast<float>(stages.per_sample(stage) *
+                              (ref::samples_on(1, 1) * candidates_of_classes));
 }
 
 double Frame::error_of(std::uint32_t crossings) const {
@@ -172,8 +173,9 @@ Frame frame_of(const PreparedMesh& mesh, const SampleParams& params) {
     const double distance = params.min_distance;
     const double longest = longest_edge_of(mesh);
     const bool vary = params.radii != nullptr;
-    // The smaller radii may matter, however large the largest one is.
-    const double unit = vary ? distance : unit_of(mesh, distance, longest);
+    // The smaller distances may matter, however large the largest one is.
+    const bool is_largest = vary || !params.class_factors.empty();
+    const double unit = is_largest ? distance : unit_of(mesh, distance, longest);
     Frame frame = frame_without_pool(mesh, distance, unit, longest);
     frame.radii_vary = vary;
     double samples = frame.stages.samples;
@@ -184,9 +186,23 @@ Frame frame_of(const PreparedMesh& mesh, const SampleParams& params) {
     if (!params.face_mask.empty()) {
         samples = samples_on(area_for_samples(mesh, params), unit);
     }
+    frame.candidates_of_classes = ref::candidates_of_classes(params);
+    samples *= frame.candidates_of_classes;
     frame.stages = StageRule::of(samples, params.pool_ratio, params.throws);
     frame.nearest_first = 2.0 * mesh.face_count() / std::max(2.0, full) >= kFacesOfLargeDisk;
     return frame;
+}
+
+double candidates_of_classes(const SampleParams& params) {
+    double sum = params.class_factors.empty() ? 1 : 0;
+    for (std::size_t at = 0, count = 0; at < params.class_factors.size(); at += count + 1) {
+        count = count != 0 ? count
+                           : static_cast<std::size_t>(
+                                 std::lround(std::sqrt(double(params.class_factors.size()))));
+        const double own = params.class_factors[at];
+        sum += 1 / (own * own);
+    }
+    return sum;
 }
 
 double area_of(const PreparedMesh& mesh, std::uint32_t face) {

@@ -26,6 +26,8 @@ struct Frame {
     double unit = 0;         ///< Unit of lengths, in mesh units.
     double longest_edge = 0; ///< In units of `unit`.
     StageRule stages;
+    /// Candidates of all classes together per candidate with the minimum distance for all.
+    double candidates_of_classes = 1;
     std::uint32_t chain = 0;    ///< Crossings to provide for at first.
     bool radii_vary = false;    ///< Their rounding needs room, and small ones a finer guard.
     bool nearest_first = false; ///< Vertex events are taken by distance, not as they came.
@@ -59,6 +61,10 @@ Frame frame_of(const PreparedMesh& mesh, double min_distance);
 inline bool takes_samples(const SampleParams& params, std::uint32_t face) {
     return params.face_mask.empty() || params.face_mask[face] != 0;
 }
+
+/// Returns the candidates of all classes together per candidate with the minimum distance for all:
+/// a class has the more the smaller its distance; 1 without classes.
+double candidates_of_classes(const SampleParams& params);
 
 /// Returns the area of a face, in mesh units.
 double area_of(const PreparedMesh& mesh, std::uint32_t face);

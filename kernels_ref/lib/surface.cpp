@@ -14,7 +14,8 @@ namespace {
 bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const Frame& frame) {
     constexpr double kFew = 24;
     const auto weight_of = [&](std::uint32_t face) {
-        const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
+        const double density = params.radii != nullptr ? params.radii->densities()[face]
+                                                       : candidates_of_classes(params);
         return takes_samples(params, face) ? area_of(mesh, face) * density : 0;
     };
     double sum = 0, squares = 0;
@@ -46,6 +47,7 @@ Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params,
     : frame(frame_of_whole), fans(mesh.fans()), corners(mesh.corners()),
       one_cell_each(has_small_faces(mesh, params, frame)) {
     place_edges(mesh);
+    set_classes(params.class_factors);
     if (params.radii == nullptr) {
         return;
     }
@@ -63,6 +65,26 @@ Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params,
             face.spread[k] = params.radii->spreads()[h];
         }
         face.bound = static_cast<Real>((*bounds)[f]);
+    }
+}
+
+template <class Real>
+void Surface<Real>::set_classes(std::span<const float> factors) {
+    classes.count = static_cast<std::uint32_t>(std::lround(std::sqrt(double(factors.size()))));
+    double all = 0;
+    double shares[8]{};
+    for (std::uint32_t a = 0; a < classes.count; ++a) {
+        for (std::uint32_t b = 0; b < classes.count; ++b) {
+            classes.distance[a][b] = static_cast<Real>(factors[classes.count * a + b]);
+            classes.reach[a] = std::max(classes.reach[a], classes.distance[a][b]);
+        }
+        const double own = factors[(classes.count + 1) * a];
+        all += shares[a] = 1 / (own * own);
+    }
+    double sum = 0;
+    for (std::uint32_t a = 0; a < classes.count; ++a) {
+        sum += shares[a];
+        classes.ends[a] = static_cast<std::uint64_t>(std::ldexp(sum / all, 32));
     }
 }
 

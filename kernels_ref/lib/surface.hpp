@@ -38,6 +38,24 @@ struct FaceRadii {
     Real largest() const { return radius_of(std::max({corner[0], corner[1], corner[2]})); }
 };
 
+/// The classes of candidates: distances of pairs, and random words that stand for them.
+template <class Real>
+struct Classes {
+    std::uint32_t count = 0; ///< 0 if there are no classes.
+    Real distance[8][8]{};   ///< In units of the frame.
+    Real reach[8]{};         ///< Largest distance of each class.
+    std::uint64_t ends[8]{}; ///< Random words below it are of a class up to this.
+
+    /// Returns the class that a random word stands for.
+    std::uint32_t of(std::uint32_t random) const {
+        std::uint32_t number = 0;
+        while (number + 1 < count && random >= ends[number]) {
+            ++number;
+        }
+        return number;
+    }
+};
+
 /// A point of a face by the weights of its second and third corner.
 template <class Real>
 struct FacePoint {
@@ -58,6 +76,7 @@ struct Surface {
     /// By face, where radii vary, and in units of the frame; else empty, and all radii are half of
     /// it.
     std::vector<FaceRadii<Real>> radii;
+    Classes<Real> classes; ///< Only where radii do not vary.
 
     Surface(const PreparedMesh& mesh, double min_distance);
     /// The surface of a run, with its radii.
@@ -67,19 +86,24 @@ struct Surface {
 
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(edges.size() / 3); }
     bool is_adaptive() const { return !radii.empty(); }
+    bool has_classes() const { return classes.count != 0; }
     /// The radius at a point, where radii vary.
     Real radius_at(FacePoint<Real> point) const;
     /// Cells of a face per unit of length, a power of two.
     Real cells_per_unit(std::uint32_t face) const {
-        if (!is_adaptive()) {
+        if (!is_adaptive() && !has_classes()) {
             return static_cast<Real>(gpu::kCellsPerDistance);
         }
-        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(radii[face].largest()));
+        const Real largest =
+            is_adaptive() ? radii[face].largest()
+                          : *std::min_element(classes.reach, classes.reach + classes.count) / 2;
+        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(largest));
         return static_cast<Real>(std::bit_cast<float>(0x7f000000u - (bits & 0x7f800000u)));
     }
 
   private:
     void place_edges(const PreparedMesh& mesh);
+    void set_classes(std::span<const float> factors);
 };
 
 /// Lengths in units of about the distance looked for keep all numbers in bounds, unless that is out

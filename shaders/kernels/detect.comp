@@ -6,7 +6,7 @@
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
 // reads: faces, fans, radii, cells, weights, orders   writes: pool, slots, control
-// spec: local size, rounding, pool block, counted lanes, adaptive, event heap, trims, many rows, avoids
+// spec: local size, rounding, pool block, counted lanes, adaptive, event heap, trims, many rows, avoids, classes
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.

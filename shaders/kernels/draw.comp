@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Draws the candidates, sorted by cell in larger faces, and begins the chunk.
 // reads: faces, fans (keys, radii), starts   writes: weights, orders, cells, control
-// spec: rounding, adaptive, many rows, keyed
+// spec: rounding, adaptive, many rows, keyed, classes
 
 #include "../lib/prelude.glsl"
 #include "../lib/face_cell.glsl"
@@ -26,7 +26,7 @@ void visit(Unit unit, uint number) {
             cells[(word & kFirstCellMask) + 1u] = number + 1u;
         }
     }
-    weights[2u * place] = c.weight1;
+    weights[2u * place] = weight_with_class(c.weight1, c.order);
     weights[2u * place + 1u] = c.weight2;
     orders[place] = c.order;
 }

@@ -5,7 +5,7 @@
 // nothing is read that changes but by atomics, of which the order does not matter: so the result is the same
 // for any number of lanes. kernels_ref/kernels/group_detect.hpp is the same in plain C++; read that first.
 // reads: faces, fans, radii, cells, weights, orders   writes: pool, slots, control
-// spec: local size, rounding, adaptive, many rows, avoids
+// spec: local size, rounding, adaptive, many rows, avoids, classes
 
 #define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"

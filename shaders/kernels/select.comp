@@ -2,12 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // Selects the next batch on a surface.
 // reads: weights, starts, samples   writes: orders, list, control, slots
-// spec: slot local size
+// spec: slot local size, classes
 
 #include "../lib/prelude.glsl"
 #include "../lib/job.glsl"
 #include "../lib/units.glsl"
 #include "../lib/weights.glsl"
+#include "../lib/class_bits.glsl"
 
 GEODISK_WORDS(kBindWeights, weights);
 
@@ -25,7 +26,7 @@ void settle_point(uint slot, uvec4 record) {
 }
 
 uvec4 sample_at(uint place, uint order) {
-    float weight1 = weight_of(word_at(weights, 2u * place));
+    float weight1 = weight_of(weight_in(word_at(weights, 2u * place)));
     float weight2 = weight_of(word_at(weights, 2u * place + 1u));
     return uvec4(order, find_unit(place).owner, floatBitsToUint(weight1), floatBitsToUint(weight2));
 }

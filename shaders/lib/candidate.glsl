@@ -99,6 +99,9 @@ bool propose(inout Candidate c, uvec4 random) {
 
 Candidate draw_candidate(uint face, uint stage, uint number) {
     Candidate c = draw_evenly(face, stage, number);
+    if (kClasses) {
+        c.order = with_class(c.order, class_of_random(random_of(face, number, stage, 0u).y));
+    }
     if (kAdaptive) {
         bool kept = propose(c, random_of(face, number, stage, 0u));
         for (uint proposal = 1u; proposal < kMostProposals && !kept; ++proposal) {

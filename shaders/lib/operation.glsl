@@ -15,8 +15,10 @@ uint cell_word;
 
 layout(constant_id = kSpecAvoids) const bool kAvoids = false;
 
-// If radii vary, the radius of the candidate whose disk this is. For a point to avoid minus its radius.
+// If radii vary, the radius of the candidate whose disk this is; with classes the largest distance of its
+// class. For a point to avoid minus its radius.
 float own_radius;
+uint own_class;
 vec4 radii;         // of the face, if radii vary
 
 // Returns true for the disk of a point to avoid. It keeps out all candidates, whatever their radii.
@@ -29,10 +31,12 @@ float scale_of(float radius) {
     return kAvoids && radius > 1.0 ? uintBitsToFloat(0x7e800000u - exponent) : 1.0;
 }
 
-// Returns the distance below which candidates conflict, if radii do not vary and without long chains.
+// Returns the distance below which candidates conflict, if radii do not vary and without long chains. With
+// classes that is the largest one.
 float own_limit() {
-    precise float limit = (job.limit - 1.0) - own_radius * scale_of(-own_radius);
-    return keeps_out() ? limit : job.limit;
+    precise float avoided = (job.limit - 1.0) - own_radius * scale_of(-own_radius);
+    precise float of_class = (job.limit - 1.0) + own_radius;
+    return keeps_out() ? avoided : (kClasses ? of_class : job.limit);
 }
 
 // By how much a known path must beat a window before that is dropped.
@@ -63,6 +67,13 @@ float limit_with(float radius) {
     precise float guard = (job.limit - 1.0) + beyond_guard();
     precise float limit = (own_radius + radius) + guard;
     return keeps_out() ? path_limit() : limit;
+}
+
+// Returns the same for a candidate of this class.
+float limit_for(uint other_class) {
+    precise float guard = (job.limit - 1.0) + beyond_guard();
+    precise float limit = class_distance(own_class, other_class) + guard;
+    return limit;
 }
 
 // Returns the distance beyond which no path through the face leads to a conflict.

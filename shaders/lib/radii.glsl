@@ -4,6 +4,7 @@
 #ifndef GEODISK_RADII_GLSL
 #define GEODISK_RADII_GLSL
 
+#include "classes.glsl"
 #include "fans.glsl"
 #include "job.glsl"
 
@@ -47,7 +48,8 @@ float largest_radius(vec4 radii) {
 // radius of its face and more than half as wide. It is kCellsPerDistance for the largest radius of all.
 float cells_per_unit(vec4 radii) {
     uint exponent = floatBitsToUint(largest_radius(radii)) & 0x7f800000u;
-    return kAdaptive ? uintBitsToFloat(0x7f000000u - exponent) : float(kCellsPerDistance);
+    float same = kClasses ? class_number(kClassCells) : float(kCellsPerDistance);
+    return kAdaptive ? uintBitsToFloat(0x7f000000u - exponent) : same;
 }
 
 #endif

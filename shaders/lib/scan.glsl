@@ -54,10 +54,10 @@ void begin_scan(float sx, float sy) {
     }
 }
 
-// Returns, if radii vary, the squared distance from the source below which a candidate with these
-// weights conflicts.
-float conflict_square(float weight1, float weight2) {
-    precise float rest = limit_with(radius_at(radii, weight1, weight2)) - lane.sigma;
+// Returns the squared distance from the source of the operation below which a candidate conflicts whose
+// distance from the candidate of the disk must be below `limit`.
+float conflict_square(float limit) {
+    precise float rest = limit - lane.sigma;
     precise float square = rest * rest;
     return rest > 0.0 ? square : 0.0;
 }
@@ -158,7 +158,8 @@ void scan_some() {
             continue;
         }
         ++lane.tested;
-        float weight1 = weight_of(word_at(weights, 2u * place));
+        uint word = word_at(weights, 2u * place);
+        float weight1 = weight_of(weight_in(word));
         float weight2 = weight_of(word_at(weights, 2u * place + 1u));
         vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
         precise float dx = q.x - sx;
@@ -166,7 +167,9 @@ void scan_some() {
         precise float at = dx * lane.y;
         precise float from = low * dy;
         precise float to = high * dy;
-        float limit2 = kAdaptive ? conflict_square(weight1, weight2) : rest2;
+        float limit2 = kAdaptive ? conflict_square(limit_with(radius_at(radii, weight1, weight2)))
+                       : kClasses && !keeps_out() ? conflict_square(limit_for(class_in(word)))
+                                                  : rest2;
         bool conflicts = squared(dx, dy) < limit2 && (inside || (at >= from && at <= to));
         note_conflict(place, is_active(strip, bit), conflicts);
     }

@@ -18,9 +18,13 @@ void load_candidate(uint slot) {
     if (kAdaptive) {
         own_radius = radius_at(face_radii(own_face), own_weights.x, own_weights.y);
     }
+    if (kClasses) {
+        own_class = slots[slot].order & kClassMask;
+        own_radius = class_reach(own_class);
+    }
     if (kAvoids) {
         float avoided = uintBitsToFloat(slots[slot].turn);
-        own_radius = avoided > 0.0 ? -avoided : (kAdaptive ? own_radius : 0.0);
+        own_radius = avoided > 0.0 ? -avoided : (kAdaptive || kClasses ? own_radius : 0.0);
     }
 }
 

@@ -18,7 +18,8 @@ GEODISK_CONST uint kBindFans = 1u;       // a FanRec per vertex; then the fans' 
                                          // the caller gives keys, always for several surfaces; then for
                                          // several surfaces the surface of each face, and a PartRec per
                                          // surface; from job.first_mask_row on a bit per face, 1 where it
-                                         // takes samples
+                                         // takes samples; from job.first_class_row on the table of
+                                         // classes
 GEODISK_CONST uint kBindAxes = kBindFans; // for grids in space: two rows of AxisRec per axis
 GEODISK_CONST uint kBindCells = 2u;      // place where the candidates of each cell start, and one past the
                                          // last; kBindStarts serves for a mesh with one cell per face

@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 21u;
+GEODISK_CONST uint kAbi = 22u;
 
 // If radii vary: maximum of proposals per candidate. It takes the first that is kept, or the last.
 GEODISK_CONST uint kMostProposals = 1024u;
@@ -91,6 +91,19 @@ GEODISK_CONST uint kCountNumber = 0xffffffffu;
 // Bit of the face of a settled sample: it is a point to avoid, and its order is the word of its radius, in
 // units of the minimum distance.
 GEODISK_CONST uint kKeepsOut = 0x80000000u;
+
+// Classes of candidates. The lowest bits of an order are the class, and the bits of a candidate's first
+// weight word from kClassShift on.
+GEODISK_CONST uint kMostClasses = 8u;
+GEODISK_CONST uint kClassMask = 7u;
+GEODISK_CONST uint kClassShift = 28u;
+// Words of the table of classes: for each class the highest random word of it and those before it; for each
+// pair its distance; for each class its largest distance; the cells per unit of length. Lengths are in units
+// of the minimum distance.
+GEODISK_CONST uint kClassDistances = 8u;
+GEODISK_CONST uint kClassReaches = 72u;
+GEODISK_CONST uint kClassCells = 80u;
+GEODISK_CONST uint kClassWords = 84u; // whole rows
 
 // Modes of select.
 GEODISK_CONST uint kSelectPool = 0u;    // visits all candidates, and lists those that come next
@@ -259,6 +272,7 @@ GEODISK_CONST uint kSpecSlotLocalSize = 4u; // of kernels over slots and lanes
 GEODISK_CONST uint kSpecKeyed = 13u; // faces are drawn by keys of the caller
 GEODISK_CONST uint kSpecLanesApart = 12u; // pool blocks of one lane
 GEODISK_CONST uint kSpecAvoids = 15u; // points to avoid have disks
+GEODISK_CONST uint kSpecClasses = 16u; // candidates have classes
 GEODISK_CONST uint kSpecGroupLanes = 14u; // local size of group_detect: lanes that compute one disk
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.

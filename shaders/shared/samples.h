@@ -13,7 +13,7 @@
 GEODISK_BEGIN_SHARED
 
 // An accepted candidate. The weights are multiples of 2^-24, and the weight of the first corner is exactly
-// 1 - weight1 - weight2. In boxes the words after the order are the cell it was drawn in, its number there,
+// 1 - weight1 - weight2. With classes the lowest three bits of the order are the class. In boxes the words after the order are the cell it was drawn in, its number there,
 // and its stage.
 struct SampleRec {
     uint order; uint face; float weight1; float weight2;

@@ -27,7 +27,8 @@ ref::Pool<Real> pool_of(const ref::Surface<Real>& surface, const Points& candida
 
 template <class Real>
 Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
-                      const Points* candidates = nullptr) {
+                      const Points* candidates = nullptr,
+                      std::vector<std::uint8_t>* classes = nullptr) {
     expect(pool_size(mesh, params));
     const ref::Surface<Real> surface(mesh, params);
     const ref::Pool<Real> pool =
@@ -44,18 +45,29 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
         avoided.push_back({{center.face, center.weights[1], center.weights[2]},
                            static_cast<Real>(static_cast<float>(ratio))});
     }
-    const ref::RunResult result = ref::throw_darts<Real>(
-        surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
-        params.stop_count != 0 ? params.stop_count : kMostCandidates, given, avoided);
+    const ref::RunResult result =
+        ref::throw_darts<Real>(surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
+                               params.stop_count != 0 ? params.stop_count : kMostCandidates, given,
+                               avoided, params.given_classes);
     for (const std::uint32_t rank : result.ranks) {
         const ref::FacePoint<Real> point = pool.candidate(rank);
         points.push_back(
             {point.face, static_cast<float>(point.weight1), static_cast<float>(point.weight2)});
+        if (classes != nullptr) {
+            classes->push_back(static_cast<std::uint8_t>(pool.word(rank) % 8));
+        }
     }
     return points;
 }
 
 } // namespace
+
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                 std::vector<std::uint8_t>& classes) {
+    classes.assign(params.given_classes.begin(), params.given_classes.end());
+    classes.resize(params.given.size(), 0);
+    return sequential_set<float>(mesh, params, error_bound, nullptr, &classes);
+}
 
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound) {
     return sequential_set<float>(mesh, params, error_bound);

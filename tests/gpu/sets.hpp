@@ -23,6 +23,9 @@ using Points = std::vector<SamplePoint>;
 
 /// What sequential dart throwing accepts, as the float twin decides; given samples come first.
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
+/// The same with the class of each sample.
+Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                 std::vector<std::uint8_t>& classes);
 /// What it accepts behind samples that are settled and reject first; they come first.
 Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                    const Points& settled);

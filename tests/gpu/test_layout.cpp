@@ -18,15 +18,15 @@ namespace {
 #define GEODISK_OFFSET(type, member)                                                               \
     { #member, static_cast < std::uint32_t>(offsetof(gpu::type, member)) }
 
-const Offsets kJob{GEODISK_OFFSET(JobRec, capacity),      GEODISK_OFFSET(JobRec, faces),
-                   GEODISK_OFFSET(JobRec, vertices),      GEODISK_OFFSET(JobRec, cells),
-                   GEODISK_OFFSET(JobRec, seed_low),      GEODISK_OFFSET(JobRec, seed_high),
-                   GEODISK_OFFSET(JobRec, limit),         GEODISK_OFFSET(JobRec, margin),
-                   GEODISK_OFFSET(JobRec, slack),         GEODISK_OFFSET(JobRec, path_rules),
-                   GEODISK_OFFSET(JobRec, has_keys),      GEODISK_OFFSET(JobRec, first_key_row),
-                   GEODISK_OFFSET(JobRec, stop_count),    GEODISK_OFFSET(JobRec, idle_capacity),
-                   GEODISK_OFFSET(JobRec, buckets),       GEODISK_OFFSET(JobRec, base_error),
-                   GEODISK_OFFSET(JobRec, first_mask_row)};
+const Offsets kJob{GEODISK_OFFSET(JobRec, capacity),       GEODISK_OFFSET(JobRec, faces),
+                   GEODISK_OFFSET(JobRec, vertices),       GEODISK_OFFSET(JobRec, cells),
+                   GEODISK_OFFSET(JobRec, seed_low),       GEODISK_OFFSET(JobRec, seed_high),
+                   GEODISK_OFFSET(JobRec, limit),          GEODISK_OFFSET(JobRec, margin),
+                   GEODISK_OFFSET(JobRec, slack),          GEODISK_OFFSET(JobRec, path_rules),
+                   GEODISK_OFFSET(JobRec, has_keys),       GEODISK_OFFSET(JobRec, first_key_row),
+                   GEODISK_OFFSET(JobRec, stop_count),     GEODISK_OFFSET(JobRec, idle_capacity),
+                   GEODISK_OFFSET(JobRec, buckets),        GEODISK_OFFSET(JobRec, base_error),
+                   GEODISK_OFFSET(JobRec, first_mask_row), GEODISK_OFFSET(JobRec, first_class_row)};
 
 const Offsets kPush{GEODISK_OFFSET(Push, slots),           GEODISK_OFFSET(Push, lanes),
                     GEODISK_OFFSET(Push, lanes_per_group), GEODISK_OFFSET(Push, window_capacity),

@@ -25,6 +25,10 @@ inline constexpr std::uint32_t kMostCandidates = 0xffffffff;
 inline constexpr double kStageRatio = 5;
 /// Maximum of stages of a pool.
 inline constexpr std::uint32_t kMostPoolStages = 15;
+/// Maximum of classes of samples.
+inline constexpr std::uint32_t kMostClasses = 8;
+/// Minimum of SampleParams::class_factors.
+inline constexpr float kLeastClassFactor = 0.01f;
 /// Maximum of candidates that one face may expect in one stage.
 inline constexpr double kMostPerFace = 0x1p24;
 
@@ -59,6 +63,14 @@ struct SampleParams {
     /// long. Not for distances through space. A recorded job has the centers before the first
     /// sample in its samples buffer, as records with `gpu::kKeepsOut` in their face.
     std::span<const KeepOut> avoid{};
+    /// Distances of K classes of samples, 2 to 8, as parts of `min_distance`: a symmetric table,
+    /// row by row, of factors from kLeastClassFactor to 1. Samples of the classes a and b are at
+    /// least class_factors[K * a + b] * min_distance apart. Each class has the candidates of a run
+    /// with its own distance. Empty if samples have no classes. Only for one surface with geodesic
+    /// distances, whose radii do not vary. Must outlive the run.
+    std::span<const float> class_factors{};
+    /// Class of each given sample; empty if all have class 0. Must outlive the run.
+    std::span<const std::uint8_t> given_classes{};
 };
 
 /// Source of a job's candidates: a pool, or an exact number of darts. They come in stages. Each is
@@ -110,7 +122,8 @@ struct Stages {
 };
 
 /// Returns the area that a run fills: the mesh's, or RadiusField::effective_area() if radii vary.
-/// With a face mask, that of the faces that take samples; takes time linear in the mesh then.
+/// With a face mask, that of the faces that take samples; takes time linear in the mesh then. With
+/// classes, as many times that as their distances let fit more samples.
 GEODISK_API double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept;
 
 /// Returns the expected number of samples for a distance: rho^2 A / (2 sqrt(3) r^2), r = D / 2.
@@ -134,9 +147,11 @@ GEODISK_API double packing_density(double area, double min_distance, double coun
 /// another number of faces; for a mask that leaves no area for samples; for a given sample, naming
 /// it, in a face that does not exist or repeats a vertex, or with weights that are negative or do
 /// not sum to 1, likewise for a disk to avoid, or with a radius that is not positive and finite;
-/// for more given samples than `stop_count`; for a pool of more than 2^32 candidates, naming their
-/// number; for an edge longer than 4,000 distances, where rounding would matter too much; for a
-/// face, `Error::element`, that expects more than kMostPerFace candidates in a stage.
+/// for a table of classes that is not symmetric or has factors out of range, a class that there is
+/// not, or classes with radii that vary; for more given samples than `stop_count`; for a pool of
+/// more than 2^32 candidates, naming their number; for an edge longer than 4,000 distances, where
+/// rounding would matter too much; for a face, `Error::element`, that expects more than
+/// kMostPerFace candidates in a stage.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
 

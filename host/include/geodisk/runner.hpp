@@ -84,6 +84,7 @@ struct SampleSet {
     std::vector<double> points;  ///< Domain::dimension() coordinates per sample of a box.
     RunReport report;
     std::size_t given = 0; ///< Number of samples that were given (SampleParams::given): the first.
+    std::vector<std::uint8_t> classes; ///< Class of each sample (SampleParams::class_factors).
 };
 
 /// How far a run is.

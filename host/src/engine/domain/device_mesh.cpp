@@ -12,6 +12,7 @@
 #include <geodisk/radius_field.hpp>
 
 #include "constants.h"
+#include "engine/domain/classes.hpp"
 #include "engine/domain/stages.hpp"
 #include "records.h"
 #include "support/blocks.hpp"
@@ -72,7 +73,8 @@ float cells_per_unit(const gpu::RadiiRec& radii) {
 
 Grid face_grid(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
                double unit) {
-    const float per_unit = cells_per_unit(radii_of(params, face));
+    const float per_unit = params.class_factors.empty() ? cells_per_unit(radii_of(params, face))
+                                                        : class_cells_per_unit(params);
     const auto edges = mesh.half_edges().subspan(std::size_t{3} * face, 3);
     std::uint32_t corner = 0;
     for (std::uint32_t k = 1; k < 3; ++k) {

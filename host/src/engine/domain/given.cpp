@@ -80,11 +80,13 @@ Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params) {
     return Done{};
 }
 
-void add_given(std::span<const Sample> given, std::uint32_t first_face,
+void add_given(const SampleParams& params, std::uint32_t first_face,
                std::vector<gpu::SampleRec>& settled) {
-    for (const Sample& sample : given) {
+    for (std::size_t i = 0; i < params.given.size(); ++i) {
+        const Sample& sample = params.given[i];
         const auto [second, third] = rounded(sample.weights);
-        settled.push_back({0, first_face + sample.face, second, third});
+        const std::uint32_t order = params.given_classes.empty() ? 0 : params.given_classes[i];
+        settled.push_back({order, first_face + sample.face, second, third});
     }
 }
 

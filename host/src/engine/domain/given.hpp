@@ -19,9 +19,9 @@ namespace geodisk {
 /// Checks the given samples and points to avoid of a job. Errors name the sample.
 Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params);
 
-/// Appends given samples that check_given() finds no fault with. Their faces are numbered from
-/// `first_face` on; weights are rounded to multiples of 2^-24.
-void add_given(std::span<const Sample> given, std::uint32_t first_face,
+/// Appends given samples that check_given() finds no fault with, with their classes as orders.
+/// Their faces are numbered from `first_face` on; weights are rounded to multiples of 2^-24.
+void add_given(const SampleParams& params, std::uint32_t first_face,
                std::vector<gpu::SampleRec>& settled);
 
 /// Appends the points to avoid on a surface.

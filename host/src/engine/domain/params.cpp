@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/domain/classes.hpp"
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
@@ -25,7 +26,8 @@ Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& pa
     const double most = std::max(stages.expected(0), stages.expected(kLastOtherStage)) /
                         effective_area(mesh, params);
     const double longest = mesh.statistics().longest_edge;
-    const double densest = params.radii != nullptr ? params.radii->largest_density() : 1;
+    const double densest =
+        params.radii != nullptr ? params.radii->largest_density() : class_density(params);
     if (longest * longest * densest * most < kMostPerFace) {
         return Done{};
     }
@@ -80,8 +82,9 @@ double border_length(const PreparedMesh& mesh, const SampleParams& params) {
 } // namespace
 
 double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept {
+    const double classes = class_density(params);
     if (params.face_mask.empty()) {
-        return whole_area(mesh, params);
+        return whole_area(mesh, params) * classes;
     }
     double area = 0;
     bool takes_all = true;
@@ -94,7 +97,7 @@ double effective_area(const PreparedMesh& mesh, const SampleParams& params) noex
         const double density = params.radii != nullptr ? params.radii->samples_in(face) : 1;
         area += 0.5 * edge.length * edge.apex_y * density;
     }
-    return takes_all ? whole_area(mesh, params) : area;
+    return (takes_all ? whole_area(mesh, params) : area) * classes;
 }
 
 double expected_count(double area, double min_distance) noexcept {
@@ -136,6 +139,9 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
         return invalid("there are " + std::to_string(params.face_keys.size()) + " face keys for " +
                        std::to_string(mesh.face_count()) + " faces");
     }
+    if (auto checked = check_classes(params); !checked) {
+        return checked.error();
+    }
     if (auto checked = check_mask(mesh, params); !checked) {
         return checked.error();
     }
@@ -146,7 +152,8 @@ Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SamplePar
                                        const Stages& stages) {
     if (!(stages.ratio <= kLargestRatio)) {
         return invalid(params.face_mask.empty()
-                           ? "the minimum distance is too large for this surface, where radii vary"
+                           ? "the minimum distance is too large for this surface, where radii vary "
+                             "or samples have classes"
                            : "the minimum distance is too large for the faces that the face mask "
                              "leaves");
     }

@@ -124,6 +124,10 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
             return Error{Status::invalid_argument,
                          "SampleParams::radii is for geodesic distances alone"};
         }
+        if (!params.class_factors.empty()) {
+            return Error{Status::invalid_argument,
+                         "SampleParams::class_factors is for geodesic distances alone"};
+        }
         if (!params.avoid.empty()) {
             return Error{Status::invalid_argument,
                          "SampleParams::avoid is for geodesic distances alone"};
@@ -154,7 +158,7 @@ SpaceDomain::SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const S
     stop_count = params.stop_count;
     units = mesh.face_count();
     first_faces = {0, mesh.face_count()};
-    add_given(params.given, 0, settled);
+    add_given(params, 0, settled);
 }
 
 void SpaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constants.h"
+#include "engine/domain/classes.hpp"
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/tolerances.hpp"
 
@@ -97,7 +98,8 @@ double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, st
         return 0;
     }
     const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
-    const double density = params.radii != nullptr ? params.radii->densities()[face] : 1;
+    const double density =
+        params.radii != nullptr ? params.radii->densities()[face] : class_density(params);
     return per_area * 0.5 * edge.length * edge.apex_y * density;
 }
 

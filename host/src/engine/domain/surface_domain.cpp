@@ -8,6 +8,7 @@
 #include "constants.h"
 #include "engine/capacity.hpp"
 #include "engine/domain/check_frame.hpp"
+#include "engine/domain/classes.hpp"
 #include "engine/domain/device_mesh.hpp"
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
@@ -106,6 +107,9 @@ Result<PlacedSurface> place(const SurfacePart& part) {
     }
     if (params.throws != 0 || params.stop_count != 0) {
         return invalid("of several surfaces, darts and samples are not counted");
+    }
+    if (!params.class_factors.empty()) {
+        return invalid("samples on several surfaces have no classes");
     }
     PlacedSurface surface = placed(*part.mesh, params, *frame);
     surface.scale = part.scale;
@@ -220,18 +224,19 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
     }
     avoided = static_cast<std::uint32_t>(settled.size());
     for (const PlacedSurface& surface : surfaces_) {
-        add_given(surface.params.given, surface.first_face, settled);
+        add_given(surface.params, surface.first_face, settled);
     }
     first_faces.push_back(face_count(surfaces_));
     kernels.domain = DomainKind::surface;
     kernels.adaptive = has_radii(surfaces_);
     kernels.several = surfaces_.size() > 1;
     kernels.avoids = avoided > 0;
+    kernels.classes = !surfaces_[0].params.class_factors.empty();
     kernels.keyed = !kernels.several && !surfaces_[0].params.face_keys.empty();
     kernels.many_rows = cells_.count != 0;
-    samples_per_measure = samples_per_area();
-    // Several have neither, and seeds of their own.
+    // Several have none of it, and seeds of their own.
     const SampleParams& params = surfaces_[0].params;
+    samples_per_measure = samples_per_area() * class_density(params);
     samples = samples_to_expect(full_, params.throws, params.stop_count);
     stop_count = params.stop_count;
     seed = kernels.several ? 0 : params.seed;
@@ -261,7 +266,8 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
         plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces);
     }
     plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces);
-    plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * candidates / full_));
+    const double crowd = class_crowding(surfaces_[0].params) * candidates / full_;
+    plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * crowd));
     plan.error_bound = first_error_;
 }
 
@@ -323,6 +329,9 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
         mask_bytes(surfaces_) == 0
             ? 0
             : job.first_key_row + static_cast<std::uint32_t>(key_bytes(surfaces_) / kRowBytes);
+    job.first_class_row =
+        job.first_key_row +
+        static_cast<std::uint32_t>((key_bytes(surfaces_) + mask_bytes(surfaces_)) / kRowBytes);
     job.vertices = vertex_count(surfaces_);
     job.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
     for (const PlacedSurface& surface : surfaces_) {
@@ -337,7 +346,7 @@ std::size_t SurfaceDomain::upload_size(BufferRole role) const {
         return half_edge_bytes(surfaces_) + length_bytes(surfaces_);
     case BufferRole::fans:
         return fan_bytes(surfaces_) + radii_bytes(surfaces_) + key_bytes(surfaces_) +
-               mask_bytes(surfaces_);
+               mask_bytes(surfaces_) + class_bytes(surfaces_[0].params);
     case BufferRole::samples:
         return settled.size() * sizeof settled[0];
     default:
@@ -385,6 +394,7 @@ Result<UploadParts> SurfaceDomain::upload_parts(const RunPlan&, BufferRole role)
         }
         add_keys(surfaces_, parts);
         add_mask(surfaces_, parts);
+        add_classes(surfaces_[0].params, parts);
     } else if (role == BufferRole::samples) {
         parts.push_back(upload_part(std::span(settled)));
     } else {

@@ -37,8 +37,10 @@ double working_distance(const PreparedMesh& mesh, double min_distance) {
 }
 
 double working_distance(const PreparedMesh& mesh, const SampleParams& params) {
-    return params.radii != nullptr ? params.min_distance
-                                   : working_distance(mesh, params.min_distance);
+    // The smaller ones may matter, however large the largest is.
+    return params.radii != nullptr || !params.class_factors.empty()
+               ? params.min_distance
+               : working_distance(mesh, params.min_distance);
 }
 
 ErrorModel::ErrorModel(const JobFrame& frame)

@@ -61,12 +61,19 @@ std::vector<KernelVariant> all_kernel_variants() {
                   &KernelVariant::several, &KernelVariant::keyed, &KernelVariant::avoids}) {
                 variants.emplace_back(surface).*also = true;
             }
+            if (!adaptive) {
+                variants.emplace_back(surface).classes = true;
+            }
         }
         KernelVariant& of_groups = variants.emplace_back();
         of_groups.adaptive = adaptive;
         of_groups.groups = true;
         variants.push_back(of_groups);
         variants.back().avoids = true;
+        if (!adaptive) {
+            KernelVariant& classed = variants.emplace_back();
+            classed.groups = classed.classes = true;
+        }
         for (const bool of_several : {false, true}) {
             KernelVariant& placement = variants.emplace_back();
             placement.domain = DomainKind::placement;

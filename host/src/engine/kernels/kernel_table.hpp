@@ -54,6 +54,7 @@ constexpr std::size_t index_of(DomainKind kind) {
     X(event_heap, kSpecEventHeap)   /* Vertex events of a disk wait in a heap, else in a ring. */  \
     X(trims, kSpecTrims)            /* Disks that make very many windows trim them. */             \
     X(avoids, kSpecAvoids)          /* Points to avoid have disks. */                              \
+    X(classes, kSpecClasses)        /* Candidates have classes. */                                 \
     X(lanes_apart, kSpecLanesApart) /* Pool blocks of one lane, whatever Tuning::pool_block is. */
 // clang-format on
 

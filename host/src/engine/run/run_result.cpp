@@ -19,7 +19,7 @@ void take_counts(const gpu::ControlRec& control, RunReport& report) {
 
 SampleSet to_set(const Domain::Impl& domain, std::span<const gpu::SampleRec> records,
                  const RunReport& report) {
-    SampleSet set{{}, {}, report, domain.settled.size() - domain.avoided};
+    SampleSet set{{}, {}, report, domain.settled.size() - domain.avoided, {}};
     records = records.subspan(domain.avoided);
     const std::size_t n = domain.dimension;
     set.samples.reserve(n == 0 ? records.size() : 0);
@@ -32,6 +32,9 @@ SampleSet to_set(const Domain::Impl& domain, std::span<const gpu::SampleRec> rec
             set.samples.push_back(
                 {record.face,
                  {1.0f - record.weight1 - record.weight2, record.weight1, record.weight2}});
+        }
+        if (domain.kernels.classes) {
+            set.classes.push_back(static_cast<std::uint8_t>(record.order & gpu::kClassMask));
         }
     }
     return set;

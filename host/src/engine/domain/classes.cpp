@@ -1,0 +1,170 @@
+#include "engine/domain/classes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "constants.h"
+#include "support/invalid.hpp"
+#include "support/number_text.hpp"
+
+namespace geodisk {
+namespace {
+
+using Table = std::array<std::uint32_t, gpu::kClassWords>;
+
+double factor_of(const SampleParams& params, std::uint32_t a, std::uint32_t b) {
+    return params.class_factors[std::size_t{class_count(params)} * a + b];
+}
+
+/// Returns the largest factor of a class.
+double reach_of(const SampleParams& params, std::uint32_t a) {
+    const std::uint32_t count = class_count(params);
+    double reach = 0;
+    for (std::uint32_t b = 0; b < count; ++b) {
+        reach = std::max(reach, factor_of(params, a, b));
+    }
+    return reach;
+}
+
+/// Returns the candidates of a class per candidate with the minimum distance for all.
+double density_of(const SampleParams& params, std::uint32_t a) {
+    const double factor = factor_of(params, a, a);
+    return 1 / (factor * factor);
+}
+
+std::string pair_text(std::uint32_t a, std::uint32_t b) {
+    return "of classes " + std::to_string(a) + " and " + std::to_string(b);
+}
+
+Result<Done> check_factors(const SampleParams& params) {
+    const std::uint32_t count = class_count(params);
+    if (count < 2 || count > gpu::kMostClasses ||
+        std::size_t{count} * count != params.class_factors.size()) {
+        return invalid("the table of classes has " + std::to_string(params.class_factors.size()) +
+                       " factors; it takes K * K of them for 2 to 8 classes");
+    }
+    for (std::uint32_t a = 0; a < count; ++a) {
+        for (std::uint32_t b = 0; b < count; ++b) {
+            const double factor = factor_of(params, a, b);
+            if (!(factor >= kLeastClassFactor && factor <= 1)) {
+                return invalid("the factor " + pair_text(a, b) + " is " + number_text(factor) +
+                               ", not from " + number_text(kLeastClassFactor) + " to 1");
+            }
+            if (factor != factor_of(params, b, a)) {
+                return invalid("the table of classes is not symmetric: it has two factors " +
+                               pair_text(a, b));
+            }
+        }
+    }
+    return Done{};
+}
+
+} // namespace
+
+std::uint32_t class_count(const SampleParams& params) noexcept {
+    std::uint32_t count = 1;
+    while (std::size_t{count} * count < params.class_factors.size()) {
+        ++count;
+    }
+    return count;
+}
+
+double class_density(const SampleParams& params) noexcept {
+    if (params.class_factors.empty()) {
+        return 1;
+    }
+    double density = 0;
+    for (std::uint32_t a = 0; a < class_count(params); ++a) {
+        density += density_of(params, a);
+    }
+    return density;
+}
+
+double class_crowding(const SampleParams& params) noexcept {
+    double most = params.class_factors.empty() ? 1 : 0;
+    const std::uint32_t count = params.class_factors.empty() ? 0 : class_count(params);
+    for (std::uint32_t a = 0; a < count; ++a) {
+        double conflicts = 0;
+        for (std::uint32_t b = 0; b < count; ++b) {
+            const double factor = factor_of(params, a, b);
+            conflicts += density_of(params, b) * factor * factor;
+        }
+        most = std::max(most, conflicts);
+    }
+    return most;
+}
+
+float class_cells_per_unit(const SampleParams& params) noexcept {
+    double least = 1;
+    for (std::uint32_t a = 0; a < class_count(params); ++a) {
+        least = std::min(least, reach_of(params, a));
+    }
+    const auto half = static_cast<float>(least / 2);
+    return std::bit_cast<float>(0x7f000000u - (std::bit_cast<std::uint32_t>(half) & 0x7f800000u));
+}
+
+Result<Done> check_classes(const SampleParams& params) {
+    if (params.class_factors.empty()) {
+        return params.given_classes.empty()
+                   ? Result<Done>(Done{})
+                   : invalid("given samples have classes, but there is no table of classes");
+    }
+    if (auto checked = check_factors(params); !checked) {
+        return checked;
+    }
+    if (params.radii != nullptr) {
+        return invalid("classes take no radii that vary");
+    }
+    if (!params.given_classes.empty() && params.given_classes.size() != params.given.size()) {
+        return invalid("there are " + std::to_string(params.given_classes.size()) +
+                       " classes for " + std::to_string(params.given.size()) + " given samples");
+    }
+    for (std::size_t i = 0; i < params.given_classes.size(); ++i) {
+        if (params.given_classes[i] >= class_count(params)) {
+            return invalid("given sample " + std::to_string(i) + " has class " +
+                           std::to_string(params.given_classes[i]) + ", but there are " +
+                           std::to_string(class_count(params)) + ", numbered from 0");
+        }
+    }
+    return Done{};
+}
+
+std::size_t class_bytes(const SampleParams& params) {
+    return params.class_factors.empty() ? 0 : sizeof(Table);
+}
+
+void add_classes(const SampleParams& params, UploadParts& parts) {
+    if (params.class_factors.empty()) {
+        return;
+    }
+    Table table{};
+    const auto word_of = [](double x) {
+        return std::bit_cast<std::uint32_t>(static_cast<float>(x));
+    };
+    std::fill_n(table.begin(), gpu::kMostClasses, ~0u);
+    const std::uint32_t count = class_count(params);
+    const double all = class_density(params);
+    double below = 0;
+    for (std::uint32_t a = 0; a < count; ++a) {
+        below += density_of(params, a);
+        if (a + 1 < count) {
+            table[a] = static_cast<std::uint32_t>(below / all * 0x1p32) - 1;
+        }
+        table[gpu::kClassReaches + a] = word_of(reach_of(params, a));
+        for (std::uint32_t b = 0; b < count; ++b) {
+            table[gpu::kClassDistances + gpu::kMostClasses * a + b] =
+                word_of(factor_of(params, a, b));
+        }
+    }
+    table[gpu::kClassCells] = std::bit_cast<std::uint32_t>(class_cells_per_unit(params));
+    parts.push_back({sizeof table[0], table.size(),
+                     [table](std::size_t begin, std::size_t end, std::byte* out) {
+                         std::memcpy(out, &table[begin], (end - begin) * sizeof table[0]);
+                     }});
+}
+
+} // namespace geodisk

@@ -1,0 +1,37 @@
+// The classes of a job: SampleParams::class_factors, checked, and as the device takes them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <geodisk/params.hpp>
+#include <geodisk/status.hpp>
+
+#include "engine/domain/upload_parts.hpp"
+
+namespace geodisk {
+
+/// Returns the number of classes; 1 if samples have none.
+std::uint32_t class_count(const SampleParams& params) noexcept;
+
+/// Returns how many times as many samples fit as with the minimum distance for all: each class has
+/// those of its own distance.
+double class_density(const SampleParams& params) noexcept;
+
+/// Returns how many candidates conflict with one of the class that has the most, per candidate that
+/// conflicts if there are no classes.
+double class_crowding(const SampleParams& params) noexcept;
+
+/// Returns the grid cells per unit of length: a cell is at most half as wide as the shortest of the
+/// largest distances that the classes have, and more than a quarter.
+float class_cells_per_unit(const SampleParams& params) noexcept;
+
+/// Checks the table, the classes of given samples, and that nothing contradicts them.
+Result<Done> check_classes(const SampleParams& params);
+
+/// Returns the bytes of the table of classes; 0 if samples have none.
+std::size_t class_bytes(const SampleParams& params);
+/// Appends the table.
+void add_classes(const SampleParams& params, UploadParts& parts);
+
+} // namespace geodisk

@@ -1,0 +1,28 @@
+// Classes of candidates (Wei 2010): the distance of two depends on their classes. Kernels for candidates
+// of one kind contain none of this.
+#ifndef GEODISK_CLASSES_GLSL
+#define GEODISK_CLASSES_GLSL
+
+#include "class_bits.glsl"
+#include "fans.glsl"
+#include "job.glsl"
+
+uint class_word(uint i) { return row_at(fans, job.first_class_row + (i >> 2))[i & 3u]; }
+float class_number(uint i) { return uintBitsToFloat(class_word(i)); }
+
+// Returns the distance below which candidates of two classes conflict.
+float class_distance(uint a, uint b) {
+    return class_number(kClassDistances + kMostClasses * a + b);
+}
+
+// Returns the largest distance of a class.
+float class_reach(uint a) { return class_number(kClassReaches + a); }
+
+// Returns the class that a random word stands for.
+uint class_of_random(uint random) {
+    uvec4 low = uvec4(greaterThan(uvec4(random), row_at(fans, job.first_class_row)));
+    uvec3 high = uvec3(greaterThan(uvec3(random), row_at(fans, job.first_class_row + 1u).xyz));
+    return low.x + low.y + low.z + low.w + high.x + high.y + high.z;
+}
+
+#endif
