@@ -27,6 +27,9 @@ Result<Done> check_listed(const PreparedMesh& mesh, const SampleParams& params,
     if (params.throws != 0) {
         return invalid("candidates are listed, so there are no darts to throw");
     }
+    if (!params.class_factors.empty()) {
+        return invalid("listed candidates have no classes");
+    }
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const auto [face, weight1, weight2] = candidates[i];
         if (face >= mesh.face_count()) {
