@@ -150,12 +150,37 @@ def test_options():
     assert plane.points.shape[1] == 2 and plane.normals is None
 
 
+def test_an_exact_count_keeps_the_first_samples_of_a_run():
+    mesh = geodisk.Mesh(VERTICES, FACES)
+    samples = geodisk.sample(mesh, count=200, exact=True, seed=3)
+    assert len(samples) == samples.report["samples"] == 200
+    whole = geodisk.sample(mesh, min_distance=samples.min_distance, seed=3)
+    assert len(whole) == 200 + samples.report["cut"] <= 202
+    assert np.array_equal(whole.points[:200], samples.points)
+    many = geodisk.sample_many([mesh, mesh], count=[200, 30], exact=True, seed=3)
+    assert np.array_equal(many[0].points, samples.points) and len(many[1]) == 30
+    again = geodisk.sample(mesh, count=201, exact=True, existing=samples)
+    assert len(again) == 201 and again.columns["given"].sum() == 200
+    assert len(geodisk.sample_box([1, 2], count=77, exact=True)) == 77
+    for wrong in [
+        dict(min_distance=0.1),
+        dict(count=0),
+        dict(count=10.5),
+        dict(count=2**32),
+        dict(count=10, stop_count=5),
+    ]:
+        with pytest.raises(ValueError, match="exact"):
+            geodisk.sample(mesh, exact=True, **wrong)
+    with pytest.raises(ValueError, match="no distance tried gave more than 0 of 5 samples"):
+        geodisk.sample(mesh, count=5, exact=True, avoid=(samples[:9], 99.0))
+
+
 def test_a_count_with_a_stop_is_searched_for_without_it():
     all_samples = geodisk.sample(VERTICES, FACES, count=200, seed=3)
     first = geodisk.sample(VERTICES, FACES, count=200, stop_count=20, seed=3)
     assert first.min_distance == all_samples.min_distance
     assert np.array_equal(first.face_index, all_samples.face_index[:20])
-    assert first.report["missing"] == 0
+    assert first.report["missing"] == 0 and first.report["samples"] == 20
     with pytest.warns(geodisk.GeodiskWarning, match="only .* of 1,000,000 samples fit"):
         short = geodisk.sample(VERTICES, FACES, min_distance=0.4, stop_count=10**6)
     assert short.report["missing"] == 10**6 - len(short)

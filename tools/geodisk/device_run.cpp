@@ -5,8 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include <geodisk/count_search.hpp>
-
 #include "files/tuning_file.hpp"
 #include "geodisk/opened_device.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -57,6 +55,14 @@ ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double ex
 
 std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
     return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
+}
+
+/// Leaves out all but the first samples. Returns how many those left out were.
+std::uint64_t cut_to(SampleSet& set, const Domain& domain, std::size_t count) {
+    const std::uint64_t cut = count_of(set, domain) - count;
+    set.samples.resize(std::min(set.samples.size(), count));
+    set.points.resize(std::min(set.points.size(), count * domain.dimension()));
+    return cut;
 }
 
 } // namespace
@@ -158,7 +164,7 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
     return set;
 }
 
-DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double wanted,
+DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const WantedCount& wanted,
                             ProgressLine& progress) {
     Task task = task_at(min_distance); // Fails before a device is needed.
     DeviceRun done;
@@ -171,7 +177,8 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double w
     SampleSet best;
     RunSeconds seconds;
     std::uint32_t starts = 0;
-    CountSearch search(wanted);
+    CountSearch search = wanted.search();
+    std::uint64_t most = 0;
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
         SampleSet set = sample(task, min_distance, progress);
@@ -182,20 +189,26 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, double w
         seconds.sample += set.report.seconds.sample;
         seconds.readback += set.report.seconds.readback;
         std::optional<double> next;
-        if (wanted > 0) {
-            next = search.note(min_distance, count_of(set, task.domain));
+        const std::uint64_t count = count_of(set, task.domain);
+        most = std::max(most, count);
+        if (wanted.samples > 0) {
+            next = search.note(min_distance, count);
         }
-        if (wanted == 0 || search.is_nearest()) {
+        if (wanted.samples == 0 || search.is_nearest()) {
             best = std::move(set);
             done.min_distance = min_distance;
         }
         if (!next) {
+            wanted.check_reached(most, min_distance);
             break;
         }
         min_distance = *next;
         task = task_at(min_distance);
     }
     check_validation(context());
+    if (wanted.is_exact) {
+        done.cut = cut_to(best, task.domain, static_cast<std::size_t>(wanted.samples));
+    }
     done.run = best.report;
     done.run.seconds = seconds;
     done.run.starts = starts;

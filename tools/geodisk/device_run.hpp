@@ -12,6 +12,7 @@
 #include <geodisk/domain.hpp>
 #include <geodisk/runner.hpp>
 
+#include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/outputs/device_log.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -25,6 +26,7 @@ struct DeviceRun {
     Tuning tuning;           ///< As used.
     double min_distance = 0; ///< As used.
     std::uint32_t runs = 0;  ///< At this distance and those tried before.
+    std::uint64_t cut = 0;   ///< Last samples of the run that an exact count left out.
     RunReport run;           ///< With the seconds of all runs.
     /// 0 where that was done before; those of the stages after are in `run`.
     double open_seconds = 0, compile_seconds = 0;
@@ -81,9 +83,10 @@ class RunDevice {
     void open(ProgressLine& progress);
 
     /// Opens the device where need be, compiles there what the domain needs, and samples it. Where
-    /// a number of samples is wanted, not 0, and another comes out, it tries other distances
-    /// (CountSearch) and takes the nearest. Throws UserError, DeviceLost among them.
-    DeviceResult run(const TaskAt& task_at, double min_distance, double wanted,
+    /// a number of samples is wanted and another comes out, it tries other distances (CountSearch)
+    /// and takes the best; of an exact count just the first samples. Throws UserError, DeviceLost
+    /// among them.
+    DeviceResult run(const TaskAt& task_at, double min_distance, const WantedCount& wanted,
                      ProgressLine& progress);
 
     /// Frees what runs keep for those to come, so that something else has room.

@@ -33,7 +33,7 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     params.min_distance =
         job.min_distance
             ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
-            : distance_for_count(mesh.prepared, params, job.wanted_count);
+            : distance_for_count(mesh.prepared, params, job.wanted_count.samples);
     params.throws = job.method.throws_for(expected_count(area, params.min_distance));
     return params;
 }

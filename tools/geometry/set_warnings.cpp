@@ -31,16 +31,19 @@ void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
     if (std::string text = shortfall(set.samples, set.stop_count); !text.empty()) {
         warnings.push_back({"count_missed", set.stop_count - set.samples, "", std::move(text), ""});
     }
-    const double miss = std::abs(static_cast<double>(set.samples) - set.wanted_count);
+    const std::uint64_t found = set.samples + set.cut;
+    const double miss = std::abs(static_cast<double>(found) - set.wanted_count);
     if (set.wanted_count > 0 &&
         miss > std::max(kTolerance * set.wanted_count, std::min(1.0, set.wanted_count / 4))) {
         const std::string reason = set.bare.parts > 1 ? "; each of the " + grouped(set.bare.parts) +
                                                             " parts has samples of its own"
                                                       : "";
+        const std::string kept =
+            set.cut > 0 ? ". Just the first " + grouped(set.samples) + " are kept" : "";
         warnings.push_back({"count_missed", static_cast<std::uint64_t>(miss), "",
-                            counted(set.samples, "sample", "samples") + " instead of " +
+                            counted(found, "sample", "samples") + " instead of " +
                                 grouped(static_cast<std::uint64_t>(set.wanted_count)) +
-                                ": no distance tried came closer" + reason,
+                                ": no distance tried came closer" + reason + kept,
                             ""});
     }
 }

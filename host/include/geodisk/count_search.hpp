@@ -1,4 +1,4 @@
-// CountSearch: finds the distance that gives about a wanted number of samples.
+// CountSearch: finds the distance that gives a wanted number of samples.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,24 @@ namespace geodisk {
 /// Leads to the same distances on every machine, from the same counts.
 class CountSearch {
   public:
-    /// Starts a search for `wanted` samples, at least 1.
-    explicit CountSearch(double wanted) noexcept : wanted_(wanted) {}
+    /// Starts a search for about `wanted` samples, at least 1.
+    explicit CountSearch(double wanted) noexcept : wanted_(wanted), aim_(wanted) {}
+    /// Starts a search for at least `count` samples, not 0, and at most 1 % more. Keep the first
+    /// `count` samples of the best try; they keep its distance.
+    GEODISK_API static CountSearch exact(std::uint64_t count) noexcept;
 
     /// Records the number of samples that a distance gave. Returns the distance to try next, or
-    /// nothing when the search has ended: the count is within 5 % of `wanted` or differs by one, a
-    /// larger distance gives no fewer samples, or this was the seventh try.
+    /// nothing when the search has ended:
+    /// - the count is within 5 % of `wanted` or differs by one; or is as exact() says,
+    /// - a larger distance gives no fewer samples; in an exact search also if a smaller one gives
+    /// no
+    ///   more,
+    /// - this was the seventh try. Exact searches end with the sixth, or go on to the twelfth while
+    ///   no try has given enough.
     GEODISK_API std::optional<double> note(double distance, std::uint64_t count) noexcept;
 
-    /// Returns true if the latest try is the best so far.
+    /// Returns true if the latest try is the best so far: the nearest count, or in an exact search
+    /// the largest distance with enough samples. No try is the best while all give too few.
     bool is_nearest() const noexcept { return is_nearest_; }
     /// Returns the number of tries so far.
     std::uint32_t tries() const noexcept { return tries_; }
@@ -33,10 +42,19 @@ class CountSearch {
         double distance, count;
     };
 
+    /// Takes the count of a try. Returns true if no other try is needed.
+    bool ends_with(double distance, double count) noexcept;
+    /// Returns the factor on the distance after tries on one side.
+    double first_factor(double count) const noexcept;
+
     double wanted_;
+    double aim_;                       ///< Count to steer for, `wanted_` or a little more.
+    std::optional<double> most_;       ///< Maximum count of an exact search, which this is then.
     std::optional<Try> above_, below_; ///< Latest tries with too many and too few samples.
     double least_miss_ = 0;            ///< Smallest difference from `wanted_` so far.
+    double best_distance_ = 0;         ///< Largest distance with enough samples; 0 for none.
     bool is_nearest_ = false;
+    bool was_above_ = false; ///< The latest try had too many samples.
     std::uint32_t tries_ = 0;
 };
 

@@ -834,10 +834,16 @@ typedef struct geodisk_count_search geodisk_count_search;
 GEODISK_C_API geodisk_status geodisk_count_search_create(double wanted,
                                                          geodisk_count_search **search,
                                                          geodisk_error *error);
+/* Starts a search for at least `count` samples, 1 to 4294967295, and at most 1 % more. Keep the
+ * first `count` samples of the best try: exactly so many, which keep its distance. */
+GEODISK_C_API geodisk_status geodisk_count_search_create_exact(uint64_t count,
+                                                               geodisk_count_search **search,
+                                                               geodisk_error *error);
 /* Records the number of samples that a distance gave. Writes to `next` the distance to try next, or
  * 0 when the search has ended: the count is within 5 % of `wanted` or differs by one, a larger
- * distance gives no fewer samples, or this was the seventh try. Writes to `is_nearest` whether this
- * try is the best so far. */
+ * distance gives no fewer samples, or this was the seventh try. An exact search ends with the sixth
+ * try, or the twelfth while none has given enough. Writes to `is_nearest` whether this try is the
+ * best so far. No try of an exact search is if all give too few. */
 GEODISK_C_API geodisk_status geodisk_count_search_note(geodisk_count_search *search,
                                                        double distance, uint64_t count,
                                                        double *next, int32_t *is_nearest,

@@ -27,6 +27,20 @@ geodisk_status geodisk_count_search_create(double wanted, geodisk_count_search**
     });
 }
 
+geodisk_status geodisk_count_search_create_exact(uint64_t count, geodisk_count_search** search,
+                                                 geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (search == nullptr) {
+            return wrong("search is NULL");
+        }
+        if (count == 0 || count > kMostCandidates) {
+            return wrong("count is not from 1 to 4294967295");
+        }
+        *search = new geodisk_count_search{CountSearch::exact(count)};
+        return Done{};
+    });
+}
+
 geodisk_status geodisk_count_search_note(geodisk_count_search* search, double distance,
                                          uint64_t count, double* next, int32_t* is_nearest,
                                          geodisk_error* error) {

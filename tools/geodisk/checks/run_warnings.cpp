@@ -10,7 +10,8 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
     std::vector<MeshWarning> warnings =
         set_warnings({.samples = result.rows.size(),
                       .min_distance = result.params.min_distance * mesh.distance_part,
-                      .wanted_count = job.wanted_count,
+                      .wanted_count = job.wanted_count.samples,
+                      .cut = result.done.cut,
                       .stop_count = job.method.stop_count,
                       .has_throws = job.method.throws > 0,
                       .bare = result.bare});

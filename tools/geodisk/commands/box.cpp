@@ -54,7 +54,8 @@ void run_box(const BoxOptions& options) {
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
     for (const MeshWarning& warning : set_warnings({.samples = rows.size(),
                                       .min_distance = job.box.min_distance,
-                                      .wanted_count = job.wanted_count,
+                                      .wanted_count = job.wanted_count.samples,
+                                      .cut = done.cut,
                                       .stop_count = job.method.stop_count,
                                       .has_throws = job.method.throws > 0,
                                       .domain = "box"})) {

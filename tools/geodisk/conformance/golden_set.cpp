@@ -111,7 +111,7 @@ FoundSet find_on_surfaces(const SampleJob& job, std::span<const std::string> nam
         parts.push_back(part);
     }
     const auto task = [&](double) { return Task{take(Domain::surfaces(parts)), expected}; };
-    const auto [set, done] = device.run(task, parts.front().params.min_distance, 0, progress);
+    const auto [set, done] = device.run(task, parts.front().params.min_distance, {}, progress);
     std::vector<SampleRow> rows;
     for (const Sample& sample : set.samples) {
         SampleRow row;

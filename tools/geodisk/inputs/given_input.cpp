@@ -12,7 +12,8 @@ namespace geodisk::tools {
 namespace {
 
 void check_count(const SampleJob& job, std::size_t given) {
-    const double wanted = job.method.stop_count != 0 ? job.method.stop_count : job.wanted_count;
+    const double wanted =
+        job.method.stop_count != 0 ? job.method.stop_count : job.wanted_count.samples;
     if (wanted > 0 && static_cast<double>(given) >= wanted) {
         fail_usage("--count: " + counted(given, "sample", "samples") + " of --existing count " +
                    "too, so ask for more than " + grouped(given));

@@ -75,6 +75,7 @@ void add_box_options(Command command, BoxOptions& options) {
                        "Choose the distance that should give about N samples;\n"
                        "with --method darts, stop at exactly N",
                        distance);
+    add_exact_option(command, options.method, distance);
     add_method_options(command, options.method, "the box");
 }
 
@@ -91,12 +92,12 @@ BoxJob parse_job(const BoxOptions& options) {
     job.method = parse_method(options.method, options.count);
     box.pool_ratio = job.method.pool_ratio;
     box.stop_count = job.method.stop_count;
+    job.wanted_count = parse_wanted_count(options.method, options.count);
     if (!options.min_distance.empty()) {
         box.min_distance =
             parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));
     } else {
-        job.wanted_count = parse_count("--count", options.count);
-        box.min_distance = distance_for_count(box, job.wanted_count);
+        box.min_distance = distance_for_count(box, job.wanted_count.samples);
     }
     box.throws = job.method.throws_for(expected_count(box));
     job.runner.device_bytes = options.run.device_bytes();

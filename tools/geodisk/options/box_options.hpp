@@ -30,7 +30,7 @@ struct BoxJob {
     RunOptions run;
     BoxParams box;
     Method method;
-    double wanted_count = 0; ///< Of --count, where it chooses the distance; else 0.
+    WantedCount wanted_count;
     RunnerOptions runner;
 };
 

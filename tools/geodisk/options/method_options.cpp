@@ -82,6 +82,33 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     return method;
 }
 
+CountSearch WantedCount::search() const {
+    return is_exact ? CountSearch::exact(static_cast<std::uint64_t>(samples))
+                    : CountSearch(samples);
+}
+
+void WantedCount::check_reached(std::uint64_t most, double min_distance) const {
+    if (is_exact && static_cast<double>(most) < samples) {
+        fail_usage("--exact: no distance tried gave more than " + grouped(most) + " of " +
+                   grouped(static_cast<std::uint64_t>(samples)) + " samples, down to " +
+                   rounded(min_distance, 6) + "; lower --count, or leave more room for samples");
+    }
+}
+
+WantedCount parse_wanted_count(const MethodOptions& options, const std::string& count) {
+    if (options.exact && count.empty()) {
+        fail_usage("--exact needs a number of samples; give --count instead of a distance");
+    }
+    if (options.exact && options.throws_darts()) {
+        fail_usage("--exact is for --method pool; darts stop at exactly --count samples");
+    }
+    if (count.empty() || options.throws_darts()) {
+        return {};
+    }
+    return {options.exact ? parse_candidates("--count", count) : parse_count("--count", count),
+            options.exact};
+}
+
 void check_one_distance(const MethodOptions& options,
                         const std::vector<std::pair<std::string, std::string>>& given) {
     std::vector<std::string> possible, found;
@@ -102,6 +129,13 @@ void check_one_distance(const MethodOptions& options,
     if (found.size() > 1) {
         fail_usage(listed(found) + " contradict each other; give just one of them");
     }
+}
+
+void add_exact_option(Command command, MethodOptions& options, const std::string& group) {
+    command.add_flag("--exact", options.exact,
+                     "Place exactly --count samples: the first N of a run that has\n"
+                     "up to 1 % more; takes at most six runs",
+                     group);
 }
 
 void add_method_options(Command command, MethodOptions& options, const std::string& domain) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <geodisk/count_search.hpp>
 #include <geodisk/params.hpp>
 
 namespace geodisk::tools {
@@ -21,6 +22,7 @@ inline bool names_darts(std::string_view method) {
 /// As given on the command line.
 struct MethodOptions {
     std::string method = "pool", pool_ratio, throws;
+    bool exact = false;
 
     bool throws_darts() const { return names_darts(method); }
 };
@@ -48,6 +50,24 @@ struct Method {
 
 /// Throws UserError(usage) for values out of range and options that contradict each other.
 Method parse_method(const MethodOptions& options, const std::string& count);
+
+/// A number of samples that chooses the distance.
+struct WantedCount {
+    double samples = 0; ///< Of --count; 0 if the distance is given.
+    bool is_exact = false;
+
+    CountSearch search() const;
+    /// Throws UserError(usage) if the runs at all distances tried gave at most `most` samples, too
+    /// few for an exact count.
+    void check_reached(std::uint64_t most, double min_distance) const;
+};
+
+/// Returns what --count asks for, where it chooses the distance. Throws UserError(usage) for
+/// values out of range, and --exact where no count chooses the distance.
+WantedCount parse_wanted_count(const MethodOptions& options, const std::string& count);
+
+/// Adds --exact, to the group of --count.
+void add_exact_option(Command command, MethodOptions& options, const std::string& group);
 
 /// Throws UserError(usage) unless just one of the options in `given`, names and values, tells the
 /// distance. --count does so only where darts do not stop at it.

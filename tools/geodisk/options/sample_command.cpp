@@ -65,6 +65,7 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--min-distance", options.min_distance);
     list.add("--radius", options.radius);
     list.add("--count", options.count);
+    list.add_flag("--exact", options.method.exact);
     add_mesh(list, options.mesh);
     add_density(list, options.density);
     for (const auto& [name, value] : options.constraints.given()) {

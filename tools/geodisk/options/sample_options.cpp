@@ -85,9 +85,8 @@ SampleJob parse_job(const SampleOptions& options) {
     } else if (!options.radius.empty()) {
         job.min_distance = parse_length("--radius", options.radius);
         job.min_distance->value *= 2;
-    } else {
-        job.wanted_count = parse_count("--count", options.count);
     }
+    job.wanted_count = parse_wanted_count(options.method, options.count);
     job.params.seed = options.run.parsed_seed();
     job.params.pool_ratio = job.method.pool_ratio;
     job.params.stop_count = job.method.stop_count;
@@ -128,6 +127,7 @@ void add_subject_options(Command command, SampleOptions& options) {
                        "Choose the distance that should give about N samples;\n"
                        "with --method darts, stop at exactly N",
                        distance);
+    add_exact_option(command, options.method, distance);
 
     add_mesh_options(command, options.mesh);
     add_density_options(command, options.density);

@@ -55,7 +55,7 @@ struct SampleJob {
     std::optional<Metric> metric; ///< Through space; without it, distances are geodesic.
     Method method;
     std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
-    double wanted_count = 0;            ///< Of --count, where it chooses the distance; else 0.
+    WantedCount wanted_count;
     SampleParams params; ///< All but the distance, the radii, the throws and given samples.
     RunnerOptions runner;
     std::string picture; ///< File for one, or empty.

@@ -63,7 +63,7 @@ BoxReport::BoxReport(const BoxJob& job, std::size_t samples, const DeviceRun& do
 }
 
 Drawn BoxReport::drawn() const {
-    return {job_.method, done_.run, job_.wanted_count, samples_, done_.runs};
+    return {job_.method, done_, job_.wanted_count, samples_};
 }
 
 SampleHeader BoxReport::header() const {

@@ -9,7 +9,7 @@ namespace {
 
 /// What ended the run.
 const char* stopped_by(const Drawn& drawn) {
-    const bool has_all = drawn.samples == drawn.method.stop_count;
+    const bool has_all = drawn.samples == drawn.method.stop_count || drawn.done.cut > 0;
     return has_all ? "count" : drawn.method.throws_darts ? "throws" : "pool";
 }
 
@@ -34,21 +34,25 @@ Json drawn_json(const Drawn& drawn) {
     return {{"method", throws_darts ? "darts" : "pool"},
             // Each method has this or that.
             {"pool_ratio", throws_darts ? Json(nullptr) : Json(drawn.method.pool_ratio)},
-            {"throws", throws_darts ? Json(drawn.run.candidates) : Json(nullptr)},
-            {"candidates", drawn.run.candidates},
-            {"chunks", drawn.run.chunks},
+            {"throws", throws_darts ? Json(drawn.done.run.candidates) : Json(nullptr)},
+            {"candidates", drawn.done.run.candidates},
+            {"chunks", drawn.done.run.chunks},
             {"stopped_by", stopped_by(drawn)},
-            {"runs", drawn.runs},
+            {"runs", drawn.done.runs},
+            {"exact", drawn.wanted_count.is_exact},
+            {"cut", drawn.done.cut},
             {"samples", drawn.samples}};
 }
 
 std::string samples_text(const Drawn& drawn) {
     std::string text = grouped(drawn.samples);
-    if (drawn.wanted_count > 0) {
-        text +=
-            " of about " + grouped(static_cast<std::uint64_t>(drawn.wanted_count)) + " asked for";
-        if (drawn.runs > 1) {
-            text += ", in " + std::to_string(drawn.runs) + " runs";
+    const auto& [wanted, is_exact] = drawn.wanted_count;
+    if (wanted > 0) {
+        text += is_exact
+                    ? " as asked for, of " + grouped(drawn.samples + drawn.done.cut) + " that fit"
+                    : " of about " + grouped(static_cast<std::uint64_t>(wanted)) + " asked for";
+        if (drawn.done.runs > 1) {
+            text += ", in " + std::to_string(drawn.done.runs) + " runs";
         }
     } else if (drawn.samples < drawn.method.stop_count) {
         text += " of " + grouped(drawn.method.stop_count) + " asked for, when the darts ran out";
@@ -58,12 +62,13 @@ std::string samples_text(const Drawn& drawn) {
 
 std::string candidates_text(const Drawn& drawn, std::uint64_t seed) {
     std::string text = drawn.method.throws_darts ? "darts         " : "candidates    ";
-    text += grouped(drawn.run.candidates) + ", seed " + std::to_string(seed) + '\n';
+    text += grouped(drawn.done.run.candidates) + ", seed " + std::to_string(seed) + '\n';
     return text;
 }
 
 std::pair<std::string, std::string> candidates_entry(const Drawn& drawn) {
-    return {drawn.method.throws_darts ? "throws" : "pool_size", exact_text(drawn.run.candidates)};
+    return {drawn.method.throws_darts ? "throws" : "pool_size",
+            exact_text(drawn.done.run.candidates)};
 }
 
 SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done,

@@ -19,10 +19,9 @@ Json device_json(const DeviceReport& device);
 /// What was asked for and what came of it.
 struct Drawn {
     const Method& method;
-    const RunReport& run;
-    double wanted_count; ///< Of --count, where it chooses the distance; else 0.
+    const DeviceRun& done;
+    WantedCount wanted_count;
     std::uint64_t samples;
-    std::uint32_t runs; ///< At other distances too, where a count chooses it.
 };
 
 /// The method with what it was given, what stopped it, and how many candidates and samples.

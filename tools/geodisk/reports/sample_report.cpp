@@ -183,7 +183,7 @@ SecondsByStage SampleReport::seconds(const SecondsByStage& after) const {
 }
 
 Drawn SampleReport::drawn() const {
-    return {job_.method, result_.done.run, job_.wanted_count, samples_, result_.done.runs};
+    return {job_.method, result_.done, job_.wanted_count, samples_};
 }
 
 } // namespace geodisk::tools

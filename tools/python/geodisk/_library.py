@@ -54,6 +54,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_samples_copy": [c_void_p, c_int32, c_int32, c_void_p, c_size_t, c_size_t],
     "geodisk_samples_report": [c_void_p, POINTER(Report)],
     "geodisk_count_search_create": [c_double, _HANDLE],
+    "geodisk_count_search_create_exact": [c_uint64, _HANDLE],
     "geodisk_count_search_note": [
         c_void_p,
         c_double,

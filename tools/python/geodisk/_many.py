@@ -19,10 +19,10 @@ from ._mesh import Mesh, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import MeshLike
 from ._radii import radii_of
-from ._results import samples_of_parts
+from ._results import first_of, samples_of_parts
 from ._running import CountSearch, ProgressCallback, Runs
 from ._samples import Samples
-from ._values import distance_of, integer
+from ._values import check_exact, distance_of, integer
 
 
 class _Job:
@@ -33,6 +33,7 @@ class _Job:
         mesh: Mesh,
         distance: float | None,
         count: float | None,
+        exact: bool,
         seed: int,
         density: ArrayLike | None,
         radius_factor: ArrayLike | None,
@@ -72,12 +73,13 @@ class _Job:
                 byref(first),
             )
             distance = first.value
-            self.search = CountSearch(float(count or 0), distance)
+            self.search = CountSearch(float(count or 0), distance, exact)
         else:
             distance /= self.distance_part
         self.params.min_distance = distance
         self.result: Samples | None = None
         self._count = count
+        self._exact_count = count if exact and count else 0
 
     def told_distance(self) -> float:
         """Returns the distance as :func:`sample` has it, see Radii."""
@@ -89,7 +91,8 @@ class _Job:
             self.result = found
             return False
         self.search.note(found, len(found))
-        self.result = self.search.best
+        best = self.search.best
+        self.result = best if best is None else first_of(best, self._exact_count)
         self.params.min_distance = self.search.next
         return self.search.next > 0
 
@@ -108,6 +111,7 @@ def sample_many(
     min_distance: float | Sequence[float] | None = None,
     radius: float | Sequence[float] | None = None,
     count: float | Sequence[float] | None = None,
+    exact: bool = False,
     seed: int | Sequence[int] = 0,
     density: Sequence[ArrayLike | None] | None = None,
     radius_factor: Sequence[ArrayLike | None] | None = None,
@@ -135,7 +139,7 @@ def sample_many(
         As for :func:`sample`.
     density, radius_factor, face_keys, face_mask, existing : sequence with one per mesh, or None
         As for :func:`sample`; None for a mesh without.
-    pool_ratio, weld, keep_seams, columns, mesh_format, device, progress
+    exact, pool_ratio, weld, keep_seams, columns, mesh_format, device, progress
         As for :func:`sample`, for all meshes.
 
     Returns
@@ -176,6 +180,7 @@ def sample_many(
             _mesh_of(given[i], weld, keep_seams, columns, mesh_format),
             distance_of(*of_mesh),
             of_mesh[2],
+            exact,
             integer(seeds[i], "seed", 2**64 - 1),
             densities[i],
             factors[i],
@@ -185,6 +190,8 @@ def sample_many(
             pool_ratio,
         )
 
+    for each in distances[2]:
+        check_exact(exact, each)
     jobs = [_named(i, job_at) for i in range(n)]
     with Runs(device, progress) as runs:
         active = jobs

@@ -45,6 +45,7 @@ def oddities_of_set(
         faces=None if faces is None else faces.ctypes.data,
         count=len(samples),
         min_distance=samples.min_distance,
+        cut=samples.report.get("cut", 0),
         wanted_count=0.0 if stop_count else float(count or 0),
         stop_count=stop_count,
         throws=throws,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
+import math
 from typing import Any, Sequence
 
 import numpy as np
@@ -52,6 +54,21 @@ def samples_of(
     columns.pop("part")
     columns["given"] = _given(report["samples"], report["given"])
     return _made(columns, surface, report, report["min_distance"], seed, **box)
+
+
+def first_of(samples: Samples, count: float) -> Samples:
+    """Returns the first `count` samples of a run, or all if there are fewer; and all for 0."""
+    if not count:
+        return samples
+    kept = samples[: int(count)]
+    report = {
+        **samples.report,
+        "samples": len(kept),
+        "cut": len(samples) - len(kept),
+        "missing": int(count) - len(kept),
+        "rho": samples.report["rho"] * math.sqrt(len(kept) / max(1, len(samples))),
+    }
+    return dataclasses.replace(kept, report=report)
 
 
 def samples_of_parts(

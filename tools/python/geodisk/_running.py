@@ -98,17 +98,22 @@ def _end(sampler: ctypes.c_void_p) -> None:
 
 
 class CountSearch:
-    """Finds the distance that gives about so many samples."""
+    """Finds the distance that gives about so many samples, or at least as many if exact."""
 
-    def __init__(self, count: float, first: float) -> None:
-        self._search = c.Handle("count_search", "geodisk_count_search_create", float(count))
+    def __init__(self, count: float, first: float, exact: bool = False) -> None:
+        if exact:
+            make, number = "geodisk_count_search_create_exact", int(count)
+        else:
+            make, number = "geodisk_count_search_create", float(count)
+        self._search = c.Handle("count_search", make, number)
+        self._count, self._most = count, 0
         self.next = first  #: The distance to try, or 0 when the search has ended.
         self.best: Any = None  #: What was noted with the nearest count.
-        self.best_distance = first
 
     def note(self, found: Any, count: int) -> None:
         """Notes the samples that the distance gave."""
         distance, nearest = c_double(), c_int32()
+        self._most = max(self._most, count)
         c.call(
             "geodisk_count_search_note",
             self._search.value,
@@ -118,7 +123,12 @@ class CountSearch:
             byref(nearest),
         )
         if nearest.value:
-            self.best, self.best_distance = found, self.next
+            self.best = found
+        if distance.value == 0 and self.best is None:
+            raise e.invalid(
+                f"no distance tried gave more than {self._most} of {self._count} samples, down to "
+                f"{self.next:.6g}; lower count, or leave more room for samples"
+            )
         self.next = distance.value
 
 
@@ -126,17 +136,21 @@ def sampled(
     domain_at: DomainMaker,
     first: float,
     count: float | None,
+    exact: bool,
     stop_count: int,
     device: DeviceLike | None,
     progress: bool | ProgressCallback,
 ) -> c.Handle:
-    """Returns samples at the first distance, or at the one that a search for the count ends with."""
+    """Returns samples at the first distance, or at the one that a search for the count ends with.
+
+    The latter are all of a run; `stop_count` is left to the caller.
+    """
     with Runs(device, progress) as runs:
         if count is None:
             return runs.run(domain_at(first, stop_count))
-        search = CountSearch(count, first)
+        search = CountSearch(count, first, exact)
         while search.next > 0:
             found = runs.run(domain_at(search.next, 0))  # All, or it would miss the count.
             search.note(found, c.samples_count(found.value))
         best: c.Handle = search.best
-        return runs.run(domain_at(search.best_distance, stop_count)) if stop_count else best
+        return best

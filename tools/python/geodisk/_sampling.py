@@ -18,10 +18,10 @@ from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
-from ._results import samples_of
+from ._results import first_of, samples_of
 from ._running import ProgressCallback, sampled
 from ._samples import Samples
-from ._values import distance_of, integer
+from ._values import check_exact, distance_of, integer
 
 
 def sample(
@@ -31,6 +31,7 @@ def sample(
     min_distance: float | None = None,
     radius: float | None = None,
     count: float | None = None,
+    exact: bool = False,
     seed: int = 0,
     density: ArrayLike | None = None,
     radius_factor: ArrayLike | None = None,
@@ -62,6 +63,9 @@ def sample(
     min_distance, radius, count : float
         Give one: the minimum distance along the surface, in the unit of the vertices; half of it;
         or the approximate number of samples, for which a distance is found.
+    exact : bool
+        Return exactly `count` samples: the first ones of a run that has up to 1 % more. The search
+        for its distance takes at most six runs.
     seed : int
         A 64-bit number. Equal seeds give equal samples, on every device.
     density : array_like of float, shape (v,), optional
@@ -142,6 +146,7 @@ def sample(
     distance = given = distance_of(min_distance, radius, count, throws)
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
+    check_exact(exact, count, stop_count)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
     mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format)
@@ -183,8 +188,9 @@ def sample(
             byref(found),
         )
         distance = found.value * part
-    made = sampled(domain_at, distance / part, count, stop_count, device, progress)
+    made = sampled(domain_at, distance / part, count, exact, stop_count, device, progress)
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part)
+    samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, mesh._handle, count, stop_count, throws, mask))
     return samples
 
@@ -196,6 +202,7 @@ def sample_box(
     min_distance: float | None = None,
     radius: float | None = None,
     count: float | None = None,
+    exact: bool = False,
     seed: int = 0,
     pool_ratio: float = 20,
     throws: int = 0,
@@ -229,6 +236,7 @@ def sample_box(
         raise e.invalid("extents must be one number per dimension")
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
+    check_exact(exact, count, stop_count)
     params = s.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),
@@ -246,7 +254,8 @@ def sample_box(
         found = c_double()
         c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
         distance = found.value
-    made = sampled(domain_at, distance, count, stop_count, device, progress)
+    made = sampled(domain_at, distance, count, exact, stop_count, device, progress)
     samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))
+    samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, None, count, stop_count, throws))
     return samples

@@ -233,6 +233,7 @@ class SampledSet(_Sized):
         ("count", c_size_t),
         ("min_distance", c_double),
         ("wanted_count", c_double),
+        ("cut", c_uint64),
         ("stop_count", c_uint32),
         ("throws", c_uint32),
         ("face_mask", c_void_p),

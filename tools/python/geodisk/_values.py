@@ -17,6 +17,18 @@ def integer(value: Any, name: str, most: int) -> int:
     return number
 
 
+def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
+    """Checks that an exact count is one."""
+    if not exact:
+        return
+    if count is None:
+        raise e.invalid("exact=True needs a count")
+    if not (1 <= count < 2**32 and float(count).is_integer()):
+        raise e.invalid(f"count is {count}, but exact=True needs a whole number from 1 to 4294967295")
+    if stop_count:
+        raise e.invalid("exact and stop_count contradict each other; give just one of them")
+
+
 def distance_of(
     min_distance: float | None, radius: float | None, count: float | None, throws: int = 0
 ) -> float | None:

@@ -94,6 +94,7 @@ typedef struct geodisk_sampled_set {
     size_t count;
     double min_distance;
     double wanted_count;      /* Samples that the distance was chosen for, or 0. */
+    uint64_t cut;             /* Samples of the run that an exact count left out. */
     uint32_t stop_count;      /* As in geodisk_surface_params. */
     uint32_t throws;
     const uint8_t *face_mask; /* As in geodisk_surface_params. */

@@ -61,6 +61,7 @@ std::vector<MeshWarning> warnings_of_set(const geodisk_sampled_set& given) {
     SampledSet set{.samples = given.count,
                    .min_distance = given.min_distance,
                    .wanted_count = given.wanted_count,
+                   .cut = given.cut,
                    .stop_count = given.stop_count,
                    .has_throws = given.throws > 0};
     if (given.mesh == nullptr) {

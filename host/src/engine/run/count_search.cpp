@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kTolerance = 0.05;
 constexpr std::uint32_t kMostTries = 7;
+/// Of an exact search: the part of a count that may be too much; tries, and tries while none has
+/// given enough.
+constexpr double kMostExcess = 0.01;
+constexpr std::uint32_t kExactTries = 6;
+constexpr std::uint32_t kMostExactTries = 12;
+/// Stands for no sample at all in an exact search.
+constexpr double kNone = 0.5;
 /// Maximum factor between the distances of the first two tries, and of later ones on one side.
 constexpr double kFar = 4;
 constexpr double kMostFactor = 2;
@@ -34,7 +41,7 @@ double square(double x) {
 /// Returns the factor on the distance that should give the wanted count. A part of the difference
 /// is chance, which need not be made up for. The first distance is right for an area with borders.
 /// If it gives far more samples, they are on thin parts: count = a / D^2 + b / D.
-double first_factor(double count, double wanted) {
+double about_factor(double count, double wanted) {
     const double variance = kChance * wanted;
     const double lasting = 1 - std::min(0.5, (1 - kLasting) * variance / square(count - wanted));
     const double ratio = 1 + lasting * (count / wanted - 1);
@@ -62,39 +69,71 @@ double trend_factor(double ratio, double count_a, double count_b, double wanted)
 
 } // namespace
 
-// Uses only operations with one possible IEEE 754 result, since the distance decides the samples.
-std::optional<double> CountSearch::note(double distance, std::uint64_t count) noexcept {
-    const Try last{distance, static_cast<double>(std::max<std::uint64_t>(count, 1))};
-    const double miss = std::abs(last.count - wanted_);
-    is_nearest_ = tries_ == 0 || miss < least_miss_;
+CountSearch CountSearch::exact(std::uint64_t count) noexcept {
+    CountSearch search(static_cast<double>(count));
+    const double excess = std::floor(kMostExcess * search.wanted_);
+    search.most_ = search.wanted_ + excess;
+    search.aim_ = search.wanted_ + excess / 2;
+    return search;
+}
+
+bool CountSearch::ends_with(double distance, double count) noexcept {
+    const bool is_first = tries_++ == 0;
+    if (most_) {
+        is_nearest_ = count >= wanted_ && distance > best_distance_;
+        best_distance_ = is_nearest_ ? distance : best_distance_;
+        return (count >= wanted_ && count <= *most_) ||
+               tries_ >= (best_distance_ > 0 ? kExactTries : kMostExactTries);
+    }
+    const double miss = std::abs(std::max(count, 1.0) - wanted_);
+    is_nearest_ = is_first || miss < least_miss_;
     least_miss_ = is_nearest_ ? miss : least_miss_;
-    ++tries_;
     // For small counts, one sample more or less is as close as possible.
     const double allowed = std::max(kTolerance * wanted_, std::min(1.0, wanted_ / 4));
-    if (miss <= allowed || tries_ == kMostTries) {
+    return miss <= allowed || tries_ == kMostTries;
+}
+
+double CountSearch::first_factor(double count) const noexcept {
+    // A distance close by repeats most of the chance, so an exact search makes up for it.
+    double factor = most_ ? std::sqrt(count / aim_) : about_factor(count, wanted_);
+    // The step grows as long as all tries are on one side.
+    for (std::uint32_t i = most_ ? 2 : 1; i < tries_; ++i) {
+        factor *= factor;
+    }
+    return std::clamp(factor, 1 / kFar, kFar);
+}
+
+// Uses only operations with one possible IEEE 754 result, since the distance decides the samples.
+std::optional<double> CountSearch::note(double distance, std::uint64_t count) noexcept {
+    if (ends_with(distance, static_cast<double>(count))) {
         return std::nullopt;
     }
-    std::optional<Try>& own = last.count > wanted_ ? above_ : below_;
+    const Try last{distance, std::max(static_cast<double>(count), most_ ? kNone : 1)};
+    const bool is_above = last.count > wanted_;
+    std::optional<Try>& own = is_above ? above_ : below_;
     const std::optional<Try> before = std::exchange(own, last);
-    const std::optional<Try>& other = last.count > wanted_ ? below_ : above_;
+    std::optional<Try>& other = is_above ? below_ : above_;
+    const bool is_again = std::exchange(was_above_, is_above) == is_above;
     if (other) {
+        if (most_ && is_again && before) { // The other side is far off; go nearer to it.
+            other->count = aim_ + (other->count - aim_) / 2;
+        }
         return other->distance *
-               trend_factor(other->distance / distance, other->count, last.count, wanted_);
+               trend_factor(other->distance / distance, other->count, last.count, aim_);
     }
     if (before && std::max(before->distance / distance, distance / before->distance) > kTrend) {
-        if (distance > kWide * before->distance && last.count >= before->count) {
+        const bool is_stuck =
+            distance > kWide * before->distance
+                ? last.count >= before->count
+                : most_ && kWide * distance < before->distance && last.count <= before->count;
+        if (is_stuck) {
             return std::nullopt;
         }
         const double next = before->distance * trend_factor(before->distance / distance,
-                                                            before->count, last.count, wanted_);
+                                                            before->count, last.count, aim_);
         return std::clamp(next, distance / kMostFactor, distance * kMostFactor);
     }
-    // The step grows as long as all tries are on one side.
-    double factor = first_factor(last.count, wanted_);
-    for (std::uint32_t i = 1; i < tries_; ++i) {
-        factor *= factor;
-    }
-    return distance * std::clamp(factor, 1 / kFar, kFar);
+    return distance * first_factor(last.count);
 }
 
 } // namespace geodisk
