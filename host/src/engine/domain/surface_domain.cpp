@@ -27,7 +27,7 @@ constexpr double kGroupFaces = 64;
 constexpr double kCpuGroupFaces = 512;
 constexpr double kGroupCost = 2.4;
 constexpr double kVeryLarge = 8192;
-constexpr double kVeryLargeCost = 1.4;
+constexpr double kVeryLargeCost = 0.9;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
@@ -256,6 +256,8 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
     if (suits_groups(faces, plan.slots, report)) {
         plan.disks_by = DisksBy::groups;
         plan.pool_block = 1;
+        // More than it has threads would be disks in vain.
+        plan.slots = cpu ? std::min(plan.slots, std::max(kLeastSlots, cpu_threads())) : plan.slots;
         plan.lanes = cpu ? std::min(plan.slots, cpu_threads()) : plan.slots;
         plan.window_capacity = pow2_at_least(128 + 4 * faces);
     } else {

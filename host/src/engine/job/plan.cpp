@@ -71,17 +71,18 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
 
 /// Returns the slots for the number of batches in the tuning and this many disks, but at least as
 /// many as fill the device.
-// If both are impossible, a CPU should wait rather than compute disks in vain.
+// If both are impossible, a CPU should rather wait than compute very many disks in vain.
 std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const double least =
-        cpu ? std::clamp<double>(disks / 8, kLeastSlots, std::max(kLeastSlots, cpu_lanes(report)))
+        cpu ? std::clamp<double>(disks / 2, kLeastSlots, std::max(kLeastSlots, cpu_lanes(report)))
             : 64;
     auto aim = static_cast<std::uint32_t>(
         std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
-    // Lanes should not wait for each other at the end of a batch.
-    const std::uint32_t lanes = cpu ? cpu_lanes(report) : 1;
-    aim = aim < lanes ? aim : (aim + lanes - 1) / lanes * lanes;
+    // Lanes should not wait for each other at the end of a batch, nor a thread have a few alone.
+    const std::uint32_t all = cpu ? cpu_lanes(report) : 1;
+    const std::uint32_t lanes = cpu && aim < all ? all / cpu_threads() : all;
+    aim = (aim + lanes - 1) / lanes * lanes;
     return aim <= gpu::kMostRanked ? aim
                                    : aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
 }
@@ -157,6 +158,12 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.table_capacity, wanted.table_capacity);
     replace(plan.list_capacity, wanted.list_capacity);
     replace(plan.step_budget, wanted.step_budget);
+    if (wanted.disks_by != DisksBy::automatic) {
+        const bool by_groups = wanted.disks_by == DisksBy::groups;
+        plan.lanes = plan.disks_by == wanted.disks_by || by_groups ? plan.lanes : plan.slots;
+        plan.pool_block = by_groups ? 1 : plan.pool_block;
+        plan.disks_by = wanted.disks_by;
+    }
     replace(plan.lanes, wanted.lanes);
     replace(plan.detect_passes, wanted.detect_passes);
     replace(plan.sample_capacity, wanted.sample_capacity);
@@ -164,10 +171,6 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.stages, wanted.stages);
     replace(plan.idle_capacity, wanted.idle_capacity);
     replace(plan.dispatch_items, wanted.dispatch_items);
-    if (wanted.disks_by != DisksBy::automatic) {
-        plan.disks_by = wanted.disks_by;
-        plan.pool_block = wanted.disks_by == DisksBy::groups ? 1 : plan.pool_block;
-    }
     plan.trims = plan.trims || wanted.trims;
     plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
