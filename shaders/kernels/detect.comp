@@ -164,11 +164,28 @@ void put_aside() {
     atomicMin(control.first_left, slots[lane.slot].order + 1u);
 }
 
-// Takes what comes next of all that waits. Once there were very many windows the disk begins again,
-// trimming, with those listed that it has found.
+// Leaves the disk to a work group, which begins it anew.
+void leave_to_group() {
+    overflow = 0u;
+    uint at = atomicAdd(control.large, 1u);
+    atomicAdd(control.large_disks, 1u);
+    slots[at].scan_place = lane.slot;
+    control.large_x = push.large_groups;
+    control.large_y = 1u;
+    control.large_z = 1u;
+    lane.phase = kPhaseIdle;
+}
+
+// Returns true if the disk is to have no more windows as it is.
+bool is_large() {
+    return makes_many(kUntrimmedWindows, lane.vertices, lane.longest_chain, lane.pushed) ||
+           (!kTrims && lane.pushed > push.large_after);
+}
+
+// Takes what comes next of all that waits. Once there were very many windows the disk begins again:
+// trimming, with those listed that it has found, or by a work group.
 void take_next() {
-    if (!trims() &&
-        makes_many(kUntrimmedWindows, lane.vertices, lane.longest_chain, lane.pushed)) {
+    if (!trims() && is_large()) {
         if (kTrims) {
             lane.trims = lane.pushed;
             begin_windows();
@@ -294,6 +311,9 @@ void step() {
     }
     if (overflow == kOverflowEndless) {
         put_aside();
+    }
+    if (overflow == kOverflowTrims && push.large_groups > 0u) {
+        leave_to_group();
     }
     if (lane.phase == kPhaseBlock) {
         block_conflicts();

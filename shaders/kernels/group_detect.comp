@@ -334,14 +334,34 @@ void begin_disk(uint slot) {
     group.longest_before = 0u;
 }
 
+void begin_unless_void(uint slot) {
+    if (is_void(slot)) {
+        complete_one();
+    } else {
+        begin_disk(slot);
+    }
+}
+
+// Of those that lanes have left. If another work group takes the same one, tries again in the next step.
+void take_large() {
+    uint next = atomic_load(control.next_large);
+    if (next >= control.large) {
+        group_works = false;
+    } else if (atomicCompSwap(control.next_large, next, next + 1u) == next) {
+        begin_unless_void(slots[next].scan_place);
+    }
+}
+
 void take_slot() {
+    if (push.large_groups > 0u) {
+        take_large();
+        return;
+    }
     uint next = atomicAdd(control.next_slot, 1u);
     if (next >= control.slots_used) {
         group_works = false;
-    } else if (is_void(next)) {
-        complete_one();
     } else {
-        begin_disk(next);
+        begin_unless_void(next);
     }
 }
 
@@ -386,6 +406,14 @@ void hand_in_slot() {
     own_disks.most_conflicts = max(own_disks.most_conflicts, group.conflicts);
     complete_one();
     group.phase = kGroupIdle;
+}
+
+// The overflow as the host is told it. Lanes judge a disk that does not end.
+uint told_overflow() {
+    uint by_lanes = (group_overflow & kOverflowEndless) != 0u ? kOverflowTrims : 0u;
+    uint of_slice = group_overflow & (kOverflowWindows | kOverflowVertices);
+    uint others = group_overflow & ~(of_slice | kOverflowEndless);
+    return others | by_lanes | of_slice << (push.large_groups > 0u ? kOverflowLargeShift : 0u);
 }
 
 // Goes on to another disk, or wave.
@@ -455,7 +483,7 @@ void main() {
         group_works = index < push.lanes && atomic_load(control.incomplete) > 0u &&
                       atomic_load(control.overflow) == 0u;
     }
-    group_slice = index * push.lane_rows;
+    group_slice = push.first_slice_row + index * push.lane_rows;
     if (is_first) {
         load_group();
     }
@@ -523,9 +551,7 @@ void main() {
     if (is_first && index < push.lanes) {
         own_disks.steps = kGroupStepCost * steps;
         if (group_overflow != 0u) {
-            // Lanes judge a disk that does not end.
-            uint by_lanes = (group_overflow & kOverflowEndless) != 0u ? kOverflowTrims : 0u;
-            atomicOr(control.overflow, (group_overflow & ~kOverflowEndless) | by_lanes);
+            atomicOr(control.overflow, told_overflow());
         }
         save_group();
     }

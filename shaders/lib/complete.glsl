@@ -17,6 +17,7 @@ void block(uvec4 own, uint place) {
 void complete_one() {
     if (atomicAdd(control.incomplete, 0xffffffffu) == 1u) {
         control.detect_x = 0u;
+        control.large_x = 0u;
     }
 }
 

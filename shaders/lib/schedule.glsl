@@ -76,6 +76,7 @@ void set_out_select(uint groups) {
     control.select_y = 1u;
     control.select_z = 1u;
     control.detect_x = 0u;
+    control.large_x = 0u;
     control.groups_x = 0u;
 }
 
@@ -154,6 +155,8 @@ void begin_batch() {
     }
     control.slots_used = used;
     control.next_slot = 0u;
+    control.large = 0u;
+    control.next_large = 0u;
     control.incomplete = used;
     control.undecided = used;
     control.next_ordered = control.accepted;

@@ -65,9 +65,12 @@ GEODISK_CONST uint kRuleStraightFaces = 2u;
 // is more than in disks of real meshes, and too small to widen the guard.
 GEODISK_CONST uint kFirstRemembered = 128u;
 
-// A disk has so many windows that they must be trimmed, or a window has crossed so many edges that it must
-// remember one. Needs kernels that can.
+// A disk has so many windows that it needs a work group or must trim them, or a window has crossed so many
+// edges that it must remember one. Needs kernels that can.
 GEODISK_CONST uint kOverflowTrims = 64u;
+// By how much kOverflowWindows and kOverflowVertices are shifted for the slices of work groups, where lanes
+// have others.
+GEODISK_CONST uint kOverflowLargeShift = 7u;
 // The buffer of samples is too small.
 GEODISK_CONST uint kOverflowSamples = 16u;
 

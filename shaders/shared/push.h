@@ -42,6 +42,9 @@ struct Push {
     uint list_capacity;   // conflicts one slot can list
     uint lane_rows;       // rows of four words per lane
     uint first_list_row;  // of the pool: the slices come before
+    uint first_slice_row; // of the pool: 0, or where those of work groups for large disks begin
+    uint large_groups;    // work groups for the disks that lanes leave to them; 0 if there are none
+    uint large_after;     // windows and events after which a lane leaves a disk to them
     uint step_budget;     // steps of detect per dispatch
     uint sample_capacity; // samples the buffer holds
     uint list_groups;     // most work groups of a select that goes through all candidates

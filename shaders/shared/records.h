@@ -134,6 +134,9 @@ struct ControlRec {
     uint next_sample;      // next settled sample; all before have rejected or are about to
     uint slots_used;       // slots of the active batch
     uint next_slot;        // first slot that no lane has taken yet
+    uint large;            // slots whose disks lanes have left to work groups, listed in SlotRec::scan_place
+    uint next_large;       // first of them that no work group has taken yet
+    uint large_x; uint large_y; uint large_z; // size of group_detect for them; 0 if there are none
     uint incomplete;       // slots whose disk is not complete
     uint undecided;        // slots neither accepted nor rejected
     uint overflow;         // kOverflow* bits
@@ -150,6 +153,7 @@ struct ControlRec {
     uint iterations;       // batches selected
     uint steps;            // steps of lanes, and continued slots, modulo 2^32
     uint disks;            // disks completed
+    uint large_disks;      // disks that lanes have left to work groups
     uint windows_low;      // windows pushed in completed disks, 64 bits
     uint windows_high;
     uint tested_low;       // candidates tested in completed disks, 64 bits
@@ -178,7 +182,7 @@ static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 176 && offsetof(LaneRec, held_b0) == 172);
 static_assert(sizeof(GroupRec) == 112 && offsetof(GroupRec, longest_chain) == 108);
-static_assert(sizeof(ControlRec) == 228 && offsetof(ControlRec, lane_trips_high) == 224);
+static_assert(sizeof(ControlRec) == 252 && offsetof(ControlRec, lane_trips_high) == 248);
 } // namespace geodisk::gpu
 #endif
 

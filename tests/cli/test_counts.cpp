@@ -112,8 +112,8 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
     }
     // Nothing fits beside a point to avoid that reaches everywhere.
     sample(folder, "one.csv", {"--count", "1"});
-    const Outcome full = run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "5", "--exact",
-                                      "--avoid", "one.csv:1000"});
+    const Outcome full = run(
+        folder, {"sample", kMesh, "-o", "a.ply", "-n", "5", "--exact", "--avoid", "one.csv:1000"});
     CHECK(full.status == 2);
     CHECK(contains(full.err, "no distance tried gave more than 0 of 5 samples"));
     CHECK(!std::filesystem::exists(folder / "a.ply"));

@@ -35,8 +35,8 @@ std::vector<ListedCandidate> random_points(const PreparedMesh& mesh, std::size_t
 Points points_of(const std::vector<ListedCandidate>& candidates) {
     Points points;
     for (const auto& [face, weight1, weight2] : candidates) {
-        points.push_back({face, static_cast<float>(weight1) * 0x1p-24f,
-                          static_cast<float>(weight2) * 0x1p-24f});
+        points.push_back(
+            {face, static_cast<float>(weight1) * 0x1p-24f, static_cast<float>(weight2) * 0x1p-24f});
     }
     return points;
 }
@@ -49,8 +49,8 @@ void check_as_twin(const PreparedMesh& mesh, const SampleParams& params, std::si
     narrow.plan.slots = 16;
     narrow.plan.stages = 3;
     for (const RunnerOptions& options : {RunnerOptions(), narrow}) {
-        Runner runner = expect(
-            Runner::create(shared_context().device(), shared_context().queue(), options));
+        Runner runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), options));
         const SampleSet set = expect(runner.sample_and_wait(domain));
         CHECK(set.given == params.given.size());
         CHECK(set.report.candidates == count);
@@ -98,8 +98,7 @@ TEST_SUITE("listed") {
               "listed candidate 1 is in face 12, but there are 12");
         CHECK(refusal({{0, kOneWeight, 1}}) ==
               "listed candidate 0 has weights that sum to more than 1");
-        CHECK(refusal({{0, 1, 1}}, 5) ==
-              "candidates are listed, so there are no darts to throw");
+        CHECK(refusal({{0, 1, 1}}, 5) == "candidates are listed, so there are no darts to throw");
     }
 }
 

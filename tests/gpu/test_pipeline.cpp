@@ -110,6 +110,9 @@ TEST_SUITE("pipeline") {
                 by_groups.plan.disks_by = DisksBy::groups;
                 const SampleSet at_last_by_lanes = sample(mesh, params, by_groups);
                 CHECK(points_of(at_last_by_lanes) == points_of(base));
+                RunnerOptions large_by_groups; // As well, and never of their own accord on a CPU.
+                large_by_groups.plan.large_groups = 1;
+                CHECK(points_of(sample(mesh, params, large_by_groups)) == points_of(base));
                 for (const RunnerOptions& options : {few, from_the_start}) {
                     const SampleSet set = sample(mesh, params, options);
                     CHECK(points_of(set) == points_of(base));

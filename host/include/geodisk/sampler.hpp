@@ -197,8 +197,14 @@ struct RunPlan {
                         ///< kernels that are compiled when a job first needs them.
     DisksBy disks_by = DisksBy::automatic; ///< A plan has chosen. For `groups` the kernel is
                                            ///< compiled when a job first needs it.
-    std::uint32_t dispatch_items = 0;      ///< Maximum of faces, candidates, samples or words per
-                                           ///< dispatch; at least one work group is done.
+    std::uint32_t large_groups = 0; ///< Where lanes compute disks: work groups for the few with
+                                    ///< very many windows. 0 until there is one: then Advice::plan
+                                    ///< has some, and the kernel of groups is compiled.
+    std::uint32_t large_window_capacity = 0; ///< Of one of them, as window_capacity of a lane.
+    std::uint32_t large_table_capacity = 0;  ///< Of one of them, as table_capacity of a lane.
+    std::uint32_t large_after = 0; ///< Windows and events after which a lane leaves a disk to them.
+    std::uint32_t dispatch_items = 0; ///< Maximum of faces, candidates, samples or words per
+                                      ///< dispatch; at least one work group is done.
     /// Bound on the rounding error of a distance, as a fraction of the minimum distance (at most
     /// 0.5). On surfaces the guard is this rounded up to a power of two, and paths over more edges
     /// than usual widen both for themselves (host/docs/precision.md).
@@ -206,7 +212,12 @@ struct RunPlan {
 
     /// Returns the size of a lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;
-    /// Returns the first row of the lists, behind the slices of all blocks of lanes.
+    /// Returns the size of the slice of a work group for large disks, in rows of 16 bytes.
+    GEODISK_API std::uint32_t large_rows() const noexcept;
+    /// Returns the first row of the slices of work groups for large disks, behind those of all
+    /// blocks of lanes.
+    GEODISK_API std::uint64_t first_large_row() const noexcept;
+    /// Returns the first row of the lists, behind all slices.
     GEODISK_API std::uint64_t first_list_row() const noexcept;
     /// Returns the bytes of all slices and lists.
     GEODISK_API std::uint64_t pool_bytes() const noexcept;

@@ -30,8 +30,8 @@ struct ListedCandidate {
 /// must upload the data again before it restarts. `mesh` and `params` as for Domain::surface().
 ///
 /// Errors: those of Domain::surface(); `invalid_argument` for no candidate, more than 2^28, darts
-/// (`throws`), classes, or a candidate, naming it, in a face that does not exist or with weights that sum to
-/// more than 1.
+/// (`throws`), classes, or a candidate, naming it, in a face that does not exist or with weights
+/// that sum to more than 1.
 GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
                                          std::span<const ListedCandidate> candidates) noexcept;
 

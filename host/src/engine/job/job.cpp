@@ -95,7 +95,8 @@ Job::Impl::~Impl() {
 
 Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_plan) {
     const bool has_slices = wanted.domain == DomainKind::surface;
-    wanted.groups = for_plan.disks_by == DisksBy::groups && has_slices;
+    wanted.groups =
+        (for_plan.disks_by == DisksBy::groups || for_plan.large_groups > 0) && has_slices;
     wanted.trims = for_plan.trims && has_slices;
     wanted.lanes_apart = for_plan.pool_block != sampler->choices.tuning.pool_block && has_slices;
     const auto pipelines = sampler->pipelines.of(wanted);
@@ -114,12 +115,30 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;
     push.lanes = has_lane_per_slot ? plan.slots : plan.lanes;
-    push.lanes_per_group = variant.groups ? 1 : sampler->choices.tuning.slot_local_size;
+    const bool by_groups = plan.disks_by == DisksBy::groups;
+    push.lanes_per_group = by_groups ? 1 : sampler->choices.tuning.slot_local_size;
     push.lane_rows = plan.lane_rows();
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
-    push.step_budget = std::min(plan.step_budget, most_steps(sampler->report, variant));
+    KernelVariant of_detect = variant;
+    of_detect.groups = by_groups;
+    push.step_budget = std::min(plan.step_budget, most_steps(sampler->report, of_detect));
+    push.large_groups = variant.groups && !by_groups ? plan.large_groups : 0;
+    push.large_after = plan.large_after;
     push.sample_capacity = plan.sample_capacity;
     push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, kMostGroups);
+}
+
+gpu::Push Job::Impl::large_push() const {
+    gpu::Push large = push;
+    large.lanes = plan.large_groups;
+    large.lanes_per_group = 1;
+    large.window_capacity = plan.large_window_capacity;
+    large.table_capacity = plan.large_table_capacity;
+    large.lane_rows = plan.large_rows();
+    large.first_slice_row = static_cast<std::uint32_t>(plan.first_large_row());
+    large.step_budget = std::clamp(push.step_budget / gpu::kGroupStepCost, 1u,
+                                   most_steps(sampler->report, variant));
+    return large;
 }
 
 Result<Done> Job::set_plan(const RunPlan& plan) noexcept {

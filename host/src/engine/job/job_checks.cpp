@@ -31,6 +31,15 @@ Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDevice
     return Done{};
 }
 
+/// Returns true if work groups for large disks have slices of possible sizes.
+bool has_large_slices(const RunPlan& plan) {
+    constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
+    return plan.large_groups <= kMost && plan.large_window_capacity >= 2 &&
+           std::has_single_bit(plan.large_window_capacity) &&
+           std::has_single_bit(plan.large_table_capacity) && plan.large_window_capacity <= kMost &&
+           plan.large_table_capacity <= kMost;
+}
+
 } // namespace
 
 Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& needs,
@@ -64,15 +73,18 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
         plan.sample_capacity > plan.slots && plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
         plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed && plan.slots <= kMost &&
         plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
-        plan.list_capacity <= kMost;
+        plan.list_capacity <= kMost && (plan.large_groups == 0 || has_large_slices(plan));
     if (!fine) {
-        return Error{Status::invalid_argument,
-                     "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
-                     "detect_passes, stages, idle_capacity and dispatch_items at least 1, stages "
-                     "at most 15, "
-                     "sample_capacity more than slots, window_capacity and table_capacity powers "
-                     "of two, list_capacity a "
-                     "multiple of 4, idle_capacity at most 2^23, none of them 0 or more than 2^26"};
+        return Error{
+            Status::invalid_argument,
+            "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
+            "detect_passes, stages, idle_capacity and dispatch_items at least 1, stages "
+            "at most 15, "
+            "sample_capacity more than slots, window_capacity and table_capacity powers "
+            "of two, list_capacity a "
+            "multiple of 4, idle_capacity at most 2^23, large_window_capacity and "
+            "large_table_capacity as those of lanes if there are large_groups, none of them "
+            "0 or more than 2^26"};
     }
     // The vertex table tags distances by the bits that those below 2 leave clear.
     if (!(plan.error_bound > 0 && plan.error_bound <= kMostError)) {

@@ -37,9 +37,22 @@ constexpr double kSlotMargin = 1.5;
 constexpr std::uint32_t kIdlePerSlot = 32;
 constexpr std::uint32_t kCandidatesPerIdle = 16;
 constexpr std::uint32_t kLeastIdle = 4096;
+// Work groups beside lanes for large disks, and what one of them holds at first. A lane leaves a
+// disk to them after so many windows, where others wait for it; a CPU's lanes only where it is to
+// be trimmed.
+constexpr std::uint32_t kLargeGroups = 16;
+constexpr std::uint32_t kLargeWindows = 4096;
+constexpr std::uint32_t kLargeVertices = 8192;
+constexpr std::uint32_t kLargeAfter = 2048;
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
+}
+
+/// Returns the rows of a work group's slice, see shaders/lib/group.glsl.
+std::uint32_t group_rows(std::uint32_t windows, std::uint32_t vertices) {
+    return gpu::kGroupRows + (2 * gpu::kItemRows + 6) * windows + gpu::kGroupVertexRows * vertices +
+           (vertices / 2 + 3) / 4;
 }
 
 /// Returns the bytes of the smallest pool for the plan: the minimum of lists and a block of lanes.
@@ -48,10 +61,17 @@ std::uint64_t least_pool(const RunPlan& plan) {
            std::uint64_t{kLeastSlots} * plan.list_capacity * 4;
 }
 
-/// Fits slots and lanes to the pool. It first gets the minimum of lists and a block of lanes, then
-/// lists for the slots in at most half of it. Falls back to blocks of one lane if no larger block
-/// fits, and to no lanes if not even one fits.
+/// Fits slots and lanes to the pool. Work groups for large disks get at most half of it, but one at
+/// least. Then it gets the minimum of lists and a block of lanes, then lists for the slots in at
+/// most half of the rest. Falls back to blocks of one lane if no larger block fits, and to no lanes
+/// if not even one fits.
 void fit(RunPlan& plan, std::uint64_t pool_bytes) {
+    if (plan.large_groups > 0) {
+        const std::uint64_t slice = std::uint64_t{plan.large_rows()} * 16;
+        plan.large_groups = static_cast<std::uint32_t>(
+            std::clamp<std::uint64_t>(pool_bytes / 2 / slice, 1, plan.large_groups));
+        pool_bytes -= std::min(pool_bytes, plan.large_groups * slice);
+    }
     if (pool_bytes < least_pool(plan)) {
         plan.pool_block = 1;
     }
@@ -125,6 +145,21 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
     return Done{};
 }
 
+/// Changes the plan for a disk of very many windows. Where a GPU's lanes compute disks, some work
+/// groups beside them do that. If there are such, or all are computed by groups, the disk must be
+/// trimmed, which lanes do. A CPU's lanes do it at once: they are as fast as groups.
+void provide_for_large(RunPlan& plan, const DeviceReport& report) {
+    if (plan.disks_by == DisksBy::lanes && plan.large_groups == 0 &&
+        report.type != VK_PHYSICAL_DEVICE_TYPE_CPU) {
+        plan.large_groups = kLargeGroups;
+        return;
+    }
+    plan.trims = true;
+    plan.large_groups = 0;
+    plan.lanes = plan.disks_by == DisksBy::groups ? plan.slots : plan.lanes;
+    plan.disks_by = DisksBy::lanes;
+}
+
 Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
     return Error{
         Status::workspace_too_small,
@@ -171,6 +206,10 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.stages, wanted.stages);
     replace(plan.idle_capacity, wanted.idle_capacity);
     replace(plan.dispatch_items, wanted.dispatch_items);
+    replace(plan.large_groups, wanted.large_groups);
+    replace(plan.large_window_capacity, wanted.large_window_capacity);
+    replace(plan.large_table_capacity, wanted.large_table_capacity);
+    replace(plan.large_after, wanted.large_after);
     plan.trims = plan.trims || wanted.trims;
     plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
@@ -178,16 +217,23 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
 
 std::uint32_t RunPlan::lane_rows() const noexcept {
     if (disks_by == DisksBy::groups) {
-        return gpu::kGroupRows + (2 * gpu::kItemRows + 6) * window_capacity +
-               gpu::kGroupVertexRows * table_capacity + (table_capacity / 2 + 3) / 4;
+        return group_rows(window_capacity, table_capacity);
     }
     return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity +
            (trims ? gpu::kTrimRows + (window_capacity + 3) / 4 : 0);
 }
 
-std::uint64_t RunPlan::first_list_row() const noexcept {
+std::uint32_t RunPlan::large_rows() const noexcept {
+    return large_groups > 0 ? group_rows(large_window_capacity, large_table_capacity) : 0;
+}
+
+std::uint64_t RunPlan::first_large_row() const noexcept {
     const std::uint64_t block = std::max(pool_block, 1u);
     return (lanes + block - 1) / block * block * lane_rows();
+}
+
+std::uint64_t RunPlan::first_list_row() const noexcept {
+    return first_large_row() + std::uint64_t{large_groups} * large_rows();
 }
 
 std::uint64_t RunPlan::pool_bytes() const noexcept {
@@ -242,7 +288,10 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
             report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuDispatchItems : kDispatchItems;
         of.plan_disks(plan, candidates, report);
         KernelVariant variant = impl_->variant_for(domain);
+        plan.large_window_capacity = std::max(kLargeWindows, 2 * plan.window_capacity);
+        plan.large_table_capacity = std::max(kLargeVertices, 2 * plan.table_capacity);
         variant.groups = plan.disks_by == DisksBy::groups;
+        plan.large_after = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? ~0u : kLargeAfter;
         plan.step_budget = most_steps(report, variant);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
         fit(plan, pool_bytes);
@@ -264,16 +313,16 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
     grow(gpu::kOverflowWindows, grown.window_capacity);
     grow(gpu::kOverflowVertices, grown.table_capacity);
     grow(gpu::kOverflowConflicts, grown.list_capacity);
+    grow(gpu::kOverflowWindows << gpu::kOverflowLargeShift, grown.large_window_capacity);
+    grow(gpu::kOverflowVertices << gpu::kOverflowLargeShift, grown.large_table_capacity);
     if ((overflow & gpu::kOverflowTrims) != 0) {
-        grown.trims = true;
-        // Groups do not trim.
-        grown.lanes = plan.disks_by == DisksBy::groups ? plan.slots : plan.lanes;
-        grown.disks_by = DisksBy::lanes;
+        provide_for_large(grown, report);
     }
     pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
     fit(grown, pool_bytes);
-    const bool same =
-        grown.lane_rows() == plan.lane_rows() && grown.list_capacity == plan.list_capacity;
+    const bool same = grown.lane_rows() == plan.lane_rows() &&
+                      grown.large_rows() == plan.large_rows() &&
+                      grown.list_capacity == plan.list_capacity;
     if (grown.lanes == 0 || same) {
         return slice_error(grown, pool_bytes);
     }

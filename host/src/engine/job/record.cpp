@@ -65,8 +65,11 @@ class Recorder {
 
     /// The size is what `select` left at this offset of the control record.
     void dispatch_indirect(Kernel kernel, VkDeviceSize offset) {
+        dispatch_indirect(kernel, offset, job_.push);
+    }
+    void dispatch_indirect(Kernel kernel, VkDeviceSize offset, const gpu::Push& push) {
         in_parts(1, 1, [&](std::uint64_t, std::uint64_t) {
-            bind(kernel, job_.push, SetRole::workspace);
+            bind(kernel, push, SetRole::workspace);
             const BufferRange& control = range(BufferRole::control);
             sampler_.vk.vkCmdDispatchIndirect(commands_, control.buffer, control.offset + offset);
             barrier_compute_to_compute(sampler_.vk, commands_);
@@ -370,10 +373,15 @@ void add_select(Recorder& recorder, Job::Impl& job) {
 
 void add_detect(Recorder& recorder, Job::Impl& job) {
     recorder.stage(Stage::detect);
-    const Kernel kernel =
-        job.variant.groups ? Kernel::group_detect : kernels_of(job.variant.domain).detect;
+    const bool by_groups = job.variant.groups && job.plan.disks_by == DisksBy::groups;
+    const Kernel kernel = by_groups ? Kernel::group_detect : kernels_of(job.variant.domain).detect;
+    const gpu::Push large = job.large_push();
     for (std::uint32_t pass = 0; pass < job.plan.detect_passes; ++pass) {
         recorder.dispatch_indirect(kernel, offsetof(gpu::ControlRec, detect_x));
+        if (job.push.large_groups > 0) {
+            recorder.dispatch_indirect(Kernel::group_detect, offsetof(gpu::ControlRec, large_x),
+                                       large);
+        }
     }
 }
 

@@ -153,6 +153,8 @@ struct Job::Impl {
     /// Compiles those that it lacks.
     Result<Done> choose_kernels(KernelVariant wanted, const RunPlan& for_plan);
     void apply_plan(const RunPlan& new_plan);
+    /// Returns the push block of work groups for large disks.
+    gpu::Push large_push() const;
 };
 
 } // namespace geodisk

@@ -33,7 +33,8 @@ std::uint64_t items_in(double seconds, double per_item) {
 
 std::uint64_t items_of_step(const RunPlan& plan) {
     const bool by_groups = plan.disks_by == DisksBy::groups;
-    return plan.lanes * kItemsPerStep * (by_groups ? gpu::kGroupStepCost : 1);
+    // Groups for large disks do as many steps as take the time of those of lanes.
+    return (plan.lanes * (by_groups ? gpu::kGroupStepCost : 1) + plan.large_groups) * kItemsPerStep;
 }
 
 } // namespace
