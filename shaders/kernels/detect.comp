@@ -312,7 +312,7 @@ void step() {
     if (overflow == kOverflowEndless) {
         put_aside();
     }
-    if (overflow == kOverflowTrims && push.large_groups > 0u) {
+    if (!kTrims && overflow == kOverflowTrims && push.large_groups > 0u) {
         leave_to_group();
     }
     if (lane.phase == kPhaseBlock) {
