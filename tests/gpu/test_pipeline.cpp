@@ -46,7 +46,7 @@ TEST_SUITE("pipeline") {
             {"terrain", 48},      {"lattice", 1},       {"swiss-roll", 24},
             {"crossed-sheet", 8}, {"moebius", 8},       {"clifford-torus", 24},
             {"klein-bottle", 20}, {"veronese", 4},      {"tube", 6},
-            {"cone", 8},          {"spike", 6}};
+            {"cone", 8},          {"spike", 6},         {"drilled-plate", 3}};
         for (const auto& [name, resolution] : shapes) {
             const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
             CAPTURE(shown);

@@ -18,6 +18,8 @@ constexpr BuiltinShape kShapes[] = {
     {"torus-knot", "trefoil tube; points around", 32, 3, 800, make_torus_knot},
     {"lattice", "smooth frame of bars, genus 81; parts per bar width", 4, 1, 12, make_lattice},
     {"plate", "closed box of 1 x 1 x 0.01; parts per long edge", 32, 1, 2000, make_plate},
+    {"drilled-plate", "plate with holes, cut into slivers as by CAD; holes per long edge", 20, 2,
+     100, make_drilled_plate},
     {"folded-sheet", "open sheet in 5 layers 0.01 apart; parts per layer", 32, 1, 1000,
      make_folded_sheet},
     {"unfolded-sheet", "folded-sheet laid flat; parts per layer", 32, 1, 1000, make_unfolded_sheet},

@@ -49,6 +49,9 @@ MeshFile make_plate(int resolution);
 MeshFile make_icosphere(int resolution);
 MeshFile make_lattice(int resolution);
 
+// drilled_plate.cpp
+MeshFile make_drilled_plate(int resolution);
+
 // sweeps.cpp: surfaces swept by a moving curve
 MeshFile make_torus_knot(int resolution);
 MeshFile make_moebius(int resolution);
