@@ -34,6 +34,9 @@ inline constexpr std::array<std::string_view, 8> kNumberedColumnNames{"x0", "x1"
 /// The column that marks samples that were given, with 1.
 inline constexpr std::string_view kGivenColumn = "given";
 
+/// The column with the classes of samples.
+inline constexpr std::string_view kClassColumn = "class";
+
 /// Keys of header entries that a reader of samples goes by.
 inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin";
 

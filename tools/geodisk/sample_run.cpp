@@ -29,6 +29,7 @@ void check_space(const SampleJob& job, const MeshInput& mesh) {
 
 SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     SampleParams params = mesh.with_fields(job.params);
+    params.class_factors = job.class_factors;
     const double area = effective_area(mesh.prepared, params);
     params.min_distance =
         job.min_distance
@@ -68,7 +69,12 @@ void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& resul
     for (const SampleRow& row : rows) {
         radii.push_back(mesh.radii ? row.radius : result.params.min_distance / 2);
     }
-    result.among_given = check_spacing(mesh, rows, radii, progress);
+    PairDistances distances{radii};
+    if (job.classes.count > 1) {
+        distances = {radii, std::span(result.classes).first(result.given), job.classes,
+                     result.params.min_distance};
+    }
+    result.among_given = check_spacing(mesh, rows, distances, {}, progress).others;
     const SpacingResult& found = result.among_given;
     if (found.violations.empty()) {
         return;
@@ -95,6 +101,9 @@ std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& me
         std::fill_n(given.values.begin(), result.given, 1);
         columns.push_back(std::move(given));
     }
+    if (job.classes.is_given()) {
+        columns.push_back({std::string(kClassColumn), result.classes});
+    }
     return columns;
 }
 
@@ -106,6 +115,7 @@ std::vector<NamedFile> files_read(const SampleJob& job) {
     job.density.add_files(read, "the density");
     job.mask.add_files(read);
     job.constraints.add_files(read);
+    add_class_file(job.classes_option, read);
     return read;
 }
 
@@ -120,6 +130,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     GivenInput given = load_given(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
     params.given = given.samples;
+    params.given_classes = given.classes;
     params.avoid = given.avoided;
     const auto task_at = [&](double min_distance) {
         params.min_distance = min_distance;
@@ -131,12 +142,15 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
     params.given = {};
+    params.given_classes = {};
     params.avoid = {};
     SampleResult result;
     result.params = params;
     result.done = std::move(done);
     result.rows = to_rows(mesh, params.min_distance, set.samples);
     result.given = set.given;
+    result.classes.assign(set.classes.begin(), set.classes.end());
+    result.classes.resize(result.rows.size()); // A single class has no table.
     result.avoided = given.avoided.size();
     std::vector<std::uint32_t> faces;
     for (const SampleRow& row : result.rows) {
@@ -170,6 +184,7 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     const GivenInput given = load_given(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
     params.given = given.samples;
+    params.given_classes = given.classes;
     params.avoid = given.avoided;
     const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
     return dry_run_on_device(device, {domain_of(job, mesh, params), job.method.expected(room)},

@@ -85,6 +85,7 @@ SampleOptions from_anywhere(SampleOptions options) {
     options.density.place_files([](const std::string& file) { return from_anywhere(file); });
     options.mask.place_files([](const std::string& file) { return from_anywhere(file); });
     options.constraints.place_files([](const std::string& file) { return from_anywhere(file); });
+    place_class_file(options.classes, [](const std::string& file) { return from_anywhere(file); });
     return options;
 }
 

@@ -67,15 +67,15 @@ std::string smallest_text(const SpacingResult& result, double min_distance) {
 }
 
 void print_violations(std::ostream& out, const SampleFile& samples, const SpacingResult& result,
-                      bool with_ratios) {
+                      const std::string& least) {
     out << "violations    " << count_text(result.violations.size(), result.is_complete) << '\n';
     for (std::size_t i = 0; i < std::min(result.violations.size(), kNamedViolations); ++i) {
         const ClosePair& pair = result.violations[i];
         out << "              "
             << "samples " << pair.row_a << " and " << pair.row_b << ": "
             << rounded(pair.distance, 9);
-        if (with_ratios) {
-            out << ", " << rounded(pair.ratio, 9) << " of the sum of their radii";
+        if (!least.empty()) {
+            out << ", " << rounded(pair.ratio, 9) << " of " << least;
         }
         out << '\n';
     }

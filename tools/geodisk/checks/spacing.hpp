@@ -2,6 +2,7 @@
 // implementation: what a check finds, and how commands tell it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,6 +15,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/class_options.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/reports/json_type.hpp"
 
@@ -45,6 +47,28 @@ struct SpacingResult {
     std::size_t violating_samples() const;
 };
 
+/// How far rows must be apart: the sum of their radii, one to a row, or as their classes say.
+struct PairDistances {
+    std::span<const double> radii;
+    std::span<const std::uint32_t> classes{}; ///< One to a row, or none.
+    ClassTable table{};                       ///< Of the classes, if there are any.
+    double min_distance = 0;                  ///< Largest distance in the table.
+
+    /// Returns the distance for a pair.
+    double of(std::uint32_t row_a, std::uint32_t row_b) const {
+        return classes.empty() ? radii[row_a] + radii[row_b]
+                               : table.factor(classes[row_a], classes[row_b]) * min_distance;
+    }
+    /// Returns a distance for which each pair is at most as far apart as that of one of its rows.
+    double reach(std::uint32_t row) const {
+        double reach = classes.empty() ? 2 * radii[row] : 0;
+        for (std::size_t other = 0; other < table.count && !classes.empty(); ++other) {
+            reach = std::max(reach, table.factor(classes[row], other) * min_distance);
+        }
+        return reach;
+    }
+};
+
 /// Computes the geodesic distances of all pairs that are not farther apart than a cut somewhat
 /// beyond the sum of their radii, which are positive, one to a row.
 ///
@@ -60,7 +84,7 @@ struct GivenSpacing {
 
 /// The same, where rows with `given` other than 0 were given; none were if that is empty.
 GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           std::span<const double> radii, std::span<const std::uint32_t> given,
+                           const PairDistances& distances, std::span<const std::uint32_t> given,
                            ProgressLine& progress);
 
 /// The closest pair of all, by distance, however far apart; none if no path joins any two samples.
@@ -77,9 +101,9 @@ SpacingResult check_box_spacing(const BoxParams& box, std::span<const SampleRow>
 std::string smallest_text(const SpacingResult& result, double min_distance);
 
 /// Prints how many violations there are, the first ones, and how many samples are in them.
-/// `with_ratios` tells what part of the sum of its radii the distance of a pair is.
+/// Unless `least` is empty, it names what the ratio of a pair's distance is to.
 void print_violations(std::ostream& out, const SampleFile& samples, const SpacingResult& result,
-                      bool with_ratios);
+                      const std::string& least);
 
 /// "3 pairs of samples are closer than WHAT"; empty without violations.
 std::string violation_text(const SpacingResult& result, const std::string& what);

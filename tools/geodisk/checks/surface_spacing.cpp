@@ -77,17 +77,20 @@ void for_each_pair(const MeshInput& mesh, std::span<const SampleRow> rows, doubl
 } // namespace
 
 GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           std::span<const double> radii, std::span<const std::uint32_t> given,
+                           const PairDistances& distances, std::span<const std::uint32_t> given,
                            ProgressLine& progress) {
     GivenSpacing result;
     const auto is_given = [given](std::uint32_t row) { return !given.empty() && given[row] != 0; };
-    const double largest = radii.empty() ? 1 : *std::max_element(radii.begin(), radii.end());
+    double largest = rows.empty() ? 1 : 0;
+    for (std::uint32_t row = 0; row < rows.size(); ++row) {
+        largest = std::max(largest, distances.reach(row));
+    }
     progress.begin_stage("verifying");
     // From the sample with the larger radius, every pair is found this way.
-    const auto cut_of = [&](std::uint32_t row) { return result.others.cut * 2 * radii[row]; };
-    for_each_pair(mesh, rows, ref::suitable_unit(mesh.prepared, 2 * largest, kMostCells), cut_of,
+    const auto cut_of = [&](std::uint32_t row) { return result.others.cut * distances.reach(row); };
+    for_each_pair(mesh, rows, ref::suitable_unit(mesh.prepared, largest, kMostCells), cut_of,
                   progress, [&](std::uint32_t row_a, std::uint32_t row_b, double distance) {
-                      const double ratio = distance / (radii[row_a] + radii[row_b]);
+                      const double ratio = distance / distances.of(row_a, row_b);
                       const ClosePair pair{row_a, row_b, distance, ratio};
                       if (!is_given(row_a) || !is_given(row_b)) {
                           return result.others.add(pair);
@@ -104,7 +107,7 @@ GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> row
 
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                             std::span<const double> radii, ProgressLine& progress) {
-    return check_spacing(mesh, rows, radii, {}, progress).others;
+    return check_spacing(mesh, rows, PairDistances{radii}, {}, progress).others;
 }
 
 std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,

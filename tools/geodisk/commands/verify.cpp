@@ -22,6 +22,7 @@
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/given_input.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/class_options.hpp"
 #include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
@@ -50,7 +51,7 @@ struct VerifyOptions {
     DensityOptions density;
     MaskOptions mask;
     ConstraintOptions constraints; ///< Points to avoid.
-    std::string samples, min_distance, tolerance;
+    std::string samples, min_distance, tolerance, classes;
     OutputOptions out; ///< No samples.
 
     /// What makes the surface and the radii on it, as the header of a sample file names it.
@@ -69,8 +70,41 @@ double distance_of(const VerifyOptions& options, const SampleFile& samples, cons
     return given / mesh.distance_part;
 }
 
+/// Returns the classes that the options say, or else the header; none if a distance is given alone.
+ClassTable classes_of(const VerifyOptions& options, const SampleFile& samples) {
+    if (!options.classes.empty()) {
+        return parse_classes(options.classes);
+    }
+    const std::string* const entry = samples.header.find("classes");
+    if (entry == nullptr || !options.min_distance.empty()) {
+        return {};
+    }
+    if (names_class_file(*entry)) {
+        fail_input(options.samples, "its header has the classes " + in_quotes(*entry) +
+                                        ", which are none; give --classes");
+    }
+    return parse_classes(*entry);
+}
+
+/// Checks that every sample has one of the classes.
+void check_classes(const std::string& path, const SampleFile& samples, std::size_t count) {
+    const auto values = samples.extra_values(kClassColumn);
+    if (values.size() != samples.rows.size()) {
+        fail_input(path, "has no column class, so its classes cannot be verified; give "
+                         "--min-distance to check one distance for all");
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] >= count) {
+            fail_input(path, "sample " + std::to_string(i) + ": its class is " +
+                                 std::to_string(values[i]) + ", but there are " +
+                                 std::to_string(count) + ", numbered from 0");
+        }
+    }
+}
+
 /// How far samples must be apart.
 struct Spacing {
+    ClassTable classes;
     double min_distance = 0; ///< Of all pairs, or of two with the largest radius; 0 if not known.
     bool radii_vary = false;
     std::vector<double> radii; ///< By row.
@@ -81,6 +115,14 @@ struct Spacing {
 /// distance is given.
 Spacing spacing_of(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
     Spacing spacing;
+    spacing.classes = classes_of(options, samples);
+    if (spacing.classes.is_given()) {
+        check_classes(options.samples, samples, spacing.classes.count);
+        spacing.min_distance = spacing.classes.distances.empty()
+                                   ? distance_of(options, samples, mesh)
+                                   : spacing.classes.largest() / mesh.distance_part;
+        return spacing;
+    }
     spacing.radii_vary = mesh.radii || (has_radii(samples.rows) && options.min_distance.empty());
     if (mesh.radii || !spacing.radii_vary) {
         spacing.min_distance = distance_of(options, samples, mesh);
@@ -120,17 +162,36 @@ struct Check {
     }
     /// Of samples that a distance is known of.
     double rho() const {
-        return packing_density(effective_area(mesh.prepared, mesh.with_fields({})),
-                               spacing.min_distance, static_cast<double>(samples.rows.size()));
+        SampleParams params = mesh.with_fields({});
+        const std::vector<float> factors = spacing.classes.factors();
+        params.class_factors = factors;
+        return packing_density(effective_area(mesh.prepared, params), spacing.min_distance,
+                               static_cast<double>(samples.rows.size()));
+    }
+    /// Number of samples of each class.
+    std::vector<std::size_t> class_counts() const {
+        std::vector<std::size_t> counts(spacing.classes.count);
+        const auto values = samples.extra_values(kClassColumn);
+        for (std::size_t i = 0; i < values.size() && !counts.empty(); ++i) {
+            ++counts[values[i]];
+        }
+        return counts;
+    }
+    /// What the distance of a pair is a part of.
+    std::string least_text() const {
+        return spacing.classes.is_given() ? "the distance of their classes"
+               : spacing.radii_vary       ? "the sum of their radii"
+                                          : rounded(spacing.min_distance, 9);
     }
 };
 
 std::string smallest_text(const Check& check) {
     const SpacingResult& result = check.result;
-    if (check.spacing.radii_vary) {
+    if (check.spacing.radii_vary || check.spacing.classes.is_given()) {
         return (result.closest ? rounded(result.closest->ratio, 9)
                                : "> " + rounded(result.cut, 6)) +
-               " of the sum of two radii";
+               (check.spacing.radii_vary ? " of the sum of two radii"
+                                         : " of the distance of two classes");
     }
     return smallest_text(result, check.spacing.min_distance);
 }
@@ -153,7 +214,15 @@ std::string result_text(const Check& check) {
             << (check.mesh.radii ? "" : ", as the file has them") << '\n';
     }
     out << "smallest      " << smallest_text(check) << '\n';
-    print_violations(out, check.samples, check.result, spacing.radii_vary);
+    if (spacing.classes.is_given()) {
+        std::string counts;
+        for (const std::size_t count : check.class_counts()) {
+            counts += (counts.empty() ? "" : ", ") + grouped(count);
+        }
+        out << "classes       " << counts << " samples\n";
+    }
+    const bool has_ratios = spacing.radii_vary || spacing.classes.is_given();
+    print_violations(out, check.samples, check.result, has_ratios ? check.least_text() : "");
     if (const std::size_t given = check.given(); given > 0) {
         const std::size_t pairs = check.among_given.violations.size();
         out << "given         " << grouped(given) << " of them"
@@ -221,6 +290,7 @@ std::string report_text(const Check& check) {
          has_distance ? Json(spacing.min_distance * check.mesh.distance_part) : Json(nullptr)},
         {"rho", has_distance ? Json(check.rho()) : Json(nullptr)},
         {"radii_vary", spacing.radii_vary},
+        {"classes", spacing.classes.is_given() ? Json(check.class_counts()) : Json(nullptr)},
         {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
         {"smallest", pair_json(result.closest)},
         {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
@@ -243,14 +313,13 @@ void check_files(const VerifyOptions& options) {
     options.density.add_files(read, "the density");
     options.mask.add_files(read);
     options.constraints.add_files(read);
+    add_class_file(options.classes, read);
     check_outputs(options.out, "", read);
 }
 
 void fail_on_violations(const Check& check) {
     const Spacing& spacing = check.spacing;
-    std::string message =
-        violation_text(check.result, spacing.radii_vary ? "the sum of their radii"
-                                                        : rounded(spacing.min_distance, 9));
+    std::string message = violation_text(check.result, check.least_text());
     const auto add = [&message](std::size_t count, const std::string& one, const std::string& many,
                                 const char* what) {
         if (count > 0) {
@@ -285,9 +354,19 @@ void check_box(const VerifyOptions& options) {
         fail_usage("SAMPLES is required, except for samples in a box, which need no mesh");
     }
     if (!options.mesh.additions().empty() || options.density.is_given() ||
-        options.mask.is_given() || options.constraints.is_given()) {
+        options.mask.is_given() || options.constraints.is_given() || !options.classes.empty()) {
         fail_usage(
             "options for surfaces need MESH and SAMPLES; a single file must hold samples in a box");
+    }
+}
+
+void check_class_options(const VerifyOptions& options) {
+    const ClassTable classes = parse_classes(options.classes);
+    if (classes.is_given() && options.density.is_given()) {
+        fail_usage("--classes takes no radii that vary, so neither --density nor --radius-factor");
+    }
+    if (!classes.distances.empty() && !options.min_distance.empty()) {
+        fail_usage("the table of --classes has all distances, so it takes no --min-distance");
     }
 }
 
@@ -299,6 +378,7 @@ void run_verify(const VerifyOptions& options) {
     options.mask.only_rules();
     options.mask.mask_rules();
     options.constraints.parsed_avoid();
+    check_class_options(options);
     if (options.samples.empty()) {
         check_box(options);
         verify_box(options.mesh.mesh, options.min_distance, options.out);
@@ -312,8 +392,12 @@ void run_verify(const VerifyOptions& options) {
     auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
                                              options.tolerance, warnings, progress);
     Spacing spacing = spacing_of(options, samples, mesh);
-    GivenSpacing found = check_spacing(mesh, samples.rows, spacing.radii,
-                                       samples.extra_values(kGivenColumn), progress);
+    PairDistances distances{spacing.radii};
+    if (spacing.classes.is_given()) {
+        distances = {{}, samples.extra_values(kClassColumn), spacing.classes, spacing.min_distance};
+    }
+    GivenSpacing found =
+        check_spacing(mesh, samples.rows, distances, samples.extra_values(kGivenColumn), progress);
     ConstraintOptions constraints = options.constraints;
     constraints.tolerance = options.tolerance;
     const std::size_t before = warnings.size();
@@ -356,6 +440,7 @@ void add_verify_command(Command app) {
                        "bounding-box diagonal (default: radii in the file, else the\n"
                        "distance in its header)");
     add_avoid_option(command, options->constraints);
+    add_class_option(command, options->classes);
     add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
     add_density_options(command, options->density);

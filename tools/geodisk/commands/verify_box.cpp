@@ -36,7 +36,7 @@ std::string result_text(const std::string& path, const BoxParams& box, const Sam
         << "samples       " << grouped(samples.rows.size()) << " in " << one_line(path) << '\n'
         << "min distance  " << rounded(box.min_distance, 9) << '\n'
         << "smallest      " << smallest_text(result, box.min_distance) << '\n';
-    print_violations(out, samples, result, false);
+    print_violations(out, samples, result, "");
     if (outside > 0) {
         out << "outside       " << grouped(outside) << '\n';
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "files/sample_columns.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -22,6 +23,26 @@ void check_count(const SampleJob& job, std::size_t given) {
 
 Sample sample_of(const SampleRow& row) {
     return {row.face, {row.bary[0], row.bary[1], row.bary[2]}};
+}
+
+/// Returns the classes of samples to keep: those of the file, or 0.
+std::vector<std::uint8_t> classes_in(const std::string& path, const SampleFile& file,
+                                     std::size_t count, std::vector<MeshWarning>& warnings) {
+    const auto values = file.extra_values(kClassColumn);
+    std::vector<std::uint8_t> classes(file.rows.size(), 0);
+    if (values.empty()) {
+        warnings.push_back({"no_classes", file.rows.size(), "",
+                            "has no column class; its samples get class 0", path});
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] >= count) {
+            fail_input(path, "sample " + std::to_string(i) + ": its class is " +
+                                 std::to_string(values[i]) + ", but --classes has " +
+                                 std::to_string(count) + ", numbered from 0");
+        }
+        classes[i] = static_cast<std::uint8_t>(values[i]);
+    }
+    return classes;
 }
 
 } // namespace
@@ -67,6 +88,9 @@ GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine&
     check_count(job, file.rows.size());
     for (const SampleRow& row : file.rows) {
         given.samples.push_back(sample_of(row));
+    }
+    if (job.classes.count > 1) {
+        given.classes = classes_in(options.existing, file, job.classes.count, given.warnings);
     }
     return given;
 }

@@ -14,6 +14,7 @@ namespace geodisk::tools {
 /// The samples of --existing and the points of --avoid, and what is odd about them.
 struct GivenInput {
     std::vector<Sample> samples;
+    std::vector<std::uint8_t> classes; ///< Of the samples, if there are several.
     std::vector<KeepOut> avoided;
     std::vector<MeshWarning> warnings; ///< Not printed.
 };

@@ -159,6 +159,10 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     if (!own.avoid.empty()) {
         sample.constraints.avoid = own.avoid;
     }
+    if (!alone.sample.classes.empty()) {
+        place_class_file(sample.classes,
+                         [&folder](const std::string& name) { return seen_from(folder, name); });
+    }
     return line;
 }
 

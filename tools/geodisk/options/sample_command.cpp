@@ -71,6 +71,7 @@ std::string sample_command(const SampleOptions& options) {
     for (const auto& [name, value] : options.constraints.given()) {
         list.add(name.c_str(), value);
     }
+    list.add("--classes", options.classes);
     for (const std::string& only : options.mask.only) {
         list.add("--only", only);
     }

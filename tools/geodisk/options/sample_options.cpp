@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "files/part_columns.hpp"
+#include "files/sample_columns.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/suggestion.hpp"
@@ -48,6 +49,48 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
     }
 }
 
+/// Takes the classes, and their largest distance if a table has it.
+void take_classes(const SampleOptions& options, SampleJob& job) {
+    job.classes = parse_classes(options.classes);
+    if (!job.classes.is_given()) {
+        return;
+    }
+    job.classes_option = options.classes;
+    job.class_factors = job.classes.factors();
+    if (options.density.is_given()) {
+        fail_usage("--classes takes no radii that vary, so neither --density nor --radius-factor");
+    }
+    if (!job.is_geodesic()) {
+        fail_usage("--classes goes by distances along the surface, so it takes no --metric " +
+                   options.metric);
+    }
+    if (!job.out.output.empty()) {
+        check_columns(job.out.target(), std::vector{std::string(kClassColumn)});
+    }
+    if (!job.classes.distances.empty()) {
+        job.min_distance = Length{job.classes.largest(), false};
+    }
+}
+
+/// Checks that the distance is given once.
+void check_distance(const SampleOptions& options, const ClassTable& classes) {
+    if (classes.distances.empty()) {
+        check_one_distance(options.method, {{"--min-distance", options.min_distance},
+                                            {"--radius", options.radius},
+                                            {"--count", options.count}});
+        return;
+    }
+    for (const auto& [name, value] : {std::pair{"--min-distance", &options.min_distance},
+                                      {"--radius", &options.radius},
+                                      {"--count", &options.count}}) {
+        const bool stops = options.method.throws_darts() && value == &options.count;
+        if (!value->empty() && !stops) {
+            fail_usage(std::string("the table of --classes has all distances, so it takes no ") +
+                       name);
+        }
+    }
+}
+
 } // namespace
 
 HeaderEntries SampleJob::additions() const {
@@ -59,9 +102,6 @@ std::string metric_name(const std::optional<Metric>& metric) {
 }
 
 SampleJob parse_job(const SampleOptions& options) {
-    check_one_distance(options.method, {{"--min-distance", options.min_distance},
-                                        {"--radius", options.radius},
-                                        {"--count", options.count}});
     SampleJob job;
     job.mesh = options.mesh;
     job.density = options.density;
@@ -80,6 +120,8 @@ SampleJob parse_job(const SampleOptions& options) {
         fail_usage("--legend is for pictures; add --picture FILE");
     }
     job.method = parse_method(options.method, options.count);
+    take_classes(options, job);
+    check_distance(options, job.classes);
     if (!options.min_distance.empty()) {
         job.min_distance = parse_length("--min-distance", options.min_distance);
     } else if (!options.radius.empty()) {
@@ -133,6 +175,7 @@ void add_subject_options(Command command, SampleOptions& options) {
     add_density_options(command, options.density);
     add_mask_options(command, options.mask);
     add_constraint_options(command, options.constraints);
+    add_class_option(command, options.classes, "Constraints");
 
     command
         .add_option("--metric", options.metric, "NAME",

@@ -8,6 +8,7 @@
 #include <geodisk/domain.hpp>
 #include <geodisk/runner.hpp>
 
+#include "geodisk/options/class_options.hpp"
 #include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mask_options.hpp"
@@ -28,6 +29,7 @@ struct SampleOptions {
     RunOptions run;
     MethodOptions method;
     std::string min_distance, radius, count;
+    std::string classes;
     std::string metric = "geodesic";
     std::string picture;
     bool legend = false;
@@ -49,6 +51,9 @@ struct SampleJob {
     DensityOptions density;
     MaskOptions mask;
     ConstraintOptions constraints;
+    ClassTable classes;
+    std::string classes_option;       ///< As given.
+    std::vector<float> class_factors; ///< SampleParams::class_factors.
     OutputOptions out;
     std::vector<std::string> columns; ///< Of the samples, besides those that all have.
     RunOptions run;
@@ -56,7 +61,7 @@ struct SampleJob {
     Method method;
     std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
     WantedCount wanted_count;
-    SampleParams params; ///< All but the distance, the radii, the throws and given samples.
+    SampleParams params; ///< All but the distance, radii, classes, throws and given samples.
     RunnerOptions runner;
     std::string picture; ///< File for one, or empty.
     bool legend = false; ///< On the picture.

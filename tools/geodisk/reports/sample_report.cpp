@@ -36,9 +36,36 @@ std::string distance_line(const SampleJob& job, const MeshInput& mesh, double la
            ") in mesh units" + (job.is_geodesic() ? "" : ", " + metric_text(job)) + '\n';
 }
 
-/// Says how many samples were given and points avoided, if any were.
-std::string constraint_lines(const SampleResult& result) {
+/// Returns the number of samples of each class.
+std::vector<std::size_t> class_counts(const SampleJob& job, const SampleResult& result) {
+    std::vector<std::size_t> counts(job.classes.count);
+    for (const std::uint32_t number : result.classes) {
+        ++counts.at(number);
+    }
+    return counts;
+}
+
+/// Returns the distances of the classes in mesh units, row by row.
+Json class_distances(const SampleJob& job, double largest) {
+    Json rows = Json::array();
+    for (std::size_t a = 0; a < job.classes.count; ++a) {
+        Json& row = rows.emplace_back(Json::array());
+        for (std::size_t b = 0; b < job.classes.count; ++b) {
+            row.push_back(job.classes.factor(a, b) * largest);
+        }
+    }
+    return rows;
+}
+
+/// Says how many samples were given and points avoided, and those of each class, if any were.
+std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
     std::string text;
+    if (job.classes.is_given()) {
+        for (const std::size_t count : class_counts(job, result)) {
+            text += (text.empty() ? "classes       " : ", ") + grouped(count);
+        }
+        text += " samples\n";
+    }
     if (result.given > 0) {
         const std::size_t pairs = result.among_given.violations.size();
         text += "given         " + grouped(result.given) + " of them";
@@ -96,6 +123,9 @@ SampleHeader SampleReport::header() const {
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));
     }
+    if (job_.classes.is_given()) {
+        header.entries.emplace_back("classes", job_.classes.text());
+    }
     for (const HeaderEntries& more :
          {job_.constraints.entries(), part_name_entries(mesh_.file, job_.columns)}) {
         header.entries.insert(header.entries.end(), more.begin(), more.end());
@@ -127,6 +157,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"sample_radii", nullptr}, // Where they do not vary.
                   {"given", nullptr},
                   {"avoided", result_.avoided}, // Without --existing.
+                  {"classes", nullptr},
                   {"seed", params.seed}};
     document["mesh"]["components_without_samples"] = result_.bare.count;
     if (result_.picture) {
@@ -139,6 +170,10 @@ Json SampleReport::document(const SecondsByStage& after) const {
         document["given"] = {{"samples", result_.given},
                              {"close_pairs", result_.among_given.violations.size()},
                              {"closest", pair_json(result_.among_given.closest)}};
+    }
+    if (job_.classes.is_given()) {
+        document["classes"] = {{"distances", class_distances(job_, distance)},
+                               {"samples", class_counts(job_, result_)}};
     }
     document.update(drawn_json(drawn()));
     document.update({{"rho", rho_},
@@ -164,7 +199,7 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
             << " at the samples\n";
     }
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
-        << constraint_lines(result_) << candidates_text(drawn(), result_.params.seed);
+        << constraint_lines(job_, result_) << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(after), job_.out.output);
     if (result_.picture) {
         out << "picture       " << one_line(job_.picture) << '\n';

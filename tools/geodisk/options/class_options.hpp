@@ -1,0 +1,47 @@
+// The option --classes, the same for every command that takes it, and the classes that it asks for.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "files/files_in_use.hpp"
+
+namespace geodisk::tools {
+
+class Command;
+
+/// Classes of samples and how far they must be apart.
+struct ClassTable {
+    std::size_t count = 0; ///< 0 if samples have no classes.
+    /// Distances in mesh units, count * count, row by row; empty if they follow from the minimum
+    /// distance of each class.
+    std::vector<double> distances;
+
+    bool is_given() const { return count != 0; }
+    /// Returns the largest distance, if there are distances.
+    double largest() const;
+    /// Returns the distance of samples of two classes as a part of the largest.
+    double factor(std::size_t a, std::size_t b) const;
+    /// Returns SampleParams::class_factors: empty for a single class.
+    std::vector<float> factors() const;
+    /// Returns what parse_classes() reads the table from.
+    std::string text() const;
+};
+
+/// Reads the number of classes, or a table of distances: from the text, rows divided by semicolons,
+/// or else from the file that it names. Throws UserError for what is neither.
+ClassTable parse_classes(const std::string& text);
+
+/// Returns true if parse_classes() reads a file.
+bool names_class_file(const std::string& text);
+/// Adds that file.
+void add_class_file(const std::string& text, std::vector<NamedFile>& read);
+/// Puts `place(name)` for that file.
+void place_class_file(std::string& text,
+                      const std::function<std::string(const std::string&)>& place);
+
+void add_class_option(Command command, std::string& text, const std::string& group = "Options");
+
+} // namespace geodisk::tools
