@@ -50,6 +50,8 @@ CHECK_FIELD(geodisk_surface_params, given, 72);
 CHECK_FIELD(geodisk_surface_params, given_count, 80);
 CHECK_FIELD(geodisk_surface_params, avoid, 88);
 CHECK_FIELD(geodisk_surface_params, avoid_count, 104);
+CHECK_FIELD(geodisk_surface_params, class_factors, 112);
+CHECK_FIELD(geodisk_surface_params, given_classes, 128);
 CHECK_FIELD(geodisk_surface_point, weights, 4);
 CHECK_FIELD(geodisk_surface_part, scale, 24);
 CHECK_FIELD(geodisk_box_params, min_distance, 24);

@@ -94,6 +94,42 @@ TEST_CASE("a surface has the samples that it has in C++") {
     CHECK(report.rho > 0.65);
 }
 
+TEST_CASE("samples have classes") {
+    const auto mesh = mesh_of(knot());
+    std::vector<float> factors{1, 0.5f, 0.5f, 0.8f};
+    auto params = sized<geodisk_surface_params>();
+    params.min_distance = 0.5;
+    params.class_factors = factors.data();
+    params.class_count = 2;
+    const auto domain = owned<geodisk_domain>([&](auto made, auto error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+    factors.assign(4, 0); // They are copied.
+    const auto samples = sample(shared_sampler(), domain.get());
+    const std::size_t count = geodisk_samples_count(samples.get());
+    CHECK(geodisk_samples_width(samples.get(), GEODISK_CLASS) == 1);
+    std::vector<std::uint32_t> classes(count);
+    REQUIRE(geodisk_samples_copy(samples.get(), GEODISK_CLASS, GEODISK_UINT32, classes.data(), 0,
+                                 count, nullptr) == GEODISK_OK);
+    const auto first = std::ranges::count(classes, 0u), second = std::ranges::count(classes, 1u);
+    CHECK(first > 10);
+    CHECK(second > first);
+    CHECK(static_cast<std::size_t>(first + second) == count);
+    const auto plain = sample(shared_sampler(), surface_of(mesh.get(), 0.5, 0).get());
+    CHECK(geodisk_samples_width(plain.get(), GEODISK_CLASS) == 0);
+
+    geodisk_domain* none = nullptr;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
+    factors.assign(81, 1);
+    for (const std::size_t wrong : {std::size_t{1}, std::size_t{9}}) {
+        params.class_count = wrong;
+        CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) ==
+              GEODISK_INVALID_ARGUMENT);
+    }
+    params.class_factors = nullptr;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
+}
+
 TEST_CASE("samples that are given come first, and are told") {
     const auto mesh = mesh_of(knot());
     const auto whole = sample(shared_sampler(), surface_of(mesh.get(), 0.2, 3).get());

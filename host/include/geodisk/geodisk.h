@@ -339,6 +339,14 @@ typedef struct geodisk_surface_params {
     const geodisk_surface_point *avoid;
     const double *avoid_radii;
     size_t avoid_count;
+    /* Distances of 2 to 8 classes of samples, as parts of min_distance: a symmetric table of
+     * class_count * class_count factors from 0.01 to 1, row by row, which is copied; NULL if
+     * samples have no classes. Samples of the classes a and b are at least
+     * class_factors[class_count * a + b] * min_distance apart. For GEODISK_GEODESIC only, without
+     * radii and for one surface. */
+    const float *class_factors;
+    size_t class_count;
+    const uint8_t *given_classes; /* Class of each given sample; NULL if all have class 0. */
 } geodisk_surface_params;
 
 /* Makes the domain of one surface. */
@@ -488,8 +496,9 @@ enum {
     GEODISK_NORMAL = 3,      /* 3 numbers: unit normal of the triangle; 0 if it has no area. Needs
                               * a mesh in three dimensions. */
     GEODISK_RADIUS = 4,      /* 1 number: half of the minimum distance, unless radii vary. */
-    GEODISK_PART = 5         /* 1 integer: index of the sample's surface. GEODISK_FACE is an index
+    GEODISK_PART = 5,        /* 1 integer: index of the sample's surface. GEODISK_FACE is an index
                               * into that surface. */
+    GEODISK_CLASS = 6        /* 1 integer: class, if samples have classes. */
 };
 
 /* Returns the count of numbers per sample of an attribute; 0 if the samples lack it. */

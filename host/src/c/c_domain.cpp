@@ -62,6 +62,21 @@ Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& g
         part.avoid.push_back({sample_of(given.avoid[i]), given.avoid_radii[i]});
     }
     part.params.avoid = part.avoid;
+    if (given.class_factors == nullptr && given.class_count != 0) {
+        return wrong("params->class_factors is NULL");
+    }
+    if (given.class_factors != nullptr) {
+        if (given.class_count < 2 || given.class_count > kMostClasses) {
+            return wrong("params->class_count is not from 2 to 8");
+        }
+        part.class_factors.assign(given.class_factors,
+                                  given.class_factors + given.class_count * given.class_count);
+        part.params.class_factors = part.class_factors;
+    }
+    if (given.given_classes != nullptr) {
+        part.given_classes.assign(given.given_classes, given.given_classes + given.given_count);
+        part.params.given_classes = part.given_classes;
+    }
     return Done{};
 }
 

@@ -21,6 +21,8 @@ struct Part {
     std::vector<Sample> given;
     std::vector<std::uint8_t> face_mask;
     std::vector<KeepOut> avoid;
+    std::vector<float> class_factors;
+    std::vector<std::uint8_t> given_classes;
     SampleParams params;
 };
 

@@ -88,7 +88,7 @@ class Places {
 };
 
 bool is_integer(geodisk_attribute attribute) noexcept {
-    return attribute == GEODISK_FACE || attribute == GEODISK_PART;
+    return attribute == GEODISK_FACE || attribute == GEODISK_PART || attribute == GEODISK_CLASS;
 }
 
 std::size_t count_of(const geodisk_samples& samples) noexcept {
@@ -115,6 +115,8 @@ std::uint32_t width_of(const DomainState& domain, geodisk_attribute attribute) n
     case GEODISK_RADIUS:
     case GEODISK_PART:
         return 1;
+    case GEODISK_CLASS:
+        return Domain::Impl::of(*domain.domain).kernels.classes ? 1 : 0;
     case GEODISK_BARYCENTRIC:
         return 3;
     case GEODISK_POSITION:
@@ -172,7 +174,9 @@ void write_numbers(const geodisk_samples& samples, geodisk_attribute attribute, 
 void write_integers(const geodisk_samples& samples, geodisk_attribute attribute, const Target& to) {
     const Places places(*samples.of, samples.set);
     for (std::size_t i = 0; i < count_of(samples); ++i) {
-        const std::uint32_t number = attribute == GEODISK_FACE ? places.face(i) : places.part(i);
+        const std::uint32_t number = attribute == GEODISK_FACE   ? places.face(i)
+                                     : attribute == GEODISK_PART ? places.part(i)
+                                                                 : samples.set.classes[i];
         std::memcpy(to.data + i * to.stride, &number, sizeof number);
     }
 }

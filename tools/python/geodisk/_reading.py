@@ -74,8 +74,21 @@ def _samples(header: Header, **arrays: Any) -> Samples:
     elif arrays.get("face_index") is None:
         raise ValueError("has neither face_index nor a box, so it holds no samples of geodisk")
     arrays["min_distance"] = float(header.get("min_distance", math.nan))
+    if "classes" in header:
+        arrays["class_distances"] = _class_distances(header["classes"], arrays["min_distance"])
     arrays["seed"] = int(header["seed"]) if "seed" in header else None
     return Samples(**arrays)
+
+
+def _class_distances(text: str, distance: float) -> NDArray[np.float64]:
+    """Returns the distances of classes that the header says: a table, or the number of classes."""
+    if ";" in text:
+        rows = text.rstrip(";").split(";")
+        return np.array([[float(x) for x in row.split(",")] for row in rows])
+    count = int(text)
+    table = np.full((count, count), distance / math.sqrt(count))
+    np.fill_diagonal(table, distance)
+    return table
 
 
 def _from_npz(file: BinaryIO) -> Samples:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _library as c
 from . import _structs as s
+from ._classes import Classes
 from ._samples import Samples
 from ._surface import Surface
 
@@ -41,6 +42,7 @@ def samples_of(
     *,
     given: float | None = None,
     distance_part: float = 1,
+    classes: Classes | None = None,
     **box: Any,
 ) -> Samples:
     """Returns what a run gave on a surface or in a box.
@@ -53,6 +55,12 @@ def samples_of(
     columns = _columns_of(handle)
     columns.pop("part")
     columns["given"] = _given(report["samples"], report["given"])
+    if classes is not None:
+        numbers = _copied(handle.value, s.CLASS, np.uint32)
+        columns["class"] = (
+            np.zeros(report["samples"], np.uint32) if numbers is None else numbers[:, 0]
+        )
+        box["class_distances"] = classes.exact_factors * report["min_distance"]
     return _made(columns, surface, report, report["min_distance"], seed, **box)
 
 
@@ -137,9 +145,10 @@ def _made(
 ) -> Samples:
     faces = columns["face_index"]
     whole = {} if surface is None else {k: x[faces] for k, x in surface.columns.items()}
-    given = columns.pop("given")
-    if given is not None:
-        whole["given"] = given
+    for name in ("given", "class"):
+        column = columns.pop(name, None)
+        if column is not None:
+            whole[name] = column
     return Samples(
         min_distance=distance,
         seed=seed,

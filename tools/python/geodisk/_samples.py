@@ -88,7 +88,10 @@ class Samples:
     polygon_index : ndarray of uint32, shape (n,) or None
         Numbers of the given faces, if polygons were split into triangles.
     columns : dict of ndarray of uint32, shape (n,)
-        Numbers that the triangles have in a file, as requested from :class:`Mesh`. ``"given"`` is 1 for existing samples that a run kept, else 0.
+        Numbers that the triangles have in a file, as requested from :class:`Mesh`. ``"given"``
+        is 1 for existing samples that a run kept, else 0. ``"class"`` is the class of each sample.
+    class_distances : ndarray of float64, shape (k, k) or None
+        Minimum distances of the pairs of classes; None if samples have no classes.
 
     Raises
     ------
@@ -128,6 +131,7 @@ class Samples:
     report: dict[str, Any] = field(default_factory=dict)
     polygon_index: NDArray[np.uint32] | None = None
     columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
+    class_distances: NDArray[np.float64] | None = None
     _surface: Surface | None = None
 
     def __post_init__(self) -> None:
@@ -178,6 +182,11 @@ class Samples:
             if self.points is None or self.points.shape[1] != len(sides):
                 raise e.invalid(f"extents are {len(sides)} sides, not one for each coordinate")
             keep("extents", sides)
+
+    @property
+    def classes(self) -> NDArray[np.uint32] | None:
+        """Class of each sample, ``columns["class"]``; None if samples have no classes."""
+        return self.columns.get("class")
 
     def __len__(self) -> int:
         return len(self.radius)

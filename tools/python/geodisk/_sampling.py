@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._mesh import keys_of, mask_of, mesh_of
@@ -42,6 +43,7 @@ def sample(
     face_mask: ArrayLike | None = None,
     existing: ExistingLike | None = None,
     avoid: AvoidLike | None = None,
+    classes: ClassesLike | None = None,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
@@ -94,6 +96,10 @@ def sample(
         Points to keep away from, as for `existing`, and their radius or radii along the surface.
         No new sample is within the radius of its point, which may be larger or smaller than the
         minimum distance.
+    classes : int or array_like of float, shape (k, k), optional
+        Number of classes of samples, 1 to 8, each with the minimum distance D, where samples of
+        two classes are D / sqrt(k) apart. Or a symmetric table of the distances of all pairs of
+        classes, in place of the minimum distance. ``columns["class"]`` has the classes.
     metric : {"geodesic", "euclidean", "approximate"}
         Distance to use; the last two are for comparison.
     edge_lengths, weld, keep_seams, columns, mesh_format
@@ -143,6 +149,11 @@ def sample(
     True
     """
     throws = integer(throws, "throws", 2**32 - 1)
+    kinds = None if classes is None else Classes(classes)
+    if kinds is not None and kinds.largest is not None:
+        if [min_distance, radius, count] != [None] * 3:
+            raise e.invalid("a table of classes takes no min_distance, radius or count")
+        min_distance = kinds.largest
     distance = given = distance_of(min_distance, radius, count, throws)
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
@@ -172,6 +183,11 @@ def sample(
         avoid_radii=point_radii.ctypes.data,
         avoid_count=len(points),
     )
+    if kinds is not None and kinds.count > 1:
+        own_classes = kinds.given(existing, len(kept))
+        params.class_factors = kinds.factors.ctypes.data
+        params.class_count = kinds.count
+        params.given_classes = own_classes.ctypes.data
 
     def domain_at(at: float, stop: int) -> c.Handle:
         params.min_distance, params.stop_count = at, stop
@@ -184,12 +200,12 @@ def sample(
             mesh._handle.value,
             None if radii is None else radii.handle.value,
             params.face_mask,
-            float(count or 0),
+            max(1.0, float(count or 0) / (1 if kinds is None else kinds.density)),
             byref(found),
         )
         distance = found.value * part
     made = sampled(domain_at, distance / part, count, exact, stop_count, device, progress)
-    samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part)
+    samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
     samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, mesh._handle, count, stop_count, throws, mask))
     return samples

@@ -19,7 +19,7 @@ from ctypes import (
 from typing import Any
 
 FLOAT64, FLOAT32, UINT32, UINT16 = range(4)
-FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART = range(6)
+FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART, CLASS = range(7)
 METRICS = {"geodesic": 0, "euclidean": 1, "approximate": 2}
 NO_ELEMENT = 2**64 - 1
 
@@ -121,6 +121,9 @@ class SurfaceParams(_Sized):
         ("avoid", c_void_p),
         ("avoid_radii", c_void_p),
         ("avoid_count", c_size_t),
+        ("class_factors", c_void_p),
+        ("class_count", c_size_t),
+        ("given_classes", c_void_p),
     ]
 
 

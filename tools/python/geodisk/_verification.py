@@ -112,7 +112,8 @@ def verify(
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     min_distance : float, optional
-        Required distance, in the unit of the vertices. By default each sample keeps its radius.
+        Required distance, in the unit of the vertices. By default each sample keeps its radius, or
+        the distances of its class.
     density, radius_factor : array_like of float, shape (v,), optional
         As for :func:`sample`. Radii are computed again from it and the minimum distance (by default
         that of the samples), and compared with those of the samples.

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 Header = dict[str, str]
 
 #: Names of columns of whole numbers: what part of its file a triangle lies in, and whether the
-#: sample was given.
-WHOLE_COLUMNS = ("mesh", "primitive", "node", "material", "group", "part", "given")
+#: sample was given, and its class.
+WHOLE_COLUMNS = ("mesh", "primitive", "node", "material", "group", "part", "given", "class")
 
 
 def header_of(samples: Samples) -> Header:
@@ -27,6 +27,9 @@ def header_of(samples: Samples) -> Header:
     if not math.isnan(samples.min_distance):
         header["min_distance"] = repr(samples.min_distance)
         header["radius"] = repr(samples.min_distance / 2)
+    if samples.class_distances is not None:
+        rows = [",".join(map(repr, row)) for row in samples.class_distances.tolist()]
+        header["classes"] = ";".join(rows) + (";" if len(rows) == 1 else "")
     if samples.seed is not None:
         header["seed"] = str(samples.seed)
     if samples.extents is not None:

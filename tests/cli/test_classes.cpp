@@ -1,0 +1,124 @@
+// Classes of samples, made and verified.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "files/output_file.hpp"
+#include "files/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kMesh = "builtin:torus-knot:8";
+
+Json json_in(const TemporaryFolder& folder, const char* name) {
+    return Json::parse(bytes_of(folder / name));
+}
+
+} // namespace
+
+TEST_CASE("classes by number") {
+    const TemporaryFolder folder;
+    const Outcome made = run(
+        folder, {"sample", kMesh, "-o", "a.ply", "-d", "5%", "--classes", "3", "--json", "a.json"});
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    const Json classes = json_in(folder, "a.json")["classes"];
+    CHECK(classes["samples"].size() == 3);
+    CHECK(classes["distances"][0][1].get<double>() ==
+          doctest::Approx(classes["distances"][0][0].get<double>() / std::sqrt(3)));
+    const tools::SampleFile samples = tools::read_samples(folder / "a.ply");
+    const auto column = samples.extra_values("class");
+    REQUIRE(column.size() == samples.rows.size());
+    CHECK(classes["samples"][2] == std::ranges::count(column, 2u));
+    CHECK(*samples.header.find("classes") == "3");
+    const Outcome verified = run(folder, {"verify", kMesh, "a.ply"});
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "of the distance of two classes"));
+    // All together are denser than one class.
+    CHECK(run(folder, {"verify", kMesh, "a.ply", "-d", "5%"}).status == 1);
+    CHECK(run(folder, {"verify", kMesh, "a.ply", "-d", "2.8%"}).status == 0);
+
+    // One class is no other than none.
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "one.csv", "-d", "5%", "--classes", "1"}).status ==
+            0);
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "none.csv", "-d", "5%"}).status == 0);
+    const tools::SampleFile one = tools::read_samples(folder / "one.csv");
+    const tools::SampleFile none = tools::read_samples(folder / "none.csv");
+    CHECK(std::ranges::equal(one.rows, none.rows, {}, &tools::SampleRow::face,
+                             &tools::SampleRow::face));
+    CHECK(std::ranges::count(one.extra_values("class"), 0u) ==
+          static_cast<std::ptrdiff_t>(one.rows.size()));
+    CHECK(run(folder, {"verify", kMesh, "one.csv"}).status == 0);
+}
+
+TEST_CASE("classes by a table, in a file too, and with existing samples") {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "table.csv") << "# trees and shrubs\n0.4, 0.2\n0.2; 0.15\n";
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.csv", "--classes", "table.csv"}).status == 0);
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "b.csv", "--classes", "0.4,0.2;0.2,0.15"}).status ==
+            0);
+    CHECK(bytes_of(folder / "a.csv") == bytes_of(folder / "b.csv"));
+    CHECK(run(folder, {"verify", kMesh, "a.csv"}).status == 0);
+    const Outcome closer = run(folder, {"verify", kMesh, "a.csv", "--classes", "0.4,0.3;0.3,0.15"});
+    CHECK(closer.status == 1);
+    CHECK(contains(closer.err, "closer than the distance of their classes"));
+
+    const Outcome more = run(folder, {"sample", kMesh, "-o", "c.ply", "--classes", "table.csv",
+                                      "--existing", "a.csv", "--seed", "5"});
+    INFO(more.out, more.err);
+    CHECK(more.status == 0);
+    CHECK(run(folder, {"verify", kMesh, "c.ply"}).status == 0);
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "plain.ply", "-d", "1"}).status == 0);
+    const Outcome classless = run(folder, {"sample", kMesh, "-o", "d.ply", "--classes", "table.csv",
+                                           "--existing", "plain.ply"});
+    CHECK(classless.status == 0);
+    CHECK(contains(classless.err, "has no column class; its samples get class 0"));
+    CHECK(run(folder, {"verify", kMesh, "d.ply"}).status == 0);
+    CHECK(contains(run(folder, {"verify", kMesh, "plain.ply", "--classes", "table.csv"}).err,
+                   "has no column class"));
+}
+
+TEST_CASE("what no classes are ends in an error, without a file") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-d", "10%", "--classes", "3"}).status ==
+            0);
+    std::ofstream(folder / "bad.csv") << "1 x\nx 1\n";
+    for (const auto& [options, message] : std::vector<std::pair<Arguments, const char*>>{
+             {{"--classes", "0", "-d", "1"}, "neither a number of classes from 1 to 8"},
+             {{"--classes", "9", "-d", "1"}, "neither a number of classes from 1 to 8"},
+             {{"--classes", "0.5", "-d", "1"}, "neither a number of classes from 1 to 8"},
+             {{"--classes", "none.csv"}, "no such file"},
+             {{"--classes", "bad.csv"}, "line 1: 'x' is no number"},
+             {{"--classes", "1,2;3,1"}, "not symmetric"},
+             {{"--classes", "1,-2;-2,1"}, "not positive and finite"},
+             {{"--classes", "1,2;2"}, "row 1 of the table has 1 distance"},
+             {{"--classes", "1,0.001;0.001,1"}, "more than a factor of 100"},
+             {{"--classes", "1,1;1,1", "-d", "1"}, "takes no --min-distance"},
+             {{"--classes", "1,1;1,1", "-n", "10"}, "takes no --count"},
+             {{"--classes", "2"}, "no distance given"},
+             {{"--classes", "2", "-d", "1", "--density", "curvature"}, "no radii that vary"},
+             {{"--classes", "2", "-d", "1", "--metric", "euclidean"}, "--metric euclidean"},
+             {{"--classes", "2", "-d", "1", "--existing", "a.ply"}, "its class is 2"}}) {
+        const Outcome refused = run(folder, joined({"sample", kMesh, "-o", "b.ply"}, options));
+        INFO(refused.err);
+        CHECK(refused.status != 0);
+        CHECK(contains(refused.err, message));
+        CHECK_FALSE(std::filesystem::exists(folder / "b.ply"));
+    }
+    CHECK(contains(run(folder, {"sample", kMesh, "-o", "b.xyz", "-d", "1", "--classes", "2"}).err,
+                   "holds points alone, so no column class"));
+}
+
+} // namespace geodisk::test

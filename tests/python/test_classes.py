@@ -1,0 +1,62 @@
+"""Classes of samples."""
+
+import geodisk
+import numpy as np
+import pytest
+
+from meshes import FACES, VERTICES, same
+
+
+def test_classes_keep_their_distances(tmp_path):
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=3)
+    counts = np.bincount(samples.classes)
+    assert len(counts) == 3 and counts.min() > 20
+    assert samples.class_distances[0, 1] == pytest.approx(0.6 / np.sqrt(3))
+    found = geodisk.verify(samples)
+    assert found.ok and found.smallest_ratio >= 1
+    assert not geodisk.verify(samples, min_distance=0.6).ok
+    for name in ("a.ply", "a.csv", "a.npz"):
+        samples.save(tmp_path / name)
+        again = geodisk.read(tmp_path / name)
+        assert np.array_equal(again.classes, samples.classes)
+        assert np.allclose(again.class_distances, samples.class_distances)
+        assert geodisk.verify(again, VERTICES, FACES).ok
+    assert samples[:5].classes.tolist() == samples.classes[:5].tolist()
+    plain = geodisk.sample(VERTICES, FACES, min_distance=0.6)
+    one = geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=1)
+    assert same(one, plain) and plain.classes is None and one.classes.sum() == 0
+
+
+def test_a_table_has_all_distances():
+    table = [[0.6, 0.3], [0.3, 0.4]]
+    samples = geodisk.sample(VERTICES, FACES, classes=table, seed=4)
+    assert samples.min_distance == 0.6 and geodisk.verify(samples).ok
+    few, many = np.bincount(samples.classes)
+    assert 1.5 < many / few < 4
+    again = geodisk.sample(VERTICES, FACES, classes=table, seed=4, existing=samples[:40])
+    assert same(again, samples) and np.array_equal(again.classes, samples.classes)
+    samples.classes[:] = 0
+    assert not geodisk.verify(samples).ok
+
+
+def test_a_count_is_that_of_all_classes():
+    samples = geodisk.sample(VERTICES, FACES, count=600, classes=2)
+    assert abs(len(samples) - 600) <= 30
+
+
+def test_wrong_ones_are_refused():
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=3)
+    for options, text in (
+        ({"classes": 0}, "not a number from 1 to 8"),
+        ({"classes": 2.5}, "not a number from 1 to 8"),
+        ({"classes": np.ones((9, 9))}, "has the shape"),
+        ({"classes": [[1, 2], [3, 1]]}, "not symmetric"),
+        ({"classes": [[1, -2], [-2, 1]]}, "not positive"),
+        ({"classes": [[1, 0.001], [0.001, 1]]}, "factor of 100"),
+        ({"classes": [[1, 1], [1, 1]], "min_distance": 1}, "takes no min_distance"),
+        ({"classes": 2, "min_distance": 0.6, "existing": samples}, "has class 2"),
+        ({"classes": 2, "min_distance": 0.6, "metric": "euclidean"}, "class_factors"),
+        ({"classes": 2, "min_distance": 0.6, "density": np.ones(len(VERTICES))}, "radii that vary"),
+    ):
+        with pytest.raises(geodisk.InvalidArgument, match=text):
+            geodisk.sample(VERTICES, FACES, **options)

@@ -1,0 +1,75 @@
+"""Classes of samples, and how far they must be apart."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from ._arrays import real
+from ._samples import Samples
+
+#: Number of classes, or a table of their distances.
+ClassesLike = Union[int, ArrayLike]
+
+_MOST = 8
+_LEAST_FACTOR = 0.01
+
+
+class Classes:
+    """The classes of a run: factors of the minimum distance, and distances where a table has them."""
+
+    def __init__(self, classes: ClassesLike) -> None:
+        table = real(classes, "classes").astype(np.float64)
+        self.distances: NDArray[np.float64] | None = None
+        if table.ndim == 0:
+            if table != int(table) or not 1 <= table <= _MOST:
+                raise e.invalid(f"classes is {classes}, not a number from 1 to {_MOST}, or a table")
+            count = int(table)
+            factors = np.full((count, count), 1 / math.sqrt(count))
+            np.fill_diagonal(factors, 1)
+        else:
+            _check(table)
+            self.distances = table
+            factors = table / table.max()
+        self.count = len(factors)
+        self.exact_factors = factors
+        #: As the library takes them.
+        self.factors = np.maximum(factors, _LEAST_FACTOR).astype(np.float32)
+
+    @property
+    def largest(self) -> float | None:
+        """The largest distance of the table; None without one."""
+        return None if self.distances is None else float(self.distances.max())
+
+    @property
+    def density(self) -> float:
+        """How many times as many samples fit as with one distance for all."""
+        return float((1 / np.diag(self.factors) ** 2).sum())
+
+    def given(self, existing: Any, count: int) -> NDArray[np.uint8]:
+        """Returns the classes of `count` samples to keep: 0 unless they have some."""
+        if not isinstance(existing, Samples) or "class" not in existing.columns:
+            return np.zeros(count, np.uint8)
+        classes = existing.columns["class"]
+        if (classes >= self.count).any():
+            first = int(np.argmax(classes >= self.count))
+            raise e.invalid(
+                f"existing: sample {first} has class {classes[first]}, but there are {self.count}, "
+                "numbered from 0"
+            )
+        return classes.astype(np.uint8)
+
+
+def _check(table: NDArray[np.float64]) -> None:
+    if table.ndim != 2 or table.shape[0] != table.shape[1] or not 1 <= len(table) <= _MOST:
+        raise e.invalid(f"the table of classes has the shape {table.shape}, not (k, k) up to (8, 8)")
+    if not (np.isfinite(table).all() and (table > 0).all()):
+        raise e.invalid("the table of classes has distances that are not positive and finite")
+    if not (table == table.T).all():
+        raise e.invalid("the table of classes is not symmetric")
+    if table.min() < _LEAST_FACTOR * table.max():
+        raise e.invalid("the distances of classes differ by more than a factor of 100")
