@@ -27,7 +27,7 @@ class Classes:
         self.distances: NDArray[np.float64] | None = None
         if table.ndim == 0:
             if table != int(table) or not 1 <= table <= _MOST:
-                raise e.invalid(f"classes is {classes}, not a number from 1 to {_MOST}, or a table")
+                raise e.invalid(f"classes is {classes!r}, not a number from 1 to {_MOST}, or a table")
             count = int(table)
             factors = np.full((count, count), 1 / math.sqrt(count))
             np.fill_diagonal(factors, 1)
