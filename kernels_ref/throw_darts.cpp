@@ -5,29 +5,6 @@
 namespace geodisk::ref {
 namespace {
 
-/// Returns the power of two by which lengths are multiplied in the disk of a point to avoid.
-template <class Real>
-Real scale_of(Real radius) {
-    Real scale = 1;
-    while (radius > 1 && radius * scale >= 1) {
-        scale /= 2;
-    }
-    return scale;
-}
-
-/// Returns the surface with all lengths multiplied by this. Radii are all the same.
-template <class Real>
-Surface<Real> scaled(Surface<Real> surface, Real scale) {
-    for (Edge<Real>& edge : surface.edges) {
-        edge.length *= scale;
-        edge.apex_x *= scale;
-        edge.apex_y *= scale;
-    }
-    surface.radii.clear();
-    surface.classes = {};
-    return surface;
-}
-
 /// Rejects candidates around points to avoid. Large disks are computed in a larger unit.
 template <class Real>
 void keep_out(const Surface<Real>& surface, const Pool<Real>& pool, const Tolerances& tolerances,

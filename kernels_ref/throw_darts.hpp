@@ -27,6 +27,29 @@ struct AvoidedPoint {
     Real radius; ///< In units of the frame.
 };
 
+/// Returns the power of two by which lengths are multiplied in the disk of a point to avoid.
+template <class Real>
+Real scale_of(Real radius) {
+    Real scale = 1;
+    while (radius > 1 && radius * scale >= 1) {
+        scale /= 2;
+    }
+    return scale;
+}
+
+/// Returns the surface with all lengths multiplied by this. Radii are all the same.
+template <class Real>
+Surface<Real> scaled(Surface<Real> surface, Real scale) {
+    for (Edge<Real>& edge : surface.edges) {
+        edge.length *= scale;
+        edge.apex_x *= scale;
+        edge.apex_y *= scale;
+    }
+    surface.radii.clear();
+    surface.classes = {};
+    return surface;
+}
+
 /// Visits the ranks upwards and accepts each candidate that no point to avoid, no given sample and
 /// no accepted one rejected, until the pool is used up or there are `most` samples, given ones
 /// included. Given samples have class 0 unless `given_classes` has one for each.

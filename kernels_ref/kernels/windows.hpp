@@ -69,6 +69,9 @@ class Windows {
     /// Sets the limit of later disks.
     void set_limit(Real limit) { limit_ = limit; }
 
+    /// Returns, for what is lit, the distance below which a point without a radius is near.
+    Real limit_for_points() const { return adaptive() ? limit_with(Real{0}) : path_limit(); }
+
     /// Sets the class of the sources of later disks. `words` are those of the points by place,
     /// whose lowest bits are their classes; they must outlive the disks.
     void set_class(std::uint32_t own, std::span<const std::uint32_t> words) {
