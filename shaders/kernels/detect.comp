@@ -10,6 +10,9 @@
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
+//
+// Compiled with GEODISK_LIGHT it is the kernel `light`: the disks of settled samples, which list no
+// candidates but record how they light each face.
 
 #define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"
@@ -23,9 +26,11 @@
 layout(local_size_x_id = 4) in; // kSpecSlotLocalSize
 layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 
+#ifndef GEODISK_LIGHT
 GEODISK_WORDS(kBindCells, cells);
 GEODISK_WORDS(kBindWeights, weights);
 GEODISK_WORDS(kBindOrders, orders);
+#endif
 GEODISK_OWN_ROWS(kBindPool, kBindPoolTexels, pool);
 GEODISK_CONTROL;
 
@@ -38,11 +43,15 @@ GEODISK_CONTROL;
 #include "../lib/shadow.glsl"
 #include "../lib/trim.glsl"
 
+#ifdef GEODISK_LIGHT
+#include "../lib/light.glsl"
+#else
 void note_conflict(uint place, bool is_active, bool conflicts) {
     list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active, conflicts);
 }
 
 #include "../lib/scan.glsl"
+#endif
 #include "../lib/source.glsl"
 #include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
@@ -65,6 +74,9 @@ void hand_in_slot() {
     complete_one();
 }
 
+#ifdef GEODISK_LIGHT
+void block_conflicts() { lane.phase = kPhaseComplete; }
+#else
 // Counts the candidate among the blocks of the active ones behind it in its disk.
 void block_conflicts() {
     uvec4 own = sample_of(lane.slot);
@@ -76,6 +88,7 @@ void block_conflicts() {
     }
     lane.phase = lane.cursor == lane.active_conflicts ? kPhaseComplete : kPhaseBlock;
 }
+#endif
 
 bool slots_left() { return atomic_load(control.next_slot) < control.slots_used; }
 

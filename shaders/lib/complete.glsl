@@ -4,6 +4,7 @@
 
 #include "slots.glsl"
 
+#ifndef GEODISK_LIGHT
 // Adds a block of the candidate with these sample words to the one at this place, if that is active and
 // comes after it.
 void block(uvec4 own, uint place) {
@@ -12,6 +13,7 @@ void block(uvec4 own, uint place) {
         atomicAdd(slots[other].blocks, 1u);
     }
 }
+#endif
 
 // The invocation that completes the last disk ends further dispatches of the batch.
 void complete_one() {

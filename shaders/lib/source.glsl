@@ -1,10 +1,10 @@
-// The candidate whose disk is computed, and the sources of operations inside a face.
+// The candidate whose disk is computed, and the sources of operations inside a face. Needs scan.glsl or
+// light.glsl.
 #ifndef GEODISK_SOURCE_GLSL
 #define GEODISK_SOURCE_GLSL
 
 #include "lists.glsl"
 #include "operation.glsl"
-#include "scan.glsl"
 #include "shadow.glsl"
 
 uint own_face;

@@ -108,6 +108,15 @@ struct GroupRec {
     uint tested; uint pushed; uint most_waiting; uint longest_chain; // as of LaneRec
 };
 
+// How the disk of a settled sample lights a face: the half-edge, and 1 if all of the face is lit; the sample;
+// the distance of the source, and what a path may be as long as, without the radius of its target, where radii
+// vary; negative for a point to avoid. The source in the frame of the half-edge, and the part of the edge
+// through which it is seen.
+struct LitRec {
+    uint place; uint sample_index; float sigma; float limit;
+    float x; float y; float low; float high;
+};
+
 // State of the run. The leading words are the indirect sizes of select, detect and resolve. The words
 // before `accepted` start from zero with every chunk.
 struct ControlRec {
@@ -182,6 +191,7 @@ static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 176 && offsetof(LaneRec, held_b0) == 172);
 static_assert(sizeof(GroupRec) == 112 && offsetof(GroupRec, longest_chain) == 108);
+static_assert(sizeof(LitRec) == 32 && offsetof(LitRec, high) == 28);
 static_assert(sizeof(ControlRec) == 252 && offsetof(ControlRec, lane_trips_high) == 248);
 } // namespace geodisk::gpu
 #endif

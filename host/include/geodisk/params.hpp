@@ -71,6 +71,11 @@ struct SampleParams {
     std::span<const float> class_factors{};
     /// Class of each given sample; empty if all have class 0. Must outlive the run.
     std::span<const std::uint8_t> given_classes{};
+    /// Goes on after the pool until no further sample fits anywhere: the set is maximal. Only
+    /// Runner does, in several rounds; see RunReport::maximal and host/docs/maximal.md. The samples
+    /// begin with those of the pool. Not with `throws`, `stop_count`, a density, several surfaces
+    /// or distances through space.
+    bool maximal = false;
 };
 
 /// Source of a job's candidates: a pool, or an exact number of darts. They come in stages. Each is

@@ -45,7 +45,21 @@ struct RunSeconds {
     double readback = 0;
 };
 
-/// How a run went.
+/// How a maximal set was completed (SampleParams::maximal).
+struct MaximalReport {
+    std::uint32_t rounds = 0; ///< Rounds in which darts were thrown into gaps.
+    std::uint64_t cells = 0;  ///< Parts of faces that were tested.
+    std::uint64_t darts = 0;  ///< Darts that hit a gap.
+    /// True if every point of the surface is covered: nearer to a sample than `largest_gap`. False
+    /// if there is a gap too small for single precision; no dart hits it.
+    bool certified = false;
+    /// Bound on the distance from any point to the nearest sample, in mesh units: the minimum
+    /// distance and twice the guard, or more if not certified. If radii vary, the bound on the
+    /// excess over r(p) + r(q), plus the minimum distance. 0 unless the set is maximal.
+    double largest_gap = 0;
+};
+
+/// How a run went. Of a maximal set, numbers add up over all its jobs.
 struct RunReport {
     std::uint32_t candidates = 0;    ///< Candidates decided: all, or up to the last sample of a
                                      ///< count.
@@ -76,6 +90,7 @@ struct RunReport {
     RunPlan plan;                   ///< Plan at the end of the run.
     RunSeconds seconds;
     StageSeconds stages{}; ///< Device time, 0 without RunnerOptions::time_stages.
+    MaximalReport maximal;
 };
 
 /// Samples in dart-throwing order.

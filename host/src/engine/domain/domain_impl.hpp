@@ -3,11 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <geodisk/domain.hpp>
+#include <geodisk/job_frame.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
 #include <geodisk/sampler.hpp>
 
 #include "engine/domain/tolerances.hpp"
@@ -17,6 +21,15 @@
 #include "samples.h"
 
 namespace geodisk {
+
+/// What a maximal set is made from.
+struct MaximalJob {
+    const PreparedMesh* mesh;
+    SampleParams params; ///< Of the first samples, without the samples and points below.
+    JobFrame frame;
+    std::vector<Sample> given;
+    std::vector<KeepOut> avoid;
+};
 
 /// Members are computed once from the job. Each kind of domain has its own file.
 struct Domain::Impl {
@@ -35,6 +48,9 @@ struct Domain::Impl {
     ErrorModel error;          ///< Bound on the error of distances.
     /// True if the host gives the candidates, and upload_parts() has them.
     bool is_listed = false;
+    /// Set if the samples of this domain, made with its parameters, are only the first ones of a
+    /// maximal set.
+    std::optional<MaximalJob> maximal;
     /// Number of units that candidates are drawn by: faces, or cells of a box.
     std::uint64_t units = 0;
     /// Device memory per candidate, approximately.

@@ -79,6 +79,26 @@ double border_length(const PreparedMesh& mesh, const SampleParams& params) {
     return length;
 }
 
+/// Checks that nothing else ends a maximal set, or leaves gaps in it.
+Result<Done> check_maximal(const SampleParams& params) {
+    if (!params.maximal) {
+        return Done{};
+    }
+    if (params.throws != 0) {
+        return invalid("a maximal set ends when no sample fits, not after a number of darts");
+    }
+    if (params.stop_count != 0) {
+        return invalid("a maximal set ends when no sample fits, not at a count");
+    }
+    if (params.radii != nullptr && !params.radii->packing().empty()) {
+        return invalid("a maximal set leaves no gaps, so it has no density; give radius factors");
+    }
+    if (!params.class_factors.empty()) {
+        return invalid("a maximal set has no classes");
+    }
+    return Done{};
+}
+
 } // namespace
 
 double effective_area(const PreparedMesh& mesh, const SampleParams& params) noexcept {
@@ -143,6 +163,9 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
         return checked.error();
     }
     if (auto checked = check_mask(mesh, params); !checked) {
+        return checked.error();
+    }
+    if (auto checked = check_maximal(params); !checked) {
         return checked.error();
     }
     return check_given(mesh, params);

@@ -128,6 +128,10 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
             return Error{Status::invalid_argument,
                          "SampleParams::class_factors is for geodesic distances alone"};
         }
+        if (params.maximal) {
+            return Error{Status::invalid_argument,
+                         "SampleParams::maximal is for geodesic distances alone"};
+        }
         if (!params.avoid.empty()) {
             return Error{Status::invalid_argument,
                          "SampleParams::avoid is for geodesic distances alone"};

@@ -13,6 +13,7 @@
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
+#include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 
@@ -111,6 +112,9 @@ Result<PlacedSurface> place(const SurfacePart& part) {
     if (!params.class_factors.empty()) {
         return invalid("samples on several surfaces have no classes");
     }
+    if (params.maximal) {
+        return invalid("a maximal set is of one surface; sample each alone");
+    }
     PlacedSurface surface = placed(*part.mesh, params, *frame);
     surface.scale = part.scale;
     return surface;
@@ -207,6 +211,27 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
     return Domain::Impl::wrap(std::move(made));
 }
 
+Result<Domain> SurfaceDomain::lights(const PreparedMesh& mesh, const SampleParams& params,
+                                     const JobFrame& frame, std::uint32_t most_records) {
+    PlacedSurface surface = placed(mesh, params, frame);
+    surface.stages = listed_stages(surface.stages.samples, 1);
+    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, FaceCells{});
+    // A job needs a candidate. This one is never decided.
+    const ListedCandidate candidate{0, 0, 0};
+    made->is_listed = true;
+    made->listed_ = listed_buffers(surface, made->cells_, {&candidate, 1});
+    made->listed_.weights = {0, most_records, 0, 0};
+    made->kernels.lights = true;
+    made->most_records_ = most_records;
+    made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
+    return Domain::Impl::wrap(std::move(made));
+}
+
+Result<Domain> SurfaceDomain::plain(const PreparedMesh& mesh, const SampleParams& params,
+                                    const JobFrame& frame) {
+    return wrapped(make({placed(mesh, params, frame)}));
+}
+
 SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells)
     : surfaces_(std::move(surfaces)), cells_(std::move(cells)) {
     stages = stages_of(surfaces_);
@@ -237,6 +262,16 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
     // Several have none of it, and seeds of their own.
     const SampleParams& params = surfaces_[0].params;
     samples_per_measure = samples_per_area() * class_density(params);
+    if (params.maximal) {
+        maximal = MaximalJob{surfaces_[0].mesh,
+                             params,
+                             surfaces_[0].frame,
+                             {params.given.begin(), params.given.end()},
+                             {params.avoid.begin(), params.avoid.end()}};
+        maximal->params.maximal = false;
+        maximal->params.given = {};
+        maximal->params.avoid = {};
+    }
     samples = samples_to_expect(full_, params.throws, params.stop_count);
     stop_count = params.stop_count;
     seed = kernels.several ? 0 : params.seed;
@@ -253,7 +288,7 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
     const double faces = faces_per_disk();
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    if (suits_groups(faces, plan.slots, report)) {
+    if (!kernels.lights && suits_groups(faces, plan.slots, report)) {
         plan.disks_by = DisksBy::groups;
         plan.pool_block = 1;
         // More than it has threads would be disks in vain.
@@ -310,7 +345,9 @@ void SurfaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
     for (const BufferRole role : {BufferRole::faces, BufferRole::fans}) {
         needs.bytes[static_cast<std::size_t>(role)] = upload_size(role);
     }
-    needs.bytes[gpu::kBindWeights] = std::uint64_t{candidates} * 8;
+    needs.bytes[gpu::kBindWeights] =
+        kernels.lights ? kRowBytes + std::uint64_t{most_records_} * sizeof(gpu::LitRec)
+                       : std::uint64_t{candidates} * 8;
 }
 
 std::string SurfaceDomain::beside_candidates() const {

@@ -23,6 +23,14 @@ class SurfaceDomain : public Domain::Impl {
                                  const JobFrame& frame,
                                  std::span<const ListedCandidate> candidates);
 
+    /// Makes the domain of the given samples and points to avoid of `params`, without candidates:
+    /// their disks record how they light faces, at most so many times (gpu::LitRec).
+    static Result<Domain> lights(const PreparedMesh& mesh, const SampleParams& params,
+                                 const JobFrame& frame, std::uint32_t most_records);
+    /// Makes the domain of a surface whose parameters are checked.
+    static Result<Domain> plain(const PreparedMesh& mesh, const SampleParams& params,
+                                const JobFrame& frame);
+
     std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
                     const DeviceReport& report) const override;
@@ -47,9 +55,10 @@ class SurfaceDomain : public Domain::Impl {
     std::vector<PlacedSurface> surfaces_;
     double first_error_ = 0;
     FaceCells cells_;
-    ListedBuffers listed_; ///< Empty unless the host gives the candidates.
-    double full_ = 0;      ///< Samples that full surfaces hold, at least two each.
-    double whole_ = 0;     ///< The same without masks: no disk covers more than all faces.
+    std::uint32_t most_records_ = 0; ///< Of lights().
+    ListedBuffers listed_;           ///< Empty unless the host gives the candidates.
+    double full_ = 0;                ///< Samples that full surfaces hold, at least two each.
+    double whole_ = 0; ///< The same without masks: no disk covers more than all faces.
 };
 
 } // namespace geodisk

@@ -72,7 +72,7 @@ std::uint32_t Job::Impl::stages_left(const gpu::ControlRec& control) const {
 }
 
 double Job::Impl::decided(const gpu::ControlRec& control) const {
-    const double part = static_cast<double>(control.first_order) / chunk_end;
+    const double part = chunk_end > 0 ? static_cast<double>(control.first_order) / chunk_end : 0;
     return static_cast<double>(thrown) + part * static_cast<double>(darts(control));
 }
 

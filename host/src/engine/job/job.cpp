@@ -95,8 +95,9 @@ Job::Impl::~Impl() {
 
 Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_plan) {
     const bool has_slices = wanted.domain == DomainKind::surface;
+    const bool may_group = has_slices && !wanted.lights;
     wanted.groups =
-        (for_plan.disks_by == DisksBy::groups || for_plan.large_groups > 0) && has_slices;
+        (for_plan.disks_by == DisksBy::groups || for_plan.large_groups > 0) && may_group;
     wanted.trims = for_plan.trims && has_slices;
     wanted.lanes_apart = for_plan.pool_block != sampler->choices.tuning.pool_block && has_slices;
     const auto pipelines = sampler->pipelines.of(wanted);
@@ -192,6 +193,7 @@ void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
     push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(chunk_end - 1u)) -
                         static_cast<std::uint32_t>(std::countr_zero(constants.buckets));
+    chunk_end = variant.lights ? 0 : chunk_end; // Only settled samples have disks.
     apply_end();
 }
 
@@ -304,6 +306,10 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
         return needs.error();
     }
     const Domain::Impl& of = Domain::Impl::of(of_domain);
+    if (of.maximal) {
+        return Error{Status::invalid_argument,
+                     "a maximal set takes several jobs; sample it with Runner"};
+    }
     if (auto checked = check_workspace(ranges, *needs, of, *sampler); !checked) {
         return checked;
     }

@@ -63,6 +63,7 @@ struct KernelVariant {
     DomainKind domain = DomainKind::surface;
     std::uint32_t dimension = 0; ///< Of a grid.
     bool groups = false;         ///< Work groups compute disks, by a kernel of their own.
+    bool lights = false; ///< Disks of settled samples record how they light faces, likewise.
 #define GEODISK_SWITCH(name, constant) bool name = false;
     GEODISK_KERNEL_SWITCHES(GEODISK_SWITCH)
 #undef GEODISK_SWITCH

@@ -67,7 +67,8 @@ Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVari
         const auto kernel = static_cast<Kernel>(k);
         const KernelInfo& info = kernel_info(kernel);
         if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain) ||
-            (kernel == Kernel::group_detect && !variant.groups)) {
+            (kernel == Kernel::group_detect && !variant.groups) ||
+            (kernel == Kernel::light && !variant.lights)) {
             continue;
         }
         const auto compiled = pipeline_of(kernel, variant.of(kernel));

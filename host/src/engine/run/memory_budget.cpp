@@ -46,7 +46,9 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
         if (!planned) {
             return planned.error();
         }
-        Fitting fitting{overridden(*planned, runner.options.plan)};
+        RunPlan wanted = runner.options.plan;
+        wanted.disks_by = of.kernels.lights ? DisksBy::automatic : wanted.disks_by;
+        Fitting fitting{overridden(*planned, wanted)};
         RunPlan& plan = fitting.plan;
         // Darts always come one stage at a time, and a list has one.
         const bool is_fixed =

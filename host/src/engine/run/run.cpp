@@ -11,6 +11,7 @@
 
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/plan.hpp"
+#include "engine/run/maximal_run.hpp"
 #include "engine/run/memory_budget.hpp"
 #include "engine/run/run_memory.hpp"
 #include "engine/run/run_result.hpp"
@@ -25,10 +26,10 @@ class Run {
   public:
     /// Takes at most so many bytes on the device. `before` reports earlier starts of the run.
     Run(Runner::Impl& runner, const Domain& domain, std::uint64_t most_bytes,
-        const RunReport& before)
+        const RunReport& before, LitRecords* lit)
         : runner_(runner), domain_(domain), most_bytes_(most_bytes), of_(Domain::Impl::of(domain)),
           memory_(*runner.workspace), kept_(runner.jobs[index_of(of_.kernels.domain)]),
-          job_(kept_.job), submissions_(runner, memory_, of_) {
+          job_(kept_.job), submissions_(runner, memory_, of_), lit_(lit) {
         report_.seconds = before.seconds;
         report_.starts = before.starts + 1;
     }
@@ -57,6 +58,7 @@ class Run {
     std::uint32_t record_all(VkCommandBuffer commands, Budget& budget);
     void record_samples(VkCommandBuffer commands);
     Task<Result<std::vector<gpu::SampleRec>>> read_samples();
+    Task<Result<Done>> read_lit();
     Job::Impl& job() { return Job::Impl::of(*job_); }
     const gpu::ControlRec& control() const { return submissions_.control(); }
 
@@ -85,6 +87,7 @@ class Run {
     std::vector<StagedRecords> staged_; ///< Yet to be written.
     std::size_t staged_records_ = 0;
     bool has_piece_ = false; ///< A piece of the upload is in flight.
+    LitRecords* lit_;        ///< Where to read those of a domain of lights, or null.
     RunReport report_;
 };
 
@@ -352,6 +355,18 @@ Task<Result<std::vector<gpu::SampleRec>>> Run::read_samples() {
     co_return samples;
 }
 
+Task<Result<Done>> Run::read_lit() {
+    std::array<std::uint32_t, 4> head{};
+    auto read = co_await memory_.read(BufferRole::weights, std::as_writable_bytes(std::span(head)));
+    if (read) {
+        lit_->wanted = head[0];
+        lit_->records.resize(std::min(head[0], head[1]));
+        read = co_await memory_.read(BufferRole::weights,
+                                     std::as_writable_bytes(std::span(lit_->records)), sizeof head);
+    }
+    co_return read;
+}
+
 Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     double start = runner_.now();
     if (auto done = runner_.sampler.prepare(domain_); !done) {
@@ -380,6 +395,11 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     auto samples = co_await read_samples();
     if (!samples) {
         co_return samples.error();
+    }
+    if (lit_ != nullptr) {
+        if (auto read = co_await read_lit(); !read) {
+            co_return read.error();
+        }
     }
     report_.seconds.readback += runner_.now() - start;
     const auto darts = co_await candidates(*advice);
@@ -415,6 +435,11 @@ struct Releaser {
 } // namespace
 
 Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
+    const auto& maximal = Domain::Impl::of(domain).maximal;
+    return maximal ? run_maximal(runner, *maximal) : run_job(runner, domain, nullptr);
+}
+
+Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, LitRecords* lit) {
     if (auto usable = runner.submitter->ready(); !usable) {
         co_return usable.error();
     }
@@ -429,7 +454,7 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
         }
         RunPlan plan = fitting->plan;
         runner.keep();
-        Run run(runner, domain, most, before);
+        Run run(runner, domain, most, before, lit);
         auto set = co_await run.go(plan);
         if (set && *set) {
             releaser.has_succeeded = true;

@@ -1,13 +1,27 @@
 // One run, from upload to result.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "engine/run/runner_impl.hpp"
 #include "engine/run/task.hpp"
+#include "records.h"
 
 namespace geodisk {
 
 /// Runs until window chains are as short as the guard provides for. Runner and domain must outlive
 /// it. Where it is destroyed before its end, nothing must be running any more.
 Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain);
+
+/// How the disks of a domain of lights light faces.
+struct LitRecords {
+    std::vector<gpu::LitRec> records;
+    std::uint32_t wanted = 0; ///< How many there would be with room for all.
+};
+
+/// Runs a single job, also the first one of a maximal set. `lit` is not null for a domain of
+/// lights.
+Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, LitRecords* lit);
 
 } // namespace geodisk

@@ -200,12 +200,12 @@ Task<Result<Done>> RunMemory::upload(BufferRole role, VkDeviceSize to,
     co_return Done{};
 }
 
-Task<Result<Done>> RunMemory::read(BufferRole role, std::span<std::byte> bytes) {
+Task<Result<Done>> RunMemory::read(BufferRole role, std::span<std::byte> bytes, VkDeviceSize from) {
     const DeviceTable& vk = sampler_.vk;
     for (std::size_t done = 0; done < bytes.size();) {
         const std::size_t part = std::min(bytes.size() - done, staging_.bytes().size());
         auto copied = submitter_.submit([&](VkCommandBuffer commands) {
-            const VkBufferCopy copy{done, 0, part};
+            const VkBufferCopy copy{from + done, 0, part};
             vk.vkCmdCopyBuffer(commands, buffer(role).handle(), staging_.handle(), 1, &copy);
             barrier_transfer_to_host(vk, commands);
         });

@@ -65,7 +65,8 @@ class RunMemory {
     void record_samples(VkCommandBuffer commands, VkDeviceSize bytes);
     /// Returns the samples read since the last record_uploads.
     std::span<const std::byte> samples() const;
-    Task<Result<Done>> read(BufferRole role, std::span<std::byte> bytes);
+    /// Reads bytes of a buffer, from byte `from` on.
+    Task<Result<Done>> read(BufferRole role, std::span<std::byte> bytes, VkDeviceSize from = 0);
 
     /// Replaces the pool by one of at least this many bytes; its contents are lost.
     Result<Done> enlarge_pool(VkDeviceSize bytes);

@@ -1,0 +1,155 @@
+#include "engine/maximal/lit_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace geodisk {
+namespace {
+
+// Steps of 2^-24 by which the weights of a point may be rounded, twice over.
+constexpr double kGrid = 4 * 0x1p-24;
+
+/// Offsets of a target from the source of a light, in the frame of the light's half-edge.
+struct Offset {
+    double x, y, distance;
+};
+
+/// How far the target is outside the borders of the lit part; 0 within.
+double aside(const gpu::LitRec& record, const Offset& offset, double slack) {
+    if ((record.place & 1) != 0) {
+        return 0;
+    }
+    const double x = record.x, y = -double{record.y};
+    const double low = double{record.low} - slack - x;
+    const double high = double{record.high} + slack - x;
+    const double at = offset.x * y;
+    const double left = low * offset.y - at;
+    const double right = at - high * offset.y;
+    if (left <= 0 && right <= 0) {
+        return 0;
+    }
+    const double to_left = left > 0 ? left / std::sqrt(low * low + y * y) : 0;
+    const double to_right = right > 0 ? right / std::sqrt(high * high + y * y) : 0;
+    return std::max({to_left, to_right, std::numeric_limits<double>::min()});
+}
+
+} // namespace
+
+LitFaces::LitFaces(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
+                   double slack)
+    : mesh_(mesh), radii_(params.radii), unit_(frame.unit), slack_(slack),
+      reaches_(mesh.face_count()), starts_(std::size_t{mesh.face_count()} + 1, 0) {
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
+        const double x = (edge.length + edge.apex_x) / 3, y = edge.apex_y / 3;
+        const auto square = [&](double corner_x, double corner_y) {
+            const double dx = x - corner_x, dy = y - corner_y;
+            return dx * dx + dy * dy;
+        };
+        reaches_[face] = std::sqrt(std::max({square(0, 0), square(edge.length, 0),
+                                             square(edge.apex_x, edge.apex_y)})) /
+                         unit_;
+    }
+}
+
+void LitFaces::add(std::span<const gpu::LitRec> records) {
+    records_.insert(records_.end(), records.begin(), records.end());
+}
+
+void LitFaces::sort_from(std::size_t first) {
+    const auto face_of = [this](std::size_t light) { return records_[light].place / 6; };
+    std::ranges::fill(starts_, 0);
+    for (std::size_t light = first; light < records_.size(); ++light) {
+        ++starts_[face_of(light) + 1];
+    }
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    sorted_.resize(records_.size() - first);
+    std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+    for (std::size_t light = first; light < records_.size(); ++light) {
+        sorted_[next[face_of(light)]++] = static_cast<std::uint32_t>(light);
+    }
+}
+
+std::span<const std::uint32_t> LitFaces::lights_of(std::uint32_t face) const {
+    return std::span(sorted_).subspan(starts_[face], starts_[face + 1] - starts_[face]);
+}
+
+double LitFaces::area(std::uint32_t face) const {
+    const HalfEdge& edge = mesh_.half_edges()[std::size_t{3} * face];
+    return 0.5 * (edge.length / unit_) * (edge.apex_y / unit_);
+}
+
+double LitFaces::radius_at(std::uint32_t face, FaceWeights weights) const {
+    const float* const g = &radii_->factors()[std::size_t{3} * face];
+    const double first = 1 - weights.second - weights.third;
+    return 0.5 *
+           (first * double{g[0]} + weights.second * double{g[1]} + weights.third * double{g[2]});
+}
+
+void LitFaces::place(std::uint32_t face, FaceWeights weights, Target& target) const {
+    const double all[3] = {1 - weights.second - weights.third, weights.second, weights.third};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const HalfEdge& edge = mesh_.half_edges()[std::size_t{3} * face + k];
+        const double end = all[(k + 1) % 3], apex = all[(k + 2) % 3];
+        target.at[k] = {(end * edge.length + apex * edge.apex_x) / unit_,
+                        apex * edge.apex_y / unit_};
+    }
+}
+
+LitFaces::Target LitFaces::target(const GapCell& cell) const {
+    Target target{};
+    place(cell.face, cell.centroid(), target);
+    target.reach = reaches_[cell.face] * cell.step();
+    target.margin = target.reach + kGrid * reaches_[cell.face];
+    if (radii_ != nullptr) {
+        const auto corners = cell.corners();
+        const double radii[3] = {radius_at(cell.face, corners[0]), radius_at(cell.face, corners[1]),
+                                 radius_at(cell.face, corners[2])};
+        target.least_radius = std::min({radii[0], radii[1], radii[2]});
+        target.largest_radius = std::max({radii[0], radii[1], radii[2]});
+    }
+    return target;
+}
+
+LitFaces::Target LitFaces::target(std::uint32_t face, FaceWeights weights) const {
+    Target target{};
+    place(face, weights, target);
+    if (radii_ != nullptr) {
+        target.least_radius = target.largest_radius = radius_at(face, weights);
+    }
+    return target;
+}
+
+double LitFaces::limit_of(const gpu::LitRec& record, double radius) const {
+    return record.limit < 0 ? -double{record.limit} : double{record.limit} + radius;
+}
+
+Cover LitFaces::cover(std::uint32_t light, const Target& target) const {
+    const gpu::LitRec& record = records_[light];
+    const Target::Place& at = target.at[(record.place >> 1) % 3];
+    const double x = at.x - double{record.x}, y = at.y - double{record.y};
+    const double distance = std::sqrt(x * x + y * y) + double{record.sigma};
+    if (distance - target.margin >= limit_of(record, target.largest_radius)) {
+        return Cover::none;
+    }
+    const double outside = aside(record, {x, y, distance}, slack_);
+    if (outside > target.margin) {
+        return Cover::none;
+    }
+    const bool is_near = distance + target.reach < limit_of(record, target.least_radius);
+    return outside == 0 && is_near ? Cover::all : Cover::some;
+}
+
+double LitFaces::excess(std::uint32_t light, const Target& target) const {
+    const gpu::LitRec& record = records_[light];
+    const Target::Place& at = target.at[(record.place >> 1) % 3];
+    const double x = at.x - double{record.x}, y = at.y - double{record.y};
+    const double distance = std::sqrt(x * x + y * y) + double{record.sigma};
+    return aside(record, {x, y, distance}, slack_) > 0
+               ? std::numeric_limits<double>::infinity()
+               : distance + target.reach - limit_of(record, target.least_radius);
+}
+
+} // namespace geodisk

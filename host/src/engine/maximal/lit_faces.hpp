@@ -1,0 +1,81 @@
+// LitFaces: how the disks of samples light the faces of a surface, and what they cover.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/job_frame.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+
+#include "engine/maximal/gap_cell.hpp"
+#include "records.h"
+
+namespace geodisk {
+
+/// What a disk does to a cell, by one way in which it lights the face.
+enum class Cover : std::uint8_t {
+    all,  ///< No sample fits anywhere in the cell.
+    some, ///< It may cover a part.
+    none,
+};
+
+/// The lights of all faces, in double precision and units of the frame.
+class LitFaces {
+  public:
+    /// `mesh`, and the radii of `params`, must outlive it. Lit intervals are widened by `slack`.
+    LitFaces(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
+             double slack);
+
+    /// Adds records of the device. Those of a face are numbered in any order.
+    void add(std::span<const gpu::LitRec> records);
+
+    /// A cell with what a test of any light needs of it.
+    struct Target {
+        struct Place {
+            double x, y;
+        };
+        Place at[3];   ///< The centroid in the frame of each half-edge of the face.
+        double reach;  ///< Maximum distance of a point of the cell from the centroid.
+        double margin; ///< The same with the rounding of weights to multiples of 2^-24.
+        double least_radius, largest_radius; ///< In the cell; 0 if radii do not vary.
+
+        /// Returns the minimum distance of samples in the cell, at least.
+        double spacing() const { return least_radius > 0 ? 2 * least_radius : 1; }
+    };
+    Target target(const GapCell& cell) const;
+    /// Returns the target of a point, by its weights as multiples of 2^-24.
+    Target target(std::uint32_t face, FaceWeights weights) const;
+
+    Cover cover(std::uint32_t light, const Target& target) const;
+    /// Returns by how much a point of the target may be beyond the limit of the light; infinite
+    /// where it is not lit.
+    double excess(std::uint32_t light, const Target& target) const;
+
+    /// Returns the lights that were added to a face since the number `first`.
+    std::span<const std::uint32_t> lights_of(std::uint32_t face) const;
+    /// Sorts the lights from `first` on by face, for lights_of().
+    void sort_from(std::size_t first);
+    std::size_t size() const { return records_.size(); }
+
+    /// Returns the area of a face, in units of the frame.
+    double area(std::uint32_t face) const;
+    std::uint32_t face_count() const { return mesh_.face_count(); }
+
+  private:
+    FaceWeights weights_at(std::uint32_t face, FaceWeights weights) const;
+    double radius_at(std::uint32_t face, FaceWeights weights) const;
+    void place(std::uint32_t face, FaceWeights weights, Target& target) const;
+    double limit_of(const gpu::LitRec& record, double radius) const;
+
+    const PreparedMesh& mesh_;
+    const RadiusField* radii_;
+    double unit_;
+    double slack_;
+    std::vector<double> reaches_; ///< Maximum distance of a corner from the centroid, by face.
+    std::vector<gpu::LitRec> records_;
+    std::vector<std::uint32_t> starts_, sorted_;
+};
+
+} // namespace geodisk

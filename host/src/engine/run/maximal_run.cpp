@@ -1,0 +1,226 @@
+#include "engine/run/maximal_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/domain/surface_domain.hpp"
+#include "engine/maximal/gaps.hpp"
+#include "engine/maximal/lit_faces.hpp"
+#include "engine/run/run.hpp"
+
+namespace geodisk {
+namespace {
+
+// How far a cell of the first round reaches, in distances; and how much farther than in the next.
+constexpr double kFirstGoal = 0x1p-4;
+constexpr double kGoalFactor = 0.25;
+// Below it all cells are split as far as possible.
+constexpr double kLeastGoal = 0x1p-40;
+// Maximum of darts of a round, per sample so far and in all rounds.
+constexpr double kDartsPerSample = 16;
+constexpr double kLeastDarts = 0x1p16;
+constexpr double kMostDarts = 0x1p24;
+// Maximum of records of lights read at once, and room for more than expected.
+constexpr double kMostRecords = 0x1p21;
+constexpr double kSpareRecords = 1.5;
+// Their part of the memory that a run may take, and of a binding.
+constexpr double kPartOfMemory = 0.2;
+constexpr double kPartOfBinding = 0.5;
+constexpr std::uint32_t kLeastRecords = 4096;
+
+/// Adds the report of a job to that of the jobs before.
+void add(RunReport& sum, const RunReport& job) {
+    sum.candidates += job.candidates;
+    sum.chunks += job.chunks;
+    sum.iterations += job.iterations;
+    sum.dispatches += job.dispatches;
+    sum.disks += job.disks;
+    sum.regrown += job.regrown;
+    sum.windows += job.windows;
+    sum.tested += job.tested;
+    sum.most_waiting = std::max(sum.most_waiting, job.most_waiting);
+    sum.longest_chain = std::max(sum.longest_chain, job.longest_chain);
+    sum.most_vertices = std::max(sum.most_vertices, job.most_vertices);
+    sum.most_conflicts = std::max(sum.most_conflicts, job.most_conflicts);
+    sum.trips += job.trips;
+    sum.lane_trips += job.lane_trips;
+    sum.guard = std::max(sum.guard, job.guard);
+    sum.device_bytes = std::max(sum.device_bytes, job.device_bytes);
+    sum.uploaded += job.uploaded;
+    sum.seconds.compile += job.seconds.compile;
+    sum.seconds.upload += job.seconds.upload;
+    sum.seconds.sample += job.seconds.sample;
+    sum.seconds.readback += job.seconds.readback;
+    for (std::size_t stage = 0; stage < kStages; ++stage) {
+        sum.stages[stage] += job.stages[stage];
+    }
+}
+
+class MaximalRun {
+  public:
+    MaximalRun(Runner::Impl& runner, const MaximalJob& job)
+        : runner_(runner), job_(job),
+          lit_(*job.mesh, job.params, job.frame,
+               double{ErrorModel(job.frame).tolerances(job.frame.error_bound).slack}),
+          gaps_(lit_, *job.mesh, job.params, runner.options.threads) {}
+    MaximalRun(const MaximalRun&) = delete;
+    MaximalRun& operator=(const MaximalRun&) = delete;
+
+    Task<Result<SampleSet>> go();
+
+  private:
+    Task<Result<SampleSet>> run_pool();
+    /// Lights faces by samples, and by the points to avoid.
+    Task<Result<Done>> light(std::span<const Sample> samples, std::span<const KeepOut> avoid);
+    /// Returns how many records of lights to expect of a job, at most.
+    double most_records() const;
+    /// Throws the darts of a round. Returns the samples of those that are accepted.
+    Task<Result<std::vector<Sample>>> fill(std::uint32_t round, double goal);
+    /// Refines the gaps with the lights from this one on.
+    void refine(double goal, std::size_t first);
+    void report_gaps();
+
+    Runner::Impl& runner_;
+    const MaximalJob& job_;
+    LitFaces lit_;
+    Gaps gaps_;
+    SampleSet set_;
+    double records_per_disk_ = 0;
+};
+
+Task<Result<SampleSet>> MaximalRun::run_pool() {
+    SampleParams params = job_.params;
+    params.given = job_.given;
+    params.avoid = job_.avoid;
+    const auto domain = SurfaceDomain::plain(*job_.mesh, params, job_.frame);
+    if (!domain) {
+        co_return domain.error();
+    }
+    co_return co_await run_job(runner_, *domain, nullptr);
+}
+
+double MaximalRun::most_records() const {
+    const RunnerOptions& options = runner_.options;
+    double bytes = static_cast<double>(runner_.engine().report.limits.max_storage_buffer_range);
+    if (options.device_bytes != 0) {
+        bytes = std::min(bytes, kPartOfMemory * static_cast<double>(options.device_bytes));
+    }
+    return std::min(kMostRecords, kPartOfBinding * bytes / sizeof(gpu::LitRec));
+}
+
+Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
+                                     std::span<const KeepOut> avoid) {
+    const double most = most_records();
+    while (!samples.empty() || !avoid.empty()) {
+        const auto count =
+            std::min(samples.size(),
+                     std::max<std::size_t>(1, static_cast<std::size_t>(most / records_per_disk_)));
+        SampleParams params = job_.params;
+        params.given = samples.first(count);
+        params.avoid = avoid;
+        const double expected =
+            records_per_disk_ * static_cast<double>(count + avoid.size()) + kLeastRecords;
+        const auto domain = SurfaceDomain::lights(*job_.mesh, params, job_.frame,
+                                                  static_cast<std::uint32_t>(expected));
+        if (!domain) {
+            co_return domain.error();
+        }
+        LitRecords lit;
+        const auto set = co_await run_job(runner_, *domain, &lit);
+        if (!set) {
+            co_return set.error();
+        }
+        add(set_.report, set->report);
+        const double of_disk = lit.wanted / static_cast<double>(count + avoid.size());
+        if (lit.wanted > lit.records.size()) {
+            records_per_disk_ = std::max(of_disk, records_per_disk_) * kSpareRecords;
+            continue; // Again, with room for all.
+        }
+        lit_.add(lit.records);
+        samples = samples.subspan(count);
+        avoid = {};
+    }
+    co_return Done{};
+}
+
+Task<Result<std::vector<Sample>>> MaximalRun::fill(std::uint32_t round, double goal) {
+    const double most = std::clamp(kDartsPerSample * static_cast<double>(set_.samples.size()),
+                                   kLeastDarts, kMostDarts);
+    const std::vector<ListedCandidate> darts = gaps_.darts(round, goal, most);
+    if (darts.empty()) {
+        co_return std::vector<Sample>();
+    }
+    ++set_.report.maximal.rounds;
+    set_.report.maximal.darts += darts.size();
+    const auto domain = SurfaceDomain::listed(*job_.mesh, job_.params, job_.frame, darts);
+    if (!domain) {
+        co_return domain.error();
+    }
+    auto filled = co_await run_job(runner_, *domain, nullptr);
+    if (!filled) {
+        co_return filled.error();
+    }
+    add(set_.report, filled->report);
+    co_return std::move(filled->samples);
+}
+
+void MaximalRun::refine(double goal, std::size_t first) {
+    const double start = runner_.now();
+    lit_.sort_from(first);
+    gaps_.refine(goal);
+    set_.report.seconds.sample += runner_.now() - start;
+}
+
+void MaximalRun::report_gaps() {
+    MaximalReport& report = set_.report.maximal;
+    report.cells = gaps_.tested();
+    report.certified = gaps_.empty();
+    report.largest_gap = job_.params.min_distance * (1 + 2 * set_.report.guard) +
+                         job_.frame.unit * gaps_.largest_excess();
+}
+
+Task<Result<SampleSet>> MaximalRun::go() {
+    auto first = co_await run_pool();
+    if (!first) {
+        co_return first.error();
+    }
+    set_ = std::move(*first);
+    const RunReport& report = set_.report;
+    records_per_disk_ =
+        kSpareRecords * (static_cast<double>(report.windows) / std::max(report.disks, 1u) + 8);
+    if (auto lit = co_await light(set_.samples, job_.avoid); !lit) {
+        co_return lit.error();
+    }
+    double goal = kFirstGoal;
+    refine(goal, 0);
+    for (std::uint32_t round = 1; !gaps_.empty(); ++round) {
+        auto samples = co_await fill(round, goal);
+        if (!samples) {
+            co_return samples.error();
+        }
+        if (samples->empty() && gaps_.are_smallest()) {
+            break;
+        }
+        const std::size_t before = lit_.size();
+        if (auto lit = co_await light(*samples, {}); !lit) {
+            co_return lit.error();
+        }
+        set_.samples.insert(set_.samples.end(), samples->begin(), samples->end());
+        goal = std::max(goal * kGoalFactor, kLeastGoal);
+        refine(goal, before);
+    }
+    report_gaps();
+    co_return std::move(set_);
+}
+
+} // namespace
+
+Task<Result<SampleSet>> run_maximal(Runner::Impl& runner, const MaximalJob& job) {
+    MaximalRun run(runner, job);
+    co_return co_await run.go();
+}
+
+} // namespace geodisk

@@ -1,0 +1,44 @@
+// Records how a disk lights faces, in place of scan.glsl: a LitRec for each operation, behind a row with
+// their number and the room for them. The record of a disk of another scale has lengths in the unit of the
+// job. More than there is room for are counted alone.
+#ifndef GEODISK_LIGHT_GLSL
+#define GEODISK_LIGHT_GLSL
+
+#include "job.glsl"
+#include "operation.glsl"
+
+layout(set = 0, binding = kBindWeights, std430) coherent buffer lit_buffer { uvec4 lit[]; };
+
+uint own_place;
+
+bool scanning() { return false; }
+
+void scan_some() {}
+
+// Returns the limit of the operation in flight for a target without a radius; negative for a point to avoid.
+float lit_limit() {
+    precise float of_avoided = -path_limit();
+    return keeps_out() ? of_avoided : (kAdaptive ? limit_with(0.0) : path_limit());
+}
+
+void begin_scan(float sx, float sy) {
+    if (own_place != kNoPlace) {
+        return; // A candidate, which stands in where a job needs one.
+    }
+    bool inside = lane.mode == kModeInside;
+    uint at = atomicAdd(lit[0].x, 1u);
+    if (at >= lit[0].y) {
+        return;
+    }
+    precise float back = uintBitsToFloat(0x7f000000u - floatBitsToUint(scale_of(-own_radius)));
+    vec2 interval = entry_interval();
+    precise vec4 source = vec4(sx, sy, interval.x, interval.y) * back;
+    precise float sigma = lane.sigma * back;
+    precise float limit = lit_limit() * back;
+    lit[2u * at + 1u] = uvec4(lane.half_edge << 1 | (inside ? 1u : 0u),
+                              control.next_sample + lane.slot, floatBitsToUint(sigma),
+                              floatBitsToUint(limit));
+    lit[2u * at + 2u] = floatBitsToUint(source);
+}
+
+#endif
