@@ -183,6 +183,28 @@ TEST_CASE("samples that are given come first, and are told") {
     CHECK(none == nullptr);
 }
 
+TEST_CASE("a maximal set is reported") {
+    const auto mesh = mesh_of(knot());
+    auto params = sized<geodisk_surface_params>();
+    params.min_distance = 0.3;
+    params.is_maximal = 1;
+    const auto domain = owned<geodisk_domain>([&](auto made, auto error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+    const auto samples = sample(shared_sampler(), domain.get());
+    auto report = sized<geodisk_report>();
+    REQUIRE(geodisk_samples_report(samples.get(), &report, nullptr) == GEODISK_OK);
+    CHECK(report.maximal_rounds > 0);
+    CHECK(report.is_certified == 1);
+    CHECK(report.maximal_cells > 0);
+    CHECK(report.largest_gap == doctest::Approx(0.3 * (1 + 2 * report.guard)));
+    const auto pool = sample(shared_sampler(), surface_of(mesh.get(), 0.3, 0).get());
+    CHECK(geodisk_samples_count(samples.get()) > geodisk_samples_count(pool.get()));
+    params.throws = 10;
+    geodisk_domain* none = nullptr;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
+}
+
 TEST_CASE("floats, short indices and strides are the mesh that they say") {
     const TestMesh mesh = builtin("cube", 1);
     struct Vertex {

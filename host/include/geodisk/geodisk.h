@@ -347,6 +347,10 @@ typedef struct geodisk_surface_params {
     const float *class_factors;
     size_t class_count;
     const uint8_t *given_classes; /* Class of each given sample; NULL if all have class 0. */
+    /* Not 0: go on after the pool until no further sample fits anywhere, in several rounds. Only
+     * geodisk_sample and geodisk_run do. For GEODISK_GEODESIC, without throws, stop_count, and radii
+     * from a density. */
+    int32_t is_maximal;
 } geodisk_surface_params;
 
 /* Makes the domain of one surface. */
@@ -534,6 +538,12 @@ typedef struct geodisk_report {
     double readback_seconds;
     uint32_t missing;   /* How many samples of stop_count are missing. */
     uint32_t given;     /* How many samples were given: the first ones. */
+    /* Of a maximal set (geodisk_surface_params.is_maximal), else 0: */
+    uint32_t maximal_rounds; /* Rounds in which darts were thrown into gaps. */
+    int32_t is_certified;    /* 1 if every point is nearer to a sample than largest_gap. */
+    uint64_t maximal_cells;  /* Parts of faces that were tested. */
+    double largest_gap;      /* Bound on the distance from any point to the nearest sample; if radii
+                              * vary, on its excess over the sum of two radii, plus min_distance. */
 } geodisk_report;
 
 /* Reports how the run of these samples went. */

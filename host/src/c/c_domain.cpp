@@ -77,6 +77,7 @@ Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& g
         part.given_classes.assign(given.given_classes, given.given_classes + given.given_count);
         part.params.given_classes = part.given_classes;
     }
+    part.params.maximal = given.is_maximal != 0;
     return Done{};
 }
 

@@ -241,6 +241,10 @@ geodisk_report report_of(const geodisk_samples& samples) {
     const std::uint64_t wanted = Domain::Impl::of(*samples.of->domain).stop_count;
     report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, report.samples));
     report.given = static_cast<std::uint32_t>(samples.set.given);
+    report.maximal_rounds = run.maximal.rounds;
+    report.is_certified = run.maximal.certified ? 1 : 0;
+    report.maximal_cells = run.maximal.cells;
+    report.largest_gap = run.maximal.largest_gap;
     return report;
 }
 
