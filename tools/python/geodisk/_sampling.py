@@ -39,6 +39,7 @@ def sample(
     pool_ratio: float = 20,
     throws: int = 0,
     stop_count: int = 0,
+    maximal: bool = False,
     face_keys: ArrayLike | None = None,
     face_mask: ArrayLike | None = None,
     existing: ExistingLike | None = None,
@@ -77,11 +78,16 @@ def sample(
         Factor of the radius at each vertex, 0.001 to 1. The distance applies to two samples with
         factor 1.
     pool_ratio : float
-        Candidates per expected sample, 1 to 10,000. More candidates leave fewer gaps.
+        Candidates per expected sample, 1 to 10,000. More candidates leave fewer gaps: 100 give a
+        packing density of 0.75 instead of 0.72.
     throws : int
         Number of darts to throw, instead of a pool by `pool_ratio`.
     stop_count : int
         Stop after this many samples. A warning reports if fewer fit.
+    maximal : bool
+        True to go on after the pool until no further sample fits anywhere. The report then has
+        ``is_certified`` 1 if every point is nearer to a sample than ``largest_gap``. Not with
+        `throws`, `stop_count`, `density` and other metrics.
     face_keys : array_like of int, shape (f,), optional
         One key per triangle, all different, by which its candidates are drawn: a triangle with the
         same key has the same candidates in every mesh.
@@ -182,6 +188,7 @@ def sample(
         avoid=points.ctypes.data,
         avoid_radii=point_radii.ctypes.data,
         avoid_count=len(points),
+        is_maximal=int(bool(maximal)),
     )
     if kinds is not None and kinds.count > 1:
         own_classes = kinds.given(existing, len(kept))

@@ -124,6 +124,7 @@ class SurfaceParams(_Sized):
         ("class_factors", c_void_p),
         ("class_count", c_size_t),
         ("given_classes", c_void_p),
+        ("is_maximal", c_int32),
     ]
 
 
@@ -180,6 +181,10 @@ class Report(_Sized):
         ("readback_seconds", c_double),
         ("missing", c_uint32),
         ("given", c_uint32),
+        ("maximal_rounds", c_uint32),
+        ("is_certified", c_int32),
+        ("maximal_cells", c_uint64),
+        ("largest_gap", c_double),
     ]
 
 
