@@ -53,8 +53,7 @@ struct Cell {
     }
     FacePoint<double> centroid() const {
         const double scale = std::ldexp(1.0, -static_cast<int>(level)) / 3;
-        return {face,
-                static_cast<double>(corners[0][0] + corners[1][0] + corners[2][0]) * scale,
+        return {face, static_cast<double>(corners[0][0] + corners[1][0] + corners[2][0]) * scale,
                 static_cast<double>(corners[0][1] + corners[1][1] + corners[2][1]) * scale};
     }
     std::uint32_t least(std::size_t axis) const {
@@ -120,8 +119,8 @@ struct Recorder {
     void add(std::uint32_t h, bool is_whole, Real x, Real y, Real low, Real high,
              Real sigma) const {
         const auto of = [this](Real length) { return static_cast<double>(length) / scale; };
-        lights[h / 3].push_back({h, is_whole, keeps_out, of(x), of(y), of(low), of(high),
-                                 of(sigma), of(detector.limit_for_points())});
+        lights[h / 3].push_back({h, is_whole, keeps_out, of(x), of(y), of(low), of(high), of(sigma),
+                                 of(detector.limit_for_points())});
     }
     void face(std::uint32_t h, Real x, Real y, Real sigma) const {
         add(h, true, x, y, 0, 0, sigma);
@@ -189,7 +188,8 @@ double Filling<Real>::aside(const Light& light, FacePoint<double> point) const {
     }
     const auto at = position_in(exact_, light.edge, point);
     const double x = at.x - light.x, y = at.y - light.y, depth = -light.y;
-    const double low = light.low - first_slack_ - light.x, high = light.high + first_slack_ - light.x;
+    const double low = light.low - first_slack_ - light.x,
+                 high = light.high + first_slack_ - light.x;
     const double left = low * y - x * depth, right = x * depth - high * y;
     const double from_left = left > 0 ? left / std::sqrt(low * low + depth * depth) : 0;
     const double from_right = right > 0 ? right / std::sqrt(high * high + depth * depth) : 0;
@@ -213,8 +213,8 @@ void Filling<Real>::split(const Cell& cell, double goal, std::vector<Cell>& left
     const FacePoint<double> center = cell.centroid();
     double least = 0, most = 0;
     if (exact_.is_adaptive()) {
-        std::tie(least, most) = std::minmax({radius_at(cell.corner(0)), radius_at(cell.corner(1)),
-                                             radius_at(cell.corner(2))});
+        std::tie(least, most) = std::minmax(
+            {radius_at(cell.corner(0)), radius_at(cell.corner(1)), radius_at(cell.corner(2))});
     }
     bool is_open = true;
     for (const Light& light : lights_[cell.face]) {
@@ -222,8 +222,8 @@ void Filling<Real>::split(const Cell& cell, double goal, std::vector<Cell>& left
         if (outside == 0 && way + reach < light.limit + (light.keeps_out ? 0 : least)) {
             return;
         }
-        is_open = is_open && (outside > margin ||
-                              way - margin >= light.limit + (light.keeps_out ? 0 : most));
+        is_open = is_open &&
+                  (outside > margin || way - margin >= light.limit + (light.keeps_out ? 0 : most));
     }
     if (is_open || reach <= goal * spacing_of(cell) || cell.level == kMostSplits) {
         left.push_back(cell);
@@ -246,16 +246,14 @@ double Filling<Real>::share_of(const Cell& cell, double goal) const {
 template <class Real>
 void Filling<Real>::throw_into(const Cell& cell, std::uint32_t round, double mean,
                                std::vector<Dart>& darts) const {
-    const std::uint32_t key =
-        params_.face_keys.empty() ? cell.face : params_.face_keys[cell.face];
+    const std::uint32_t key = params_.face_keys.empty() ? cell.face : params_.face_keys[cell.face];
     const std::uint32_t kind = round << 8 | cell.level << 1 | (cell.is_turned() ? 1u : 0u);
     const auto own = philox(params_.seed ^ kSeed, {key, kind, cell.least(0), cell.least(1)});
     auto count = static_cast<std::uint32_t>(mean);
     count += own[0] * 0x1p-32 < mean - count ? 1u : 0u;
     count = cell.level >= kEveryCell ? std::max(count, 1u) : count;
     for (std::uint32_t k = 0; k < count; ++k) {
-        const auto random =
-            philox(std::uint64_t{own[1]} << 32 | own[2], {own[3], k, kind, key});
+        const auto random = philox(std::uint64_t{own[1]} << 32 | own[2], {own[3], k, kind, key});
         std::uint64_t a = random[2], b = random[3];
         if (a + b >= std::uint64_t{1} << 32) {
             a = 0xffffffff - a;
@@ -263,8 +261,7 @@ void Filling<Real>::throw_into(const Cell& cell, std::uint32_t round, double mea
         }
         const auto weight = [&](std::size_t axis, std::uint64_t along) {
             const std::uint64_t first = std::uint64_t{cell.least(axis)} << 32;
-            const std::uint64_t at =
-                cell.is_turned() ? first + 0xffffffff - along : first + along;
+            const std::uint64_t at = cell.is_turned() ? first + 0xffffffff - along : first + along;
             return static_cast<double>(at >> (8 + cell.level)) * 0x1p-24;
         };
         const FacePoint<double> at{cell.face, weight(0, a), weight(1, b)};
@@ -278,8 +275,8 @@ template <class Real>
 std::vector<FacePoint<Real>> Filling<Real>::decided(const std::vector<Dart>& darts) const {
     std::vector<FacePoint<Real>> points;
     for (const Dart& dart : darts) {
-        points.push_back({dart.at.face, static_cast<Real>(dart.at.weight1),
-                          static_cast<Real>(dart.at.weight2)});
+        points.push_back(
+            {dart.at.face, static_cast<Real>(dart.at.weight1), static_cast<Real>(dart.at.weight2)});
     }
     Pool<Real> pool;
     pool.bins = Bins<Real>(surface_, points);
@@ -331,8 +328,7 @@ MaximalSet Filling<Real>::run() {
         for (const Cell& cell : left) {
             sum += share_of(cell, goal);
         }
-        const double most =
-            std::clamp(16.0 * static_cast<double>(samples.size()), 0x1p16, 0x1p24);
+        const double most = std::clamp(16.0 * static_cast<double>(samples.size()), 0x1p16, 0x1p24);
         std::vector<Dart> darts;
         for (const Cell& cell : left) {
             throw_into(cell, round, share_of(cell, goal) * std::min(1.0, most / sum), darts);
@@ -340,8 +336,8 @@ MaximalSet Filling<Real>::run() {
         std::ranges::sort(darts, {}, &Dart::key);
         const std::vector<FacePoint<Real>> more = decided(darts);
         set.rounds += darts.empty() ? 0u : 1u;
-        const bool are_smallest = std::ranges::all_of(
-            left, [](const Cell& cell) { return cell.level == kMostSplits; });
+        const bool are_smallest =
+            std::ranges::all_of(left, [](const Cell& cell) { return cell.level == kMostSplits; });
         if (left.empty() || (more.empty() && are_smallest)) {
             break;
         }
@@ -349,8 +345,8 @@ MaximalSet Filling<Real>::run() {
         goal = std::max(goal / 4, 0x1p-40);
     }
     for (const FacePoint<Real>& point : samples) {
-        set.samples.push_back({point.face, static_cast<double>(point.weight1),
-                               static_cast<double>(point.weight2)});
+        set.samples.push_back(
+            {point.face, static_cast<double>(point.weight1), static_cast<double>(point.weight2)});
     }
     return set;
 }

@@ -1,5 +1,5 @@
-// Maximal sets by sequential dart throwing: the samples of a pool, then those of darts that are thrown
-// into the gaps, until no gap is left (host/docs/maximal.md).
+// Maximal sets by sequential dart throwing: the samples of a pool, then those of darts that are
+// thrown into the gaps, until no gap is left (host/docs/maximal.md).
 #pragma once
 
 #include <cstdint>

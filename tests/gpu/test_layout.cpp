@@ -137,7 +137,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 30);
+        CHECK(controls == 32);
     }
 
     TEST_CASE("no kernel binds more than seven storage buffers") {

@@ -15,7 +15,7 @@ def test_a_maximal_set_is_certified():
     assert 0.3 < samples.report["largest_gap"] < 0.3001
     assert len(samples) > len(pool)
     assert (samples.points[: len(pool)] == pool.points).all()
-    assert not geodisk.verify(samples).violations
+    assert geodisk.verify(samples)
     assert len(geodisk.sample(VERTICES, FACES, min_distance=0.3, pool_ratio=100)) > len(pool)
     with pytest.raises(geodisk.InvalidArgument, match="not at a count"):
         geodisk.sample(VERTICES, FACES, min_distance=0.3, maximal=True, stop_count=5)

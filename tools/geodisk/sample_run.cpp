@@ -34,7 +34,8 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     params.min_distance =
         job.min_distance
             ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
-            : distance_for_count(mesh.prepared, params, job.wanted_count.samples);
+            : distance_for_count(mesh.prepared, params, job.wanted_count.samples) *
+                  job.method.distance_factor();
     params.throws = job.method.throws_for(expected_count(area, params.min_distance));
     return params;
 }

@@ -1,4 +1,5 @@
-// A plate with holes as CAD programs cut it into triangles: flat sides of long slivers between the holes.
+// A plate with holes as CAD programs cut it into triangles: flat sides of long slivers between the
+// holes.
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -21,8 +22,8 @@ constexpr double kStretch = 1000;
 /// The border of one hole, clockwise: its vertices on the upper side.
 using Ring = std::vector<std::uint32_t>;
 
-/// Adds the holes in a chain that goes back and forth, so that neighbours follow each other. Neither
-/// sizes nor places are equal, so that few triangles are alike.
+/// Adds the holes in a chain that goes back and forth, so that neighbours follow each other.
+/// Neither sizes nor places are equal, so that few triangles are alike.
 std::vector<Ring> add_holes(MeshFile& mesh, std::uint32_t columns, std::uint32_t rows) {
     std::vector<Ring> holes;
     const double pitch = 1.0 / columns;
@@ -36,8 +37,8 @@ std::vector<Ring> add_holes(MeshFile& mesh, std::uint32_t columns, std::uint32_t
         Ring& ring = holes.emplace_back();
         for (std::uint32_t i = 0; i < kHoleSides; ++i) {
             const double turn = -angle(i, kHoleSides);
-            ring.push_back(add_vertex(mesh, {x + radius * std::cos(turn),
-                                             y + radius * std::sin(turn), kHalfThickness}));
+            ring.push_back(add_vertex(
+                mesh, {x + radius * std::cos(turn), y + radius * std::sin(turn), kHalfThickness}));
         }
     }
     return holes;
@@ -56,8 +57,8 @@ std::size_t nearest(const MeshFile& mesh, const Ring& ring, std::uint32_t other)
     return best;
 }
 
-/// Returns the polygon of the upper side: the outline, and a way from its first vertex through all holes
-/// and back, along the same bridges.
+/// Returns the polygon of the upper side: the outline, and a way from its first vertex through all
+/// holes and back, along the same bridges.
 std::vector<std::uint32_t> joined_polygon(const MeshFile& mesh, const Ring& outline,
                                           const std::vector<Ring>& holes) {
     std::vector<std::uint32_t> forth = outline;
@@ -85,8 +86,8 @@ std::vector<std::uint32_t> joined_polygon(const MeshFile& mesh, const Ring& outl
     return forth;
 }
 
-/// The triangles of the upper side, of which edges are flipped (Lawson 1977) until they are those of
-/// Delaunay for a plate that is kStretch times as long.
+/// The triangles of the upper side, of which edges are flipped (Lawson 1977) until they are those
+/// of Delaunay for a plate that is kStretch times as long.
 class Slivers {
   public:
     explicit Slivers(MeshFile& mesh) : mesh_(mesh) {
@@ -120,7 +121,9 @@ class Slivers {
 
   private:
     std::uint32_t vertex(std::size_t corner) const { return mesh_.triangles[corner]; }
-    static std::size_t next(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+    static std::size_t next(std::size_t corner) {
+        return corner % 3 == 2 ? corner - 2 : corner + 1;
+    }
     /// The vertex across from the edge that begins at a corner.
     std::uint32_t apex_of(std::size_t corner) const { return vertex(next(next(corner))); }
     void enter(std::size_t corner) { corners_[{vertex(corner), vertex(next(corner))}] = corner; }
@@ -134,8 +137,8 @@ class Slivers {
     }
 
     /// Replaces triangles a b c and b a d by a d c and d b c.
-    void flip(std::size_t left, std::size_t right, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-              std::uint32_t d) {
+    void flip(std::size_t left, std::size_t right, std::uint32_t a, std::uint32_t b,
+              std::uint32_t c, std::uint32_t d) {
         corners_.erase({a, b});
         corners_.erase({b, a});
         const std::uint32_t replaced[2][3] = {{a, d, c}, {d, b, c}};

@@ -14,6 +14,7 @@
 #include "files/input_file.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
+#include "geodisk/checks/gaps.hpp"
 #include "geodisk/checks/intrusions.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
@@ -52,7 +53,8 @@ struct VerifyOptions {
     MaskOptions mask;
     ConstraintOptions constraints; ///< Points to avoid.
     std::string samples, min_distance, tolerance, classes;
-    OutputOptions out; ///< No samples.
+    bool is_maximal = false; ///< Look for gaps as well.
+    OutputOptions out;       ///< No samples.
 
     /// What makes the surface and the radii on it, as the header of a sample file names it.
     HeaderEntries additions() const {
@@ -153,6 +155,7 @@ struct Check {
     std::vector<std::uint32_t> masked; ///< Samples on faces that take none.
     std::size_t avoided = 0;           ///< Number of points to avoid.
     std::vector<Intrusion> intrusions;
+    std::optional<GapCheck> gaps;
 
     /// Number of samples that were given.
     std::size_t given() const {
@@ -241,6 +244,9 @@ std::string result_text(const Check& check) {
             << "sample " << one.row << ": " << rounded(one.distance, 9) << " from point "
             << one.point << '\n';
     }
+    if (check.gaps) {
+        out << "largest gap   " << gap_text(*check.gaps, check.mesh) << '\n';
+    }
     if (spacing.wrong > 0) {
         out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
@@ -277,7 +283,7 @@ Json intrusions_json(const std::vector<Intrusion>& intrusions) {
 
 std::string report_text(const Check& check) {
     const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked,
-                 avoided, intrusions] = check;
+                 avoided, intrusions, gaps] = check;
     const std::size_t given = check.given();
     const bool has_distance = spacing.min_distance > 0;
     return text_of(Json{
@@ -301,6 +307,7 @@ std::string report_text(const Check& check) {
         {"avoided", avoided == 0
                         ? Json(nullptr)
                         : Json{{"points", avoided}, {"intrusions", intrusions_json(intrusions)}}},
+        {"maximal", gap_json(gaps)},
         {"wrong_radii", spacing.wrong},
         {"masked", mesh.face_mask.empty() ? Json(nullptr) : Json(masked.size())},
         {"off_the_mesh", strays.size()}});
@@ -338,6 +345,10 @@ void fail_on_violations(const Check& check) {
     add(spacing.wrong, "radius is", "radii are", " not what the density options give");
     add(check.masked.size(), "sample is", "samples are",
         (" on faces that " + check.options.mask.names() + " left out").c_str());
+    if (check.gaps && !check.gaps->is_maximal()) {
+        message += (message.empty() ? "" : ", and ") + std::string("the set is not maximal: ") +
+                   gap_text(*check.gaps, check.mesh) + " from the nearest sample";
+    }
     if (!message.empty()) {
         throw UserError(ExitCode::violation, check.options.samples + ": " + message);
     }
@@ -354,7 +365,8 @@ void check_box(const VerifyOptions& options) {
         fail_usage("SAMPLES is required, except for samples in a box, which need no mesh");
     }
     if (!options.mesh.additions().empty() || options.density.is_given() ||
-        options.mask.is_given() || options.constraints.is_given() || !options.classes.empty()) {
+        options.mask.is_given() || options.constraints.is_given() || !options.classes.empty() ||
+        options.is_maximal) {
         fail_usage(
             "options for surfaces need MESH and SAMPLES; a single file must hold samples in a box");
     }
@@ -392,6 +404,13 @@ void run_verify(const VerifyOptions& options) {
     auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
                                              options.tolerance, warnings, progress);
     Spacing spacing = spacing_of(options, samples, mesh);
+    if (options.is_maximal && !(spacing.min_distance > 0)) {
+        fail_usage("--maximal needs the radii of all points; give the --radius-factor option that "
+                   "the samples were made with");
+    }
+    if (options.is_maximal && spacing.classes.is_given()) {
+        fail_usage("--maximal is for samples without classes");
+    }
     PairDistances distances{spacing.radii};
     if (spacing.classes.is_given()) {
         distances = {{}, samples.extra_values(kClassColumn), spacing.classes, spacing.min_distance};
@@ -408,6 +427,11 @@ void run_verify(const VerifyOptions& options) {
     }
     std::vector<Intrusion> intrusions =
         find_intrusions(mesh, samples.rows, samples.extra_values(kGivenColumn), avoided, progress);
+    std::optional<GapCheck> gaps;
+    if (options.is_maximal) {
+        gaps =
+            find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided, progress);
+    }
     const Check check{options,
                       samples,
                       mesh,
@@ -418,7 +442,8 @@ void run_verify(const VerifyOptions& options) {
                       std::move(found.among_given),
                       masked_samples(samples, mesh),
                       avoided.size(),
-                      std::move(intrusions)};
+                      std::move(intrusions),
+                      std::move(gaps)};
     publish(options.out, report_text(check), result_text(check));
     fail_on_violations(check);
 }
@@ -439,6 +464,8 @@ void add_verify_command(Command app) {
                        "Minimum distance along the surface, in mesh units or % of the\n"
                        "bounding-box diagonal (default: radii in the file, else the\n"
                        "distance in its header)");
+    command.add_flag("--maximal", options->is_maximal,
+                     "Check that no further sample fits, and tell the largest gap");
     add_avoid_option(command, options->constraints);
     add_class_option(command, options->classes);
     add_tolerance_option(command, options->tolerance);

@@ -90,6 +90,9 @@ BoxJob parse_job(const BoxOptions& options) {
     box.is_periodic = options.is_periodic;
     box.seed = options.run.parsed_seed();
     job.method = parse_method(options.method, options.count);
+    if (job.method.is_maximal) {
+        fail_usage("--maximal is for surfaces; in a box, give --dense or a higher --pool-ratio");
+    }
     box.pool_ratio = job.method.pool_ratio;
     box.stop_count = job.method.stop_count;
     job.wanted_count = parse_wanted_count(options.method, options.count);

@@ -16,6 +16,9 @@ namespace {
 /// Darts for each sample there is room for, after which a count counts as out of reach.
 constexpr double kDartsPerSample = 1000;
 
+/// Of --dense.
+constexpr double kDensePoolRatio = 100;
+
 constexpr const char* kMethodGroup = "Method";
 
 void check_method(const MethodOptions& options) {
@@ -29,6 +32,27 @@ void check_method(const MethodOptions& options) {
     if (!options.throws_darts() && !options.throws.empty()) {
         fail_usage("--darts is for --method darts; with pool, give the number of candidates by "
                    "--pool-ratio");
+    }
+}
+
+/// Checks that --dense and --maximal contradict nothing.
+void check_filling(const MethodOptions& options) {
+    if (options.is_dense && options.throws_darts()) {
+        fail_usage("--dense is for --method pool; with darts, raise --darts");
+    }
+    if (options.is_dense && !options.pool_ratio.empty()) {
+        fail_usage("--dense is a --pool-ratio of 100; give just one of them");
+    }
+    if (options.is_maximal && options.throws_darts()) {
+        fail_usage("--maximal goes on until no sample fits, --method darts ends at a number; give "
+                   "just one of them");
+    }
+    if (options.is_maximal && options.exact) {
+        fail_usage("--maximal leaves no gaps, --exact drops the last samples; give just one of "
+                   "them");
+    }
+    if (options.is_maximal && options.is_dense) {
+        fail_usage("--maximal leaves no gaps, so --dense adds nothing; give just one of them");
     }
 }
 
@@ -52,6 +76,11 @@ std::uint32_t Method::throws_for(double samples) const {
         std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
 }
 
+double Method::distance_factor() const {
+    // By packing density.
+    return is_maximal ? 0.778 / 0.721 : is_dense ? 0.752 / 0.721 : 1;
+}
+
 double Method::expected(double samples) const {
     const double room = std::max(1.0, samples);
     return stop_count != 0 ? std::min<double>(room, stop_count) : room;
@@ -67,8 +96,12 @@ void Method::check_count(std::uint64_t samples, double min_distance, std::uint64
 
 Method parse_method(const MethodOptions& options, const std::string& count) {
     check_method(options);
+    check_filling(options);
     Method method;
     method.throws_darts = options.throws_darts();
+    method.is_dense = options.is_dense;
+    method.is_maximal = options.is_maximal;
+    method.pool_ratio = options.is_dense ? kDensePoolRatio : method.pool_ratio;
     if (!options.pool_ratio.empty()) {
         method.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
     }
@@ -158,6 +191,14 @@ void add_method_options(Command command, MethodOptions& options, const std::stri
                     "candidates leave fewer gaps",
                     kMethodGroup)
         .shows_default(exact_text(kDefaultPoolRatio));
+    command.add_flag("--dense", options.is_dense,
+                     "Fill more gaps: a --pool-ratio of 100, for a packing density rho\n"
+                     "of 0.75 instead of 0.72",
+                     kMethodGroup);
+    command.add_flag("--maximal", options.is_maximal,
+                     "Fill all gaps until no sample fits anywhere, and certify it (rho\n"
+                     "about 0.78); surfaces with geodesic distances only",
+                     kMethodGroup);
 }
 
 } // namespace geodisk::tools

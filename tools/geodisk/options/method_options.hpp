@@ -23,17 +23,19 @@ inline bool names_darts(std::string_view method) {
 struct MethodOptions {
     std::string method = "pool", pool_ratio, throws;
     bool exact = false;
+    bool is_dense = false, is_maximal = false;
 
     bool throws_darts() const { return names_darts(method); }
 };
 
-/// Adds --method, --darts and --pool-ratio; `options` must outlive the parsing. Samples have room
-/// in `domain`: "the surface".
+/// Adds --method, --darts, --pool-ratio, --dense and --maximal; `options` must outlive the parsing.
+/// Samples have room in `domain`: "the surface".
 void add_method_options(Command command, MethodOptions& options, const std::string& domain);
 
 /// The options, checked.
 struct Method {
     bool throws_darts = false; ///< --method darts.
+    bool is_dense = false, is_maximal = false;
     double pool_ratio = kDefaultPoolRatio;
     std::uint32_t throws = 0;     ///< 0 if not given.
     std::uint32_t stop_count = 0; ///< Of --count, where darts stop at it; else 0.
@@ -41,6 +43,8 @@ struct Method {
     /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
     /// they end at a number that leaves hardly any gap.
     std::uint32_t throws_for(double samples) const;
+    /// Returns by how much the distance for a count is larger than for the default pool.
+    double distance_factor() const;
     /// Samples to reckon with where there is room for so many, at least one.
     double expected(double samples) const;
     /// A count asked for, with no number of darts that would do, must be reached: throws

@@ -82,6 +82,8 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--method", options.method.method, usual.method.method);
     list.add("--pool-ratio", options.method.pool_ratio);
     list.add("--darts", options.method.throws);
+    list.add_flag("--dense", options.method.is_dense);
+    list.add_flag("--maximal", options.method.is_maximal);
     list.add("--seed", options.run.seed, usual.run.seed);
     list.add_flag("--ascii", options.out.ascii);
     list.add("--columns", options.out.columns);

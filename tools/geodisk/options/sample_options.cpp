@@ -36,6 +36,9 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
     if (job.is_geodesic()) {
         return;
     }
+    if (options.method.is_maximal) {
+        fail_usage("--metric " + options.metric + " takes no --maximal; give --dense");
+    }
     if (options.density.is_given()) {
         fail_usage("--metric " + options.metric +
                    " takes no radii that vary, so neither --density nor --radius-factor");
@@ -132,6 +135,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.params.seed = options.run.parsed_seed();
     job.params.pool_ratio = job.method.pool_ratio;
     job.params.stop_count = job.method.stop_count;
+    job.params.maximal = job.method.is_maximal;
     job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_seconds();
     check_metric(options, job);

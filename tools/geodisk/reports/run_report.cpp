@@ -10,7 +10,10 @@ namespace {
 /// What ended the run.
 const char* stopped_by(const Drawn& drawn) {
     const bool has_all = drawn.samples == drawn.method.stop_count || drawn.done.cut > 0;
-    return has_all ? "count" : drawn.method.throws_darts ? "throws" : "pool";
+    return has_all                     ? "count"
+           : drawn.method.throws_darts ? "throws"
+           : drawn.method.is_maximal   ? "maximal"
+                                       : "pool";
 }
 
 } // namespace
@@ -34,6 +37,7 @@ Json drawn_json(const Drawn& drawn) {
     return {{"method", throws_darts ? "darts" : "pool"},
             // Each method has this or that.
             {"pool_ratio", throws_darts ? Json(nullptr) : Json(drawn.method.pool_ratio)},
+            {"dense", drawn.method.is_dense},
             {"throws", throws_darts ? Json(drawn.done.run.candidates) : Json(nullptr)},
             {"candidates", drawn.done.run.candidates},
             {"chunks", drawn.done.run.chunks},
@@ -62,7 +66,9 @@ std::string samples_text(const Drawn& drawn) {
 
 std::string candidates_text(const Drawn& drawn, std::uint64_t seed) {
     std::string text = drawn.method.throws_darts ? "darts         " : "candidates    ";
-    text += grouped(drawn.done.run.candidates) + ", seed " + std::to_string(seed) + '\n';
+    text += grouped(drawn.done.run.candidates);
+    text += drawn.method.is_dense ? " (dense)" : "";
+    text += ", seed " + std::to_string(seed) + '\n';
     return text;
 }
 

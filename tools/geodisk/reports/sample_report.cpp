@@ -36,6 +36,32 @@ std::string distance_line(const SampleJob& job, const MeshInput& mesh, double la
            ") in mesh units" + (job.is_geodesic() ? "" : ", " + metric_text(job)) + '\n';
 }
 
+/// How a maximal set was completed; null of others.
+Json maximal_json(const SampleJob& job, const MeshInput& mesh, const RunReport& run) {
+    if (!job.method.is_maximal) {
+        return nullptr;
+    }
+    const MaximalReport& report = run.maximal;
+    return {{"rounds", report.rounds},
+            {"cells", report.cells},
+            {"darts", report.darts},
+            {"disks", run.disks},
+            {"certificate", report.certified},
+            {"largest_gap", report.largest_gap * mesh.distance_part}};
+}
+
+std::string maximal_line(const SampleJob& job, const MeshInput& mesh, const RunReport& run) {
+    if (!job.method.is_maximal) {
+        return "";
+    }
+    const MaximalReport& report = run.maximal;
+    const std::string gap = rounded(report.largest_gap * mesh.distance_part, 6);
+    return "maximal       " + counted(report.rounds, "round", "rounds") + ", " +
+           (report.certified
+                ? "certified: no point is " + gap + " or more from all samples\n"
+                : "not certified: a gap up to " + gap + " wide is too small for its darts\n");
+}
+
 /// Returns the number of samples of each class.
 std::vector<std::size_t> class_counts(const SampleJob& job, const SampleResult& result) {
     std::vector<std::size_t> counts(job.classes.count);
@@ -126,6 +152,10 @@ SampleHeader SampleReport::header() const {
     if (job_.classes.is_given()) {
         header.entries.emplace_back("classes", job_.classes.text());
     }
+    if (job_.method.is_maximal) {
+        header.entries.emplace_back("maximal",
+                                    done.run.maximal.certified ? "certified" : "not certified");
+    }
     for (const HeaderEntries& more :
          {job_.constraints.entries(), part_name_entries(mesh_.file, job_.columns)}) {
         header.entries.insert(header.entries.end(), more.begin(), more.end());
@@ -176,6 +206,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                                {"samples", class_counts(job_, result_)}};
     }
     document.update(drawn_json(drawn()));
+    document["maximal"] = maximal_json(job_, mesh_, run);
     document.update({{"rho", rho_},
                      {"iterations", run.iterations},
                      {"dispatches", run.dispatches},
@@ -199,7 +230,8 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
             << " at the samples\n";
     }
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
-        << constraint_lines(job_, result_) << candidates_text(drawn(), result_.params.seed);
+        << maximal_line(job_, mesh_, result_.done.run) << constraint_lines(job_, result_)
+        << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(after), job_.out.output);
     if (result_.picture) {
         out << "picture       " << one_line(job_.picture) << '\n';

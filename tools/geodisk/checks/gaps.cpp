@@ -1,0 +1,118 @@
+#include "geodisk/checks/gaps.hpp"
+
+#include <string>
+#include <vector>
+
+#include "geodisk/reports/json.hpp"
+#include "lib/frame.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr std::uint32_t kFacesPerUpdate = 256;
+
+/// Returns the radii at the corners of all faces, with `largest` the largest one; none if they do
+/// not vary.
+std::vector<double> corner_radii(const MeshInput& mesh, double largest) {
+    std::vector<double> radii;
+    if (mesh.radii) {
+        for (const float g : mesh.radii->factors()) {
+            radii.push_back(largest * double{g});
+        }
+    }
+    return radii;
+}
+
+bool takes_samples(const MeshInput& mesh, std::uint32_t face) {
+    const HalfEdge& edge = mesh.prepared.half_edges()[std::size_t{3} * face];
+    return edge.length * edge.apex_y > 0 && (mesh.face_mask.empty() || mesh.face_mask[face] != 0);
+}
+
+} // namespace
+
+GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
+                   std::span<const double> radii, double min_distance,
+                   std::span<const KeepOut> avoided, ProgressLine& progress) {
+    SampleParams params = mesh.with_fields({});
+    params.min_distance = min_distance;
+    const double allowed = 1 + 2 * ref::frame_of(mesh.prepared, params).tolerances().guard;
+    ref::Surface<double> surface(mesh.prepared, min_distance);
+    const double unit = surface.frame.unit;
+    surface.one_cell_each = true; // They hold no points.
+    ref::CoverageCheck check(surface, corner_radii(mesh, min_distance / 2 / unit), allowed);
+    progress.begin_stage("looking for gaps");
+    try {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            check_interrupted();
+            progress.update(static_cast<double>(i) / static_cast<double>(rows.size()) / 2,
+                            grouped(i) + " samples");
+            check.add_sample({rows[i].face, rows[i].bary[1], rows[i].bary[2]}, radii[i] / unit);
+        }
+        for (const auto& [center, radius] : avoided) {
+            check_interrupted();
+            check.add_avoided({center.face, center.weights[1], center.weights[2]}, radius / unit);
+        }
+    } catch (const ref::EndlessDisk& error) {
+        throw UserError(ExitCode::bad_input, error.what());
+    }
+    check.sort();
+    const std::uint32_t faces = mesh.prepared.face_count();
+    for (std::uint32_t face = 0; face < faces; ++face) {
+        if (face % kFacesPerUpdate == 0) {
+            check_interrupted();
+            progress.update(0.5 + 0.5 * face / faces, grouped(face) + " triangles");
+        }
+        if (takes_samples(mesh, face)) {
+            check.test(face);
+        }
+    }
+    progress.clear();
+    return {check.result(), allowed, min_distance * mesh.distance_part, mesh.radii.has_value()};
+}
+
+std::string gap_text(const GapCheck& gaps, const MeshInput& mesh) {
+    const ref::Coverage& found = gaps.found;
+    std::string text = found.is_beyond ? "more than " : "";
+    text += gaps.radii_vary ? rounded(found.largest, 6) + " of the sum of two radii"
+                            : rounded(found.largest * gaps.distance, 6);
+    if (gaps.is_maximal()) {
+        return text + ", every point is covered";
+    }
+    const auto& [face, weight1, weight2] = *found.uncovered;
+    const float weights[3] = {static_cast<float>(1 - weight1 - weight2),
+                              static_cast<float>(weight1), static_cast<float>(weight2)};
+    text += ", at the point of triangle " + std::to_string(face) + " with weights " +
+            rounded(double{weights[0]}, 6) + ' ' + rounded(double{weights[1]}, 6) + ' ' +
+            rounded(double{weights[2]}, 6);
+    const auto at = mesh.point(face, weights);
+    for (std::uint32_t axis = 0; axis < mesh.dimension(); ++axis) {
+        text += (axis == 0 ? ", position " : " ") + rounded(at[axis], 6);
+    }
+    return text;
+}
+
+Json gap_json(const std::optional<GapCheck>& gaps) {
+    if (!gaps) {
+        return nullptr;
+    }
+    const auto& [found, allowed, distance, radii_vary] = *gaps;
+    Json point = nullptr;
+    if (found.uncovered) {
+        point = {{"face", found.uncovered->face},
+                 {"weights",
+                  {1 - found.uncovered->weight1 - found.uncovered->weight2,
+                   found.uncovered->weight1, found.uncovered->weight2}}};
+    }
+    return {{"certificate", !found.uncovered.has_value()},
+            {"largest_gap", radii_vary ? Json(nullptr) : Json(found.largest * distance)},
+            {"largest_ratio", found.largest},
+            {"allowed_ratio", allowed},
+            {"is_beyond", found.is_beyond},
+            {"cells", found.cells},
+            {"uncovered", std::move(point)}};
+}
+
+} // namespace geodisk::tools

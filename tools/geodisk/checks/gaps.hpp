@@ -1,0 +1,37 @@
+// Gaps that samples leave on a surface, found in double precision by the reference implementation.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include <geodisk/sample.hpp>
+
+#include "coverage.hpp"
+#include "files/sample_file.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/json_type.hpp"
+
+namespace geodisk::tools {
+
+/// How far the points of a surface are from the nearest sample, as ratios to the minimum distance.
+struct GapCheck {
+    ref::Coverage found;
+    double allowed;  ///< Covered points have lower ratios: 1 and twice the guard.
+    double distance; ///< Length of ratio 1, in the unit of the user.
+    bool radii_vary;
+
+    bool is_maximal() const { return !found.uncovered; }
+};
+
+/// Looks for gaps between samples with these radii, and points to avoid, on the faces that take
+/// samples. Radii vary if `mesh` has them. Throws UserError when interrupted.
+GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
+                   std::span<const double> radii, double min_distance,
+                   std::span<const KeepOut> avoided, ProgressLine& progress);
+
+/// "0.00185, no point is uncovered", or where the gap is.
+std::string gap_text(const GapCheck& gaps, const MeshInput& mesh);
+Json gap_json(const std::optional<GapCheck>& gaps);
+
+} // namespace geodisk::tools
