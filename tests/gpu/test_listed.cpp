@@ -93,6 +93,11 @@ TEST_SUITE("listed") {
     }
 
     TEST_CASE("bad lists are refused") {
+        const PreparedMesh cube = prepared(builtin("cube", 1));
+        SampleParams maximal = params_for(cube, 100);
+        maximal.maximal = true;
+        const ListedCandidate one{0, 1, 1};
+        CHECK_FALSE(listed_domain(cube, maximal, {&one, 1}));
         CHECK(refusal({}) == "a list of candidates has 1 to 2^28, not 0");
         CHECK(refusal({{0, 1, 1}, {12, 0, 0}}) ==
               "listed candidate 1 is in face 12, but there are 12");

@@ -30,6 +30,9 @@ Result<Done> check_listed(const PreparedMesh& mesh, const SampleParams& params,
     if (!params.class_factors.empty()) {
         return invalid("listed candidates have no classes");
     }
+    if (params.maximal) {
+        return invalid("listed candidates make no maximal set");
+    }
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const auto [face, weight1, weight2] = candidates[i];
         if (face >= mesh.face_count()) {

@@ -17,6 +17,9 @@ namespace {
 // How far a cell of the first round reaches, in distances; and how much farther than in the next.
 constexpr double kFirstGoal = 0x1p-4;
 constexpr double kGoalFactor = 0.25;
+// Fewer cells are split in two steps, so that threads can share the work.
+constexpr std::size_t kFewCells = 8192;
+constexpr double kCoarseGoal = 1;
 // Below it all cells are split as far as possible.
 constexpr double kLeastGoal = 0x1p-40;
 // Maximum of darts of a round, per sample so far and in all rounds.
@@ -195,7 +198,12 @@ Task<Result<SampleSet>> MaximalRun::go() {
         co_return lit.error();
     }
     double goal = kFirstGoal;
-    refine(goal, 0);
+    if (gaps_.size() < kFewCells) {
+        refine(kCoarseGoal, 0);
+        refine(goal, lit_.size());
+    } else {
+        refine(goal, 0);
+    }
     for (std::uint32_t round = 1; !gaps_.empty(); ++round) {
         auto samples = co_await fill(round, goal);
         if (!samples) {
