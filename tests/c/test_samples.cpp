@@ -130,6 +130,46 @@ TEST_CASE("samples have classes") {
     CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
 }
 
+TEST_CASE("features are sampled before the faces") {
+    const auto mesh = mesh_of(builtin("cube", 4));
+    auto params = sized<geodisk_surface_params>();
+    params.min_distance = 0.1;
+    std::size_t corners = 0;
+    const auto domain = owned<geodisk_domain>([&](auto made, auto error) {
+        return geodisk_domain_features(mesh.get(), &params, 30, &corners, made, error);
+    });
+    CHECK(corners == 8);
+    const Placed first = placed(sample(shared_sampler(), domain.get()).get());
+    std::vector<geodisk_surface_point> given;
+    std::size_t of_corners = 0;
+    for (std::size_t i = 0; i < first.faces.size(); ++i) {
+        const float* const w = &first.weights[3 * i];
+        given.push_back({first.faces[i], {w[0], w[1], w[2]}});
+        const auto zeros = std::count(w, w + 3, 0.0f);
+        CHECK(zeros >= 1);
+        of_corners += zeros == 2 ? 1 : 0;
+    }
+    CHECK(of_corners == 8);
+    CHECK(given.size() > 60);
+    params.given = given.data();
+    params.given_count = given.size();
+    const auto faces = owned<geodisk_domain>([&](auto made, auto error) {
+        return geodisk_domain_surface(mesh.get(), &params, made, error);
+    });
+    CHECK(geodisk_samples_count(sample(shared_sampler(), faces.get()).get()) > 300);
+
+    geodisk_domain* none = nullptr;
+    for (const double wrong : {0.0, 181.0}) {
+        CHECK(geodisk_domain_features(mesh.get(), &params, wrong, nullptr, &none, nullptr) ==
+              GEODISK_INVALID_ARGUMENT);
+    }
+    const auto smooth = mesh_of(builtin("icosphere", 3));
+    CHECK(geodisk_domain_features(smooth.get(), &params, 60, &corners, &none, nullptr) ==
+          GEODISK_OK);
+    CHECK(none == nullptr);
+    CHECK(corners == 0);
+}
+
 TEST_CASE("samples that are given come first, and are told") {
     const auto mesh = mesh_of(knot());
     const auto whole = sample(shared_sampler(), surface_of(mesh.get(), 0.2, 3).get());

@@ -37,6 +37,9 @@ inline constexpr std::string_view kGivenColumn = "given";
 /// The column with the classes of samples.
 inline constexpr std::string_view kClassColumn = "class";
 
+/// The column that tells samples on corners (2) and curves (1) from those on faces (0).
+inline constexpr std::string_view kFeatureColumn = "feature";
+
 /// Keys of header entries that a reader of samples goes by.
 inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin";
 

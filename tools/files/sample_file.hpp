@@ -58,11 +58,10 @@ class AtomicFile;
 struct SampleFile {
     std::vector<SampleRow> rows;
     SampleHeader header;
-    std::uint32_t dimension = 3; ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
-    std::vector<ExtraColumn>
-        extra;                   ///< Those that part_columns() makes, kGivenColumn, kClassColumn.
-    std::vector<double> numbers; ///< Values of the column that read_samples() was asked for.
-    bool has_faces = true;       ///< Else rows have positions alone, as of other programs.
+    std::uint32_t dimension = 3;    ///< Coordinates of each row: 0, or 3 to 8; in boxes 1 to 8.
+    std::vector<ExtraColumn> extra; ///< Those that part_columns() makes, and of sample_columns.hpp.
+    std::vector<double> numbers;    ///< Values of the column that read_samples() was asked for.
+    bool has_faces = true;          ///< Else rows have positions alone, as of other programs.
 
     /// The values of a column of `extra`; empty without it.
     std::span<const std::uint32_t> extra_values(std::string_view name) const;

@@ -78,6 +78,7 @@ class ExtraReader {
         std::vector<std::string> names = part_column_names();
         names.emplace_back(kGivenColumn);
         names.emplace_back(kClassColumn);
+        names.emplace_back(kFeatureColumn);
         for (const std::string& name : names) {
             if (const std::optional<std::size_t> place = place_of(name)) {
                 places_.push_back(*place);

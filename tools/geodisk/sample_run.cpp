@@ -12,6 +12,7 @@
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/spacing.hpp"
+#include "geodisk/feature_run.hpp"
 #include "geodisk/inputs/given_input.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -92,6 +93,14 @@ void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& resul
          job.constraints.existing});
 }
 
+/// Checks that the samples on features leave room for those on faces, where their number is given.
+void check_settled(const SampleJob& job, std::size_t settled, std::size_t given) {
+    if (job.method.stop_count != 0 && settled > given && settled >= job.method.stop_count) {
+        fail_usage("--count: " + counted(settled - given, "sample", "samples") +
+                   " on features count too, so ask for more than " + grouped(settled));
+    }
+}
+
 /// The columns that the file has besides those that all have.
 std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
                                        const SampleResult& result) {
@@ -101,6 +110,9 @@ std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& me
                           std::vector<std::uint32_t>(result.rows.size())};
         std::fill_n(given.values.begin(), result.given, 1);
         columns.push_back(std::move(given));
+    }
+    if (job.features && has_columns(job.out.target())) {
+        columns.push_back({std::string(kFeatureColumn), result.features});
     }
     if (job.classes.is_given()) {
         columns.push_back({std::string(kClassColumn), result.classes});
@@ -133,12 +145,19 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     params.given = given.samples;
     params.given_classes = given.classes;
     params.avoid = given.avoided;
+    FeatureRun features(job, mesh);
+    std::vector<Sample> settled; // Of the latest distance.
     const auto task_at = [&](double min_distance) {
         params.min_distance = min_distance;
+        params.given = given.samples;
+        settled = features.settle(params, device, progress);
+        check_settled(job, settled.size(), given.samples.size());
+        params.given = settled;
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
         return Task{domain_of(job, mesh, params), job.method.expected(room)};
     };
     auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
+    features.add_seconds(done);
     params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
@@ -149,7 +168,10 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.params = params;
     result.done = std::move(done);
     result.rows = to_rows(mesh, params.min_distance, set.samples);
-    result.given = set.given;
+    result.given = given.samples.size();
+    result.features = feature_kinds(set.samples, result.given, set.given);
+    result.feature_corners = features.corners();
+    result.feature_length = features.length();
     result.classes.assign(set.classes.begin(), set.classes.end());
     result.classes.resize(result.rows.size()); // A single class has no table.
     result.avoided = given.avoided.size();
@@ -160,6 +182,13 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.bare = parts_without(mesh.prepared, faces, params.face_mask);
     result.warnings = run_warnings(job, mesh, result);
     result.warnings.insert(result.warnings.begin(), given.warnings.begin(), given.warnings.end());
+    if (features.are_missing()) {
+        result.warnings.push_back({"no_features", 1, "",
+                                   "no edge where samples may lie turns by more than " +
+                                       rounded(*job.features, 6) +
+                                       " degrees or is a border, so there are no features",
+                                   job.mesh.mesh});
+    }
     if (result.given > 0) {
         note_given(job, mesh, result, progress);
     }

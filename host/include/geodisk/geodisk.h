@@ -358,6 +358,20 @@ GEODISK_C_API geodisk_status geodisk_domain_surface(const geodisk_mesh *mesh,
                                                     const geodisk_surface_params *params,
                                                     geodisk_domain **domain, geodisk_error *error);
 
+/* Makes the domain of samples on features, to run before the surface: on corners first, then on
+ * curves, which are edges whose faces meet at more than `degrees` (1 to 180), borders, and edges of
+ * more than two faces. Distances are those of the surface, also from params->given. Pass the
+ * samples of the run as `given` to geodisk_domain_surface, with the other parameters unchanged. A
+ * sample on a corner has two weights of 0, on a curve one. `params` may have no throws and classes,
+ * and no radii from a density; its metric is GEODISK_GEODESIC. The mesh needs coordinates. If
+ * `corners` is not NULL, writes the number of corners of the mesh; those closer to others than the
+ * distance have no sample. Writes NULL to `domain` if there are no features. */
+GEODISK_C_API geodisk_status geodisk_domain_features(const geodisk_mesh *mesh,
+                                                     const geodisk_surface_params *params,
+                                                     double degrees, size_t *corners,
+                                                     geodisk_domain **domain,
+                                                     geodisk_error *error);
+
 /* Everything global about a job on a surface, as bytes that are the same on every machine. */
 typedef struct geodisk_job_frame {
     unsigned char bytes[64];

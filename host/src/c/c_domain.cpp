@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <geodisk/box.hpp>
+#include <geodisk/features.hpp>
 #include <geodisk/job_frame.hpp>
 
 #include "c/c_call.hpp"
@@ -217,6 +218,50 @@ geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh* mesh,
         }
         state->min_distance = given->min_distance;
         return keep(Domain::surface(part.mesh->prepared, part.params, *of_whole), state, domain);
+    });
+}
+
+geodisk_status geodisk_domain_features(const geodisk_mesh* mesh,
+                                       const geodisk_surface_params* params, double degrees,
+                                       size_t* corners, geodisk_domain** domain,
+                                       geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (domain == nullptr) {
+            return wrong("domain is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        if (given->metric != GEODISK_GEODESIC) {
+            return wrong("params->metric: features are for geodesic distances only");
+        }
+        const auto state = std::make_shared<DomainState>();
+        state->parts.resize(1);
+        Part& part = state->parts[0];
+        if (const auto filled = fill_part(mesh, *given, part); !filled) {
+            return filled.error();
+        }
+        if (part.mesh->dimension == 0) {
+            return wrong("features need coordinates, which the mesh lacks");
+        }
+        const PreparedMesh& prepared = part.mesh->prepared;
+        const auto features = Features::find(part.mesh->view(), prepared, degrees);
+        if (!features) {
+            return features.error();
+        }
+        if (const auto checked = check_params(prepared, part.params); !checked) {
+            return checked.error();
+        }
+        if (corners != nullptr) {
+            *corners = features->corners().size();
+        }
+        *domain = nullptr;
+        if (!features->are_sampled(prepared, part.params)) {
+            return Done{};
+        }
+        state->min_distance = given->min_distance;
+        return keep(feature_domain(prepared, part.params, *features), state, domain);
     });
 }
 

@@ -72,6 +72,7 @@ std::string sample_command(const SampleOptions& options) {
         list.add(name.c_str(), value);
     }
     list.add("--classes", options.classes);
+    list.add("--features", options.features);
     for (const std::string& only : options.mask.only) {
         list.add("--only", only);
     }

@@ -75,6 +75,23 @@ void take_classes(const SampleOptions& options, SampleJob& job) {
     }
 }
 
+void take_features(const SampleOptions& options, SampleJob& job) {
+    if (options.features.empty()) {
+        return;
+    }
+    job.features = parse_ratio("--features", options.features, 1, 180);
+    if (job.classes.is_given()) {
+        fail_usage("--features takes no --classes");
+    }
+    if (!job.is_geodesic()) {
+        fail_usage("--features goes by distances along the surface, so it takes no --metric " +
+                   options.metric);
+    }
+    if (options.density.is_density()) {
+        fail_usage("--features takes no --density; give --radius-factor to vary the distance");
+    }
+}
+
 /// Checks that the distance is given once.
 void check_distance(const SampleOptions& options, const ClassTable& classes) {
     if (classes.distances.empty()) {
@@ -124,6 +141,7 @@ SampleJob parse_job(const SampleOptions& options) {
     }
     job.method = parse_method(options.method, options.count);
     take_classes(options, job);
+    take_features(options, job);
     check_distance(options, job.classes);
     if (!options.min_distance.empty()) {
         job.min_distance = parse_length("--min-distance", options.min_distance);
@@ -180,6 +198,12 @@ void add_subject_options(Command command, SampleOptions& options) {
     add_mask_options(command, options.mask);
     add_constraint_options(command, options.constraints);
     add_class_option(command, options.classes, "Constraints");
+    command.add_option("--features", options.features, "ANGLE",
+                       "Sample corners first, then edges where faces meet at more than\n"
+                       "ANGLE degrees (1 to 180; 30 suits most CAD models), borders and\n"
+                       "edges of more than two faces, then faces. The column feature is\n"
+                       "2, 1 and 0",
+                       "Constraints");
 
     command
         .add_option("--metric", options.metric, "NAME",

@@ -29,7 +29,7 @@ struct SampleOptions {
     RunOptions run;
     MethodOptions method;
     std::string min_distance, radius, count;
-    std::string classes;
+    std::string classes, features;
     std::string metric = "geodesic";
     std::string picture;
     bool legend = false;
@@ -53,6 +53,7 @@ struct SampleJob {
     ConstraintOptions constraints;
     ClassTable classes;
     std::string classes_option;       ///< As given.
+    std::optional<double> features;   ///< Degrees from which on edges are features.
     std::vector<float> class_factors; ///< SampleParams::class_factors.
     OutputOptions out;
     std::vector<std::string> columns; ///< Of the samples, besides those that all have.

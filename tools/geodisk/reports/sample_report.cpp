@@ -83,6 +83,27 @@ Json class_distances(const SampleJob& job, double largest) {
     return rows;
 }
 
+/// Numbers of samples on features.
+struct FeatureCounts {
+    std::ptrdiff_t corners, on_curves, left_out;
+    explicit FeatureCounts(const SampleResult& result)
+        : corners(std::ranges::count(result.features, 2u)),
+          on_curves(std::ranges::count(result.features, 1u)),
+          left_out(static_cast<std::ptrdiff_t>(result.feature_corners) - corners) {}
+};
+
+std::string feature_line(const SampleResult& result) {
+    const FeatureCounts counts(result);
+    const auto number = [](std::ptrdiff_t n) { return static_cast<std::size_t>(n); };
+    return "features      " + counted(number(counts.corners), "corner", "corners") + ", " +
+           counted(number(counts.on_curves), "sample", "samples") + " on curves of length " +
+           rounded(result.feature_length, 6) +
+           (counts.left_out > 0 ? "; " + counted(number(counts.left_out), "corner", "corners") +
+                                      " left out, closer than the distance to another"
+                                : "") +
+           '\n';
+}
+
 /// Says how many samples were given and points avoided, and those of each class, if any were.
 std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
     std::string text;
@@ -97,6 +118,9 @@ std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
         text += "given         " + grouped(result.given) + " of them";
         text += pairs == 0 ? "" : "; " + counted(pairs, "pair", "pairs") + " among these too close";
         text += '\n';
+    }
+    if (job.features) {
+        text += feature_line(result);
     }
     if (result.avoided > 0) {
         text += "avoided       " + counted(result.avoided, "point", "points") + '\n';
@@ -149,6 +173,9 @@ SampleHeader SampleReport::header() const {
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));
     }
+    if (job_.features) {
+        header.entries.emplace_back("features", exact_text(*job_.features));
+    }
     if (job_.classes.is_given()) {
         header.entries.emplace_back("classes", job_.classes.text());
     }
@@ -188,6 +215,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"given", nullptr},
                   {"avoided", result_.avoided}, // Without --existing.
                   {"classes", nullptr},
+                  {"features", nullptr},
                   {"seed", params.seed}};
     document["mesh"]["components_without_samples"] = result_.bare.count;
     if (result_.picture) {
@@ -200,6 +228,13 @@ Json SampleReport::document(const SecondsByStage& after) const {
         document["given"] = {{"samples", result_.given},
                              {"close_pairs", result_.among_given.violations.size()},
                              {"closest", pair_json(result_.among_given.closest)}};
+    }
+    if (job_.features) {
+        const FeatureCounts counts(result_);
+        document["features"] = {{"corners", counts.corners},
+                                {"on_curves", counts.on_curves},
+                                {"corners_left_out", counts.left_out},
+                                {"length", result_.feature_length}};
     }
     if (job_.classes.is_given()) {
         document["classes"] = {{"distances", class_distances(job_, distance)},

@@ -23,10 +23,13 @@ struct SampleResult {
     SampleParams params; ///< Of the job, on its mesh.
     DeviceRun done;
     std::vector<SampleRow> rows;
-    std::size_t given = 0;              ///< Number of rows that were given: the first.
-    SpacingResult among_given;          ///< Their pairs.
-    std::size_t avoided = 0;            ///< Number of points to avoid.
-    std::vector<std::uint32_t> classes; ///< Of the rows; 0 if there are none.
+    std::size_t given = 0;               ///< Number of rows that were given: the first.
+    SpacingResult among_given;           ///< Their pairs.
+    std::size_t avoided = 0;             ///< Number of points to avoid.
+    std::vector<std::uint32_t> classes;  ///< Of the rows; 0 if there are none.
+    std::vector<std::uint32_t> features; ///< FeatureKind of the rows.
+    std::size_t feature_corners = 0;     ///< Corners that may have samples.
+    double feature_length = 0;           ///< Of the curves.
     BareParts bare;
     std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;

@@ -43,6 +43,13 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_radii_create": [c_void_p, c_void_p, c_int32, c_size_t, _HANDLE],
     "geodisk_density_create": [c_void_p, c_void_p, c_int32, c_size_t, _HANDLE],
     "geodisk_domain_surface": [c_void_p, POINTER(SurfaceParams), _HANDLE],
+    "geodisk_domain_features": [
+        c_void_p,
+        POINTER(SurfaceParams),
+        c_double,
+        POINTER(c_size_t),
+        _HANDLE,
+    ],
     "geodisk_domain_surfaces": [POINTER(SurfacePart), c_size_t, _HANDLE],
     "geodisk_domain_box": [POINTER(BoxParams), _HANDLE],
     "geodisk_distance_for_count": [c_void_p, c_void_p, c_void_p, c_double, POINTER(c_double)],

@@ -100,6 +100,14 @@ def samples_of_parts(
     return result
 
 
+def places_of(handle: c.Handle) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Returns the triangles and weights of samples on one surface."""
+    faces = _copied(handle.value, s.FACE, np.uint32)
+    weights = _copied(handle.value, s.BARYCENTRIC, np.float64)
+    assert faces is not None and weights is not None
+    return faces[:, 0], weights
+
+
 def _report_of(handle: c.Handle) -> dict[str, Any]:
     report = s.Report()
     c.call("geodisk_samples_report", handle.value, ctypes.byref(report))

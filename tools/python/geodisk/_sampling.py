@@ -15,6 +15,7 @@ from . import _structs as s
 from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
+from ._features import Features
 from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
@@ -45,6 +46,7 @@ def sample(
     existing: ExistingLike | None = None,
     avoid: AvoidLike | None = None,
     classes: ClassesLike | None = None,
+    features: float | None = None,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
@@ -106,6 +108,10 @@ def sample(
         Number of classes of samples, 1 to 8, each with the minimum distance D, where samples of
         two classes are D / sqrt(k) apart. Or a symmetric table of the distances of all pairs of
         classes, in place of the minimum distance. ``columns["class"]`` has the classes.
+    features : float, optional
+        Sample corners first, then edges whose triangles meet at more than this angle in degrees (1
+        to 180), borders and edges of more than two triangles, then the triangles.
+        ``columns["feature"]`` is 2, 1 and 0.
     metric : {"geodesic", "euclidean", "approximate"}
         Distance to use; the last two are for comparison.
     edge_lengths, weld, keep_seams, columns, mesh_format
@@ -196,9 +202,16 @@ def sample(
         params.class_count = kinds.count
         params.given_classes = own_classes.ctypes.data
 
+    edges = None if features is None else Features(features, mesh, device)
+    if edges is not None and kinds is not None:
+        raise e.invalid("features take no classes")
+
     def domain_at(at: float, stop: int) -> c.Handle:
         params.min_distance, params.stop_count = at, stop
-        return c.Handle("domain", "geodisk_domain_surface", mesh._handle.value, byref(params))
+        settled = None if edges is None else edges.settle(params, len(kept))
+        domain = c.Handle("domain", "geodisk_domain_surface", mesh._handle.value, byref(params))
+        del settled  # It was copied.
+        return domain
 
     if distance is None:
         found = c_double()
@@ -213,6 +226,8 @@ def sample(
         distance = found.value * part
     made = sampled(domain_at, distance / part, count, exact, stop_count, device, progress)
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
+    if edges is not None:
+        samples = edges.marked(samples, len(kept))
     samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, mesh._handle, count, stop_count, throws, mask))
     return samples

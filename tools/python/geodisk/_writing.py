@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 Header = dict[str, str]
 
 #: Names of columns of whole numbers: what part of its file a triangle lies in, and whether the
-#: sample was given, and its class.
-WHOLE_COLUMNS = ("mesh", "primitive", "node", "material", "group", "part", "given", "class")
+#: sample was given, its class, and its feature.
+WHOLE_COLUMNS = ("mesh", "primitive", "node", "material", "group", "part", "given", "class", "feature")
 
 
 def header_of(samples: Samples) -> Header:

@@ -1,0 +1,89 @@
+// Samples on corners and curves, made and verified.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "files/output_file.hpp"
+#include "files/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json json_in(const TemporaryFolder& folder, const char* name) {
+    return Json::parse(bytes_of(folder / name));
+}
+
+} // namespace
+
+TEST_CASE("features come first, are marked, and keep their distance") {
+    const TemporaryFolder folder;
+    const char* const mesh = "builtin:cube:4";
+    const Outcome made = run(folder, {"sample", mesh, "-o", "a.ply", "-d", "5%", "--features", "30",
+                                      "--json", "a.json"});
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.out, "features      8 corners, "));
+    const Json features = json_in(folder, "a.json")["features"];
+    CHECK(features["corners"] == 8);
+    CHECK(features["corners_left_out"] == 0);
+    CHECK(features["length"] == 12.0);
+    const tools::SampleFile samples = tools::read_samples(folder / "a.ply");
+    const auto column = samples.extra_values("feature");
+    REQUIRE(column.size() == samples.rows.size());
+    CHECK(std::is_sorted(column.rbegin(), column.rend()));
+    CHECK(features["on_curves"] == std::ranges::count(column, 1u));
+    CHECK(*samples.header.find("features") == "30");
+    const Outcome verified = run(folder, {"verify", mesh, "a.ply"});
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+
+    // With samples to keep, which are told apart, and a mask.
+    const Outcome more = run(folder, {"sample", mesh, "-o", "b.csv", "-d", "5%", "--features", "30",
+                                      "--existing", "a.ply", "--mask", "z>0"});
+    INFO(more.out, more.err);
+    CHECK(more.status == 0);
+    CHECK(contains(more.out, "0 corners, 0 samples on curves"));
+    CHECK(run(folder, {"verify", mesh, "b.csv", "--mask", "z>0"}).status == 0);
+}
+
+TEST_CASE("corners closer than the distance are left out, and a smooth surface has no features") {
+    const TemporaryFolder folder;
+    const Outcome few =
+        run(folder, {"sample", "builtin:cube:4", "-o", "a.ply", "-d", "1.2", "--features", "30"});
+    CHECK(few.status == 0);
+    CHECK(contains(few.out, "left out, closer than the distance to another"));
+    CHECK(run(folder, {"verify", "builtin:cube:4", "a.ply"}).status == 0);
+    const Outcome none = run(
+        folder, {"sample", "builtin:icosphere", "-o", "b.ply", "-d", "0.2", "--features", "60"});
+    CHECK(none.status == 0);
+    CHECK(contains(none.err, "so there are no features"));
+}
+
+TEST_CASE("what takes no features ends in an error, without a file") {
+    const TemporaryFolder folder;
+    for (const auto& [options, message] : std::vector<std::pair<Arguments, const char*>>{
+             {{"--features", "0"}, "is not a number of 1 to 180"},
+             {{"--features", "181"}, "is not a number of 1 to 180"},
+             {{"--features", "sharp"}, "is not a number of 1 to 180"},
+             {{"--features", "30", "--classes", "2"}, "takes no --classes"},
+             {{"--features", "30", "--metric", "euclidean"}, "takes no --metric"},
+             {{"--features", "30", "--density", "curvature"}, "takes no --density"},
+             {{"--features", "30", "--method", "darts", "-n", "20"}, "on features count too"}}) {
+        const Outcome refused =
+            run(folder, joined({"sample", "builtin:cube:4", "-o", "b.ply", "-d", "5%"}, options));
+        INFO(refused.err);
+        CHECK(refused.status != 0);
+        CHECK(contains(refused.err, message));
+        CHECK_FALSE(std::filesystem::exists(folder / "b.ply"));
+    }
+}
+
+} // namespace geodisk::test

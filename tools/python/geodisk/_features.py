@@ -1,0 +1,73 @@
+"""Samples on the corners and curves of a mesh, before those on its faces."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from ctypes import byref, c_size_t
+
+import numpy as np
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._devices import DeviceLike
+from ._existing import existing_of
+from ._mesh import Mesh
+from ._results import places_of
+from ._running import Runs
+from ._samples import Samples
+
+
+class Features:
+    """The features of a run: edges where triangles meet at more than some degrees, and corners."""
+
+    def __init__(self, degrees: float, mesh: Mesh, device: DeviceLike | None) -> None:
+        self._degrees = float(degrees)
+        if not (math.isfinite(self._degrees) and 1 <= self._degrees <= 180):
+            raise e.invalid(f"features is {degrees!r}, not an angle from 1 to 180 degrees")
+        self._mesh, self._device = mesh, device
+        self._corners = c_size_t()
+
+    def settle(self, params: s.SurfaceParams, kept: int) -> object:
+        """Samples the features at the distance of `params`, and adds them to its given samples.
+
+        The first `kept` of these are those of the caller. Returns what has to be kept until the
+        domain is made.
+        """
+        params.given_count = kept
+        own = s.SurfaceParams.from_buffer_copy(params)
+        own.throws = own.stop_count = 0
+        domain = c.Handle(
+            "domain",
+            "geodisk_domain_features",
+            self._mesh._handle.value,
+            byref(own),
+            self._degrees,
+            byref(self._corners),
+        )
+        if not domain.value:
+            return None
+        with Runs(self._device, False) as runs:
+            settled = existing_of(self._mesh, places_of(runs.run(domain)))
+        params.given, params.given_count = settled.ctypes.data, len(settled)
+        return settled
+
+    def marked(self, samples: Samples, kept: int) -> Samples:
+        """Returns the samples of the run with the column `feature`; `kept` are the caller's own."""
+        assert samples.barycentric is not None
+        kinds = np.count_nonzero(samples.barycentric == 0, axis=1).astype(np.uint32)
+        place = np.arange(len(samples))
+        kinds[(place < kept) | (place >= samples.report["given"])] = 0
+        columns = {name: x for name, x in samples.columns.items() if name != "given"}
+        if kept > 0:
+            columns["given"] = (place < kept).astype(np.uint32)
+        columns["feature"] = kinds
+        corners = int(np.count_nonzero(kinds == 2))
+        report = {
+            **samples.report,
+            "given": kept,
+            "corners": corners,
+            "corners_left_out": self._corners.value - corners,
+        }
+        return dataclasses.replace(samples, columns=columns, report=report)
