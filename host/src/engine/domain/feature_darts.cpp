@@ -161,7 +161,9 @@ Result<Domain> feature_domain(const PreparedMesh& mesh, const SampleParams& para
         if (auto checked = check(mesh, params, features); !checked) {
             return checked.error();
         }
-        return listed_domain(mesh, params, feature_darts(mesh, params, features));
+        SampleParams own = params;
+        own.maximal = false; // The surface may be, with these.
+        return listed_domain(mesh, own, feature_darts(mesh, own, features));
     });
 }
 
