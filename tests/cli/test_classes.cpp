@@ -90,6 +90,21 @@ TEST_CASE("classes by a table, in a file too, and with existing samples") {
                    "has no column class"));
 }
 
+TEST_CASE("a line of a batch has classes of its own") {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "table.csv") << "0.5,0.3\n0.3,0.5\n";
+    std::ofstream(folder / "list.txt") << "builtin:cube:4 --classes 2 -o a.ply\n"
+                                          "builtin:cube:4 --classes table.csv -o b.ply\n"
+                                          "builtin:cube:4 --features 30 -o c.ply\n";
+    const Outcome made = run(folder, {"batch", "list.txt", "-o", "out", "-d", "10%"});
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    CHECK(*tools::read_samples(folder / "out/b.ply").header.find("min_distance") == "0.5");
+    for (const std::string name : {"out/a.ply", "out/b.ply", "out/c.ply"}) {
+        CHECK(run(folder, {"verify", "builtin:cube:4", name}).status == 0);
+    }
+}
+
 TEST_CASE("what no classes are ends in an error, without a file") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-d", "10%", "--classes", "3"}).status ==

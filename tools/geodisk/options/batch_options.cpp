@@ -37,7 +37,8 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     const std::string& method =
         line.method.method.empty() ? common.method.method : line.method.method;
     const bool throws_darts = names_darts(method);
-    const bool has_length = !line.min_distance.empty() || !line.radius.empty();
+    const bool has_length =
+        !line.min_distance.empty() || !line.radius.empty() || has_distances(line.classes);
     // Where darts stop at a count, it goes with a length.
     if (has_length || (!line.count.empty() && !throws_darts)) {
         common.min_distance.clear();

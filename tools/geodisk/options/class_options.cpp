@@ -143,6 +143,10 @@ bool names_class_file(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.eE+-,; \t") != std::string::npos;
 }
 
+bool has_distances(const std::string& text) {
+    return names_class_file(text) || text.find(';') != std::string::npos;
+}
+
 ClassTable parse_classes(const std::string& text) {
     if (text.empty()) {
         return {};

@@ -34,6 +34,8 @@ struct ClassTable {
 /// or else from the file that it names. Throws UserError for what is neither.
 ClassTable parse_classes(const std::string& text);
 
+/// Returns true for a table, which has all distances, read or not.
+bool has_distances(const std::string& text);
 /// Returns true if parse_classes() reads a file.
 bool names_class_file(const std::string& text);
 /// Adds that file.
