@@ -90,6 +90,14 @@ TEST_CASE("classes by a table, in a file too, and with existing samples") {
                    "has no column class"));
 }
 
+TEST_CASE("a page of classes") {
+    const TemporaryFolder folder;
+    const Outcome page = run(folder, {"report", "builtin:cube:4", "-d", "20%", "--classes", "2",
+                                      "-o", "a.html"});
+    INFO(page.err);
+    CHECK(page.status == 0);
+}
+
 TEST_CASE("a line of a batch has classes of its own") {
     const TemporaryFolder folder;
     std::ofstream(folder / "table.csv") << "0.5,0.3\n0.3,0.5\n";

@@ -132,6 +132,13 @@ std::vector<NamedFile> files_read(const SampleJob& job) {
     return read;
 }
 
+void check_target(const SampleJob& job, const MeshInput& mesh) {
+    check_dimension(job.out.target(), mesh.dimension());
+    if (job.classes.is_given()) {
+        check_columns(job.out.target(), std::vector{std::string(kClassColumn)});
+    }
+}
+
 RunDevice device_for(const SampleJob& job) {
     return RunDevice(job.run.device, job.runner, !job.picture.empty());
 }

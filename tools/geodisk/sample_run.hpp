@@ -16,6 +16,9 @@ namespace geodisk::tools {
 /// The files that the job reads.
 std::vector<NamedFile> files_read(const SampleJob& job);
 
+/// Throws UserError(usage) if the format of the output cannot hold the samples.
+void check_target(const SampleJob& job, const MeshInput& mesh);
+
 /// The device that the job asks for, which can draw where there is to be a picture.
 RunDevice device_for(const SampleJob& job);
 

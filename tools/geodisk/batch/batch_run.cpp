@@ -144,7 +144,7 @@ class BatchRun {
         for (const MeshWarning& warning : mesh.warnings) {
             entry.warnings.push_back(warning.message);
         }
-        check_dimension(job.out.target(), mesh.dimension());
+        check_target(job, mesh);
         const SampleResult result = sample_on(pool_, job, mesh, none);
         for (const MeshWarning& warning : result.warnings) {
             entry.warnings.push_back(warning.message);

@@ -71,7 +71,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
     ProgressLine progress(job.out.quiet);
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density, job.mask);
     if (!job.out.output.empty()) {
-        check_dimension(job.out.target(), mesh.dimension());
+        check_target(job, mesh);
     }
     if (!job.picture.empty()) {
         check_visible(job.mesh.mesh, mesh);

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "files/part_columns.hpp"
-#include "files/sample_columns.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/suggestion.hpp"
@@ -66,9 +65,6 @@ void take_classes(const SampleOptions& options, SampleJob& job) {
     if (!job.is_geodesic()) {
         fail_usage("--classes goes by distances along the surface, so it takes no --metric " +
                    options.metric);
-    }
-    if (!job.out.output.empty()) {
-        check_columns(job.out.target(), std::vector{std::string(kClassColumn)});
     }
     if (!job.classes.distances.empty()) {
         job.min_distance = Length{job.classes.largest(), false};
