@@ -203,6 +203,14 @@ TEST_SUITE("settled") {
         refused({0, 0, -0.25f, 0.5f}, "weights");
         refused({0, 0, 0x1p-25f, 0.5f}, "weights");
         refused({0, 0, std::numeric_limits<float>::quiet_NaN(), 0}, "weights");
+        SampleParams classed = params_for(mesh, 100);
+        const std::vector<float> factors(4, 1);
+        classed.class_factors = factors;
+        DeviceRun with_classes(mesh, classed);
+        CHECK(with_classes.job().set_settled(Records{{1, 3, 0.25f, 0.5f}}));
+        const auto third = with_classes.job().set_settled(Records{{2, 3, 0.25f, 0.5f}});
+        REQUIRE_FALSE(third);
+        CHECK(third.error().message == "settled sample 0 has class 2, but there are 2");
         const auto many = run.job().set_settled(Records(run.plan().sample_capacity + 1));
         REQUIRE_FALSE(many);
         CHECK(many.error().message.find("sample_capacity") != std::string::npos);

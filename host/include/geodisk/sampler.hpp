@@ -423,7 +423,7 @@ class GEODISK_API Job {
     /// samples of the same box and seed.
     /// Errors: `invalid_argument`, naming the sample, for a face that does not exist, or weights
     /// that are not multiples of 2^-24 with a sum of at most 1; for more samples than
-    /// RunPlan::sample_capacity.
+    /// RunPlan::sample_capacity; for a class that there is not.
     Result<Done> set_settled(std::span<const gpu::SampleRec> samples) noexcept;
     /// Returns the next step, from a copy of the control record that the host has read. Copies from
     /// before the last record_begin(), record_count() or record_rewind() are ignored with

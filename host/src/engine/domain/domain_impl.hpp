@@ -45,6 +45,7 @@ struct Domain::Impl {
     /// Points to avoid, then given samples, to upload as the first samples.
     std::vector<gpu::SampleRec> settled;
     std::uint32_t avoided = 0; ///< How many of them are points to avoid.
+    std::uint32_t classes = 0; ///< Number of classes; 0 if samples have none.
     ErrorModel error;          ///< Bound on the error of distances.
     /// True if the host gives the candidates, and upload_parts() has them.
     bool is_listed = false;

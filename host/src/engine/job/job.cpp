@@ -332,6 +332,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     dispatches = 0;
     given = static_cast<std::uint32_t>(of.settled.size());
     avoided = of.avoided;
+    classes = of.classes;
     push = {};
     constants = {};
     constants.capacity = capacity_for(of.stages, new_plan.stages);

@@ -153,6 +153,13 @@ Result<Done> check_settled(std::span<const gpu::SampleRec> samples, const Job::I
                              (has_weights ? "face " : "cell ") + std::to_string(sample.face) +
                              ", but there are " + std::to_string(job.constants.faces)};
         }
+        if (const std::uint32_t own = sample.order & gpu::kClassMask;
+            job.classes != 0 && own >= job.classes) {
+            return Error{Status::invalid_argument, "settled sample " + std::to_string(i) +
+                                                       " has class " + std::to_string(own) +
+                                                       ", but there are " +
+                                                       std::to_string(job.classes)};
+        }
         if (has_weights && !(is_weight(sample.weight1) && is_weight(sample.weight2) &&
                              sample.weight1 + sample.weight2 <= 1)) {
             return Error{Status::invalid_argument,
