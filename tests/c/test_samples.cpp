@@ -537,4 +537,36 @@ TEST_CASE("an exact search finds a distance with enough samples") {
           GEODISK_INVALID_ARGUMENT);
 }
 
+TEST_CASE("levels have distances and seeds of their own") {
+    const auto mesh = mesh_of(knot());
+    auto params = sized<geodisk_surface_params>();
+    params.min_distance = 0.3;
+    params.seed = 5;
+    std::uint32_t levels = 0;
+    REQUIRE(geodisk_level_count(mesh.get(), &params, 0, &levels, nullptr) == GEODISK_OK);
+    CHECK(levels >= 2);
+    double distance = 0;
+    std::uint64_t seed = 0;
+    for (std::uint32_t level = 0; level < levels; ++level) {
+        REQUIRE(geodisk_level_params(&params, 0, levels, level, &distance, &seed, nullptr) ==
+                GEODISK_OK);
+        CHECK(distance == 0.3 * (1 << (levels - 1 - level)));
+        CHECK((seed == 5) == (level == 0));
+    }
+    const auto fails = [&](double factor, std::uint32_t count, std::uint32_t level) {
+        return geodisk_level_params(&params, factor, count, level, &distance, &seed, nullptr) ==
+               GEODISK_INVALID_ARGUMENT;
+    };
+    CHECK(fails(1, 2, 0));
+    CHECK(fails(9, 2, 0));
+    CHECK(fails(2, 0, 0));
+    CHECK(fails(2, 33, 0));
+    CHECK(fails(2, 2, 2));
+    CHECK(geodisk_level_params(&params, 2, 2, 0, nullptr, &seed, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_level_count(mesh.get(), &params, 1, &levels, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_level_count(nullptr, &params, 2, &levels, nullptr) == GEODISK_INVALID_ARGUMENT);
+}
+
 } // namespace geodisk::test

@@ -1,8 +1,10 @@
-// Counts: `--exact`, and what it refuses.
+// `--exact` and `--order progressive`, and what they refuse.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -116,6 +118,130 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
         folder, {"sample", kMesh, "-o", "a.ply", "-n", "5", "--exact", "--avoid", "one.csv:1000"});
     CHECK(full.status == 2);
     CHECK(contains(full.err, "no distance tried gave more than 0 of 5 samples"));
+    CHECK(!std::filesystem::exists(folder / "a.ply"));
+}
+
+TEST_CASE("a progressive order has levels that are spaced, each by its distance") {
+    const TemporaryFolder folder;
+    for (const Arguments& options : {Arguments{}, {"--radius-factor", "curvature"}}) {
+        Arguments arguments{"-d", "0.3", "--seed", "3", "--order", "progressive"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        sample(folder, "a.ply", arguments);
+        const Json levels = report_in(folder)["levels"];
+        REQUIRE(levels.size() >= 2);
+        const tools::SampleFile all = tools::read_samples(folder / "a.ply");
+        const auto column = all.extra_values("level");
+        REQUIRE(column.size() == all.rows.size());
+        for (std::size_t level = 0; level < levels.size(); ++level) {
+            const double scale = std::pow(2.0, static_cast<double>(levels.size() - 1 - level));
+            CHECK(levels[level]["min_distance"].get<double>() == 0.3 * scale);
+            const std::size_t end = levels[level]["samples"];
+            REQUIRE(end > 0);
+            CHECK(column[end - 1] == level);
+            CHECK((end == column.size() || column[end] == level + 1));
+        }
+        arguments = {"verify", kMesh, "a.ply", "--json", "verify.json"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        CHECK(run(folder, arguments).status == 0);
+        const Json verified = Json::parse(bytes_of(folder / "verify.json"))["levels"];
+        REQUIRE(verified.size() == levels.size());
+        for (std::size_t level = 0; level < levels.size(); ++level) {
+            CHECK(verified[level]["samples"] == levels[level]["samples"]);
+            CHECK(verified[level]["violations"]["pairs"] == 0);
+        }
+        // The first level is an ordinary run.
+        arguments = {"-d", levels[0]["min_distance"].dump(), "--seed", "3"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        sample(folder, "first.ply", arguments);
+        const tools::SampleFile first = tools::read_samples(folder / "first.ply");
+        REQUIRE(first.rows.size() == levels[0]["samples"]);
+        for (std::size_t i = 0; i < first.rows.size(); ++i) {
+            REQUIRE(first.rows[i].face == all.rows[i].face);
+            REQUIRE(first.rows[i].bary[1] == all.rows[i].bary[1]);
+        }
+    }
+}
+
+TEST_CASE("a progressive order has counts, existing samples and levels of one's own") {
+    const TemporaryFolder folder;
+    sample(folder, "a.csv", {"-n", "300", "--exact", "--order", "progressive", "--levels", "3"});
+    CHECK(report_in(folder)["samples"] == 300);
+    CHECK(report_in(folder)["levels"].size() == 3);
+    CHECK(report_in(folder)["levels"][2]["samples"] == 300);
+    CHECK(run(folder, {"verify", kMesh, "a.csv"}).status == 0);
+    sample(folder, "b.csv",
+           {"-n", "600", "--order", "progressive", "--level-factor", "1.5", "--existing", "a.csv"});
+    const tools::SampleFile more = tools::read_samples(folder / "b.csv");
+    CHECK(more.extra_values("given")[299] == 1);
+    CHECK(more.extra_values("given")[300] == 0);
+    CHECK(more.extra_values("level")[299] == 0);
+    CHECK(run(folder, {"verify", kMesh, "b.csv"}).status == 0);
+    // One level is dart order.
+    sample(folder, "one.csv", {"-n", "50", "--order", "progressive", "--levels", "1"});
+    sample(folder, "dart.csv", {"-n", "50"});
+    CHECK(tools::read_samples(folder / "one.csv").rows.size() ==
+          tools::read_samples(folder / "dart.csv").rows.size());
+}
+
+TEST_CASE("verify finds levels that are not spaced, and files that contradict themselves") {
+    const TemporaryFolder folder;
+    sample(folder, "a.csv", {"-d", "0.5", "--order", "progressive", "--levels", "3"});
+    const std::string text = bytes_of(folder / "a.csv");
+    const auto verify = [&](const std::string& old_text, const std::string& new_text) {
+        std::string changed = text;
+        const std::size_t at = changed.find(old_text);
+        REQUIRE(at != std::string::npos);
+        changed.replace(at, old_text.size(), new_text);
+        std::ofstream(folder / "b.csv") << changed;
+        return run(folder, {"verify", kMesh, "b.csv"});
+    };
+    const Outcome close = verify("level_distances: 2 1 0.5", "level_distances: 2 1.4 0.5");
+    CHECK(close.status == 1);
+    CHECK(contains(close.err, "closer than 1.4, the distance of level 1"));
+    CHECK(contains(verify("level_distances: 2 1 0.5", "level_distances: 1 0.5").err,
+                   "is of level 2, but the header has 2 levels"));
+    CHECK(contains(verify("level_distances: 2 1 0.5", "level_distances: 1 2 0.5").err,
+                   "not positive numbers that fall"));
+    CHECK(contains(verify(",level", ",lewel").err, "it has no column level"));
+    CHECK(run(folder, {"verify", kMesh, "a.csv"}).status == 0);
+    // A prefix of whole lines is a set of its own.
+    const Outcome less =
+        verify("# samples: " + std::to_string(tools::read_samples(folder / "a.csv").rows.size()),
+               "# none: 0");
+    CHECK(less.status == 0);
+}
+
+TEST_CASE("orders that cannot be are refused without a file") {
+    const TemporaryFolder folder;
+    struct Case {
+        Arguments options;
+        const char* message;
+    };
+    const Case cases[] = {
+        {{"--order", "random"}, "--order: 'random' is neither dart nor progressive"},
+        {{"--levels", "3"}, "--levels is for --order progressive"},
+        {{"--level-factor", "3"}, "--level-factor is for --order progressive"},
+        {{"--order", "progressive", "--levels", "0"}, "--levels: '0' is not a whole number"},
+        {{"--order", "progressive", "--levels", "33"}, "the maximum is 32"},
+        {{"--order", "progressive", "--level-factor", "1"}, "--level-factor: '1'"},
+        {{"--order", "progressive", "--method", "darts", "--darts", "9"}, "is for --method pool"},
+        {{"--order", "progressive", "--metric", "euclidean"}, "it takes no --metric euclidean"},
+        {{"--order", "progressive", "--maximal"}, "takes no --maximal"},
+        {{"--order", "progressive", "--classes", "2"}, "takes no --classes"},
+        {{"--order", "progressive", "--features", "40"}, "takes no --features"},
+        {{"--order", "progressive", "--dry-run"}, "--dry-run tries one run"},
+    };
+    for (const Case& wrong : cases) {
+        Arguments arguments{"sample", kMesh, "-d", "0.5"};
+        if (wrong.options.back() != "--dry-run") {
+            arguments.insert(arguments.end(), {"-o", "a.ply"});
+        }
+        arguments.insert(arguments.end(), wrong.options.begin(), wrong.options.end());
+        const Outcome outcome = run(folder, arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK(contains(outcome.err, wrong.message));
+    }
     CHECK(!std::filesystem::exists(folder / "a.ply"));
 }
 

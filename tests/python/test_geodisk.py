@@ -175,6 +175,48 @@ def test_an_exact_count_keeps_the_first_samples_of_a_run():
         geodisk.sample(mesh, count=5, exact=True, avoid=(samples[:9], 99.0))
 
 
+def test_progressive_order_fills_level_after_level(tmp_path):
+    square = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    samples = geodisk.sample(square, min_distance=0.03, order="progressive", seed=3)
+    distances = samples.level_distances
+    assert len(distances) >= 3 and distances[-1] == 0.03
+    assert np.allclose(distances, 0.03 * 2.0 ** np.arange(len(distances))[::-1])
+    assert (np.diff(samples.level.astype(int)) >= 0).all()
+    for level, distance in enumerate(distances):
+        points = samples.points[samples.level <= level]  # In the plane, paths are straight.
+        apart = np.linalg.norm(points[:, None] - points, axis=2) + 9 * np.eye(len(points))
+        assert apart.min() >= distance
+        plain = geodisk.sample(square, min_distance=distance, seed=3)
+        assert len(plain) * 0.85 <= len(points) <= len(plain) * 1.15
+        assert level > 0 or np.array_equal(plain.points, points)
+        told = samples.report["levels"][level]
+        assert told == {"min_distance": distance, "samples": len(points)}
+    found = geodisk.verify(samples)
+    assert found.ok and found.level_violations == (0,) * len(distances)
+    samples.save(tmp_path / "a.csv")
+    again = geodisk.read(tmp_path / "a.csv")
+    assert again.level_distances == distances
+    assert np.array_equal(again.level, samples.level) and again[3].columns["level"] == 0
+    exact = geodisk.sample(square, count=200, exact=True, order="progressive", levels=2)
+    assert len(exact) == 200 and exact.level.max() == 1
+    more = geodisk.sample(square, count=300, existing=exact, order="progressive", level_factor=1.5)
+    assert more.columns["given"].sum() == 200 and geodisk.verify(more).ok
+    assert len(geodisk.sample(square, count=200, order="progressive", stop_count=30)) == 30
+    for wrong in [
+        dict(order="random"),
+        dict(levels=2),
+        dict(order="progressive", levels=0),
+        dict(order="progressive", level_factor=1.0),
+        dict(order="progressive", throws=10),
+        dict(order="progressive", metric="euclidean"),
+        dict(order="progressive", classes=2),
+        dict(order="progressive", features=40),
+        dict(order="progressive", maximal=True),
+    ]:
+        with pytest.raises(ValueError, match="order|levels"):
+            geodisk.sample(square, min_distance=0.1, **wrong)
+
+
 def test_a_count_with_a_stop_is_searched_for_without_it():
     all_samples = geodisk.sample(VERTICES, FACES, count=200, seed=3)
     first = geodisk.sample(VERTICES, FACES, count=200, stop_count=20, seed=3)

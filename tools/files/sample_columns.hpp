@@ -36,6 +36,8 @@ inline constexpr std::string_view kGivenColumn = "given";
 
 /// The column with the classes of samples.
 inline constexpr std::string_view kClassColumn = "class";
+/// The column of levels, and the entry of the header with their distances.
+inline constexpr std::string_view kLevelColumn = "level", kLevelDistances = "level_distances";
 
 /// The column that tells samples on corners (2) and curves (1) from those on faces (0).
 inline constexpr std::string_view kFeatureColumn = "feature";

@@ -64,7 +64,8 @@ SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fa
     return row;
 }
 
-/// Keeps the columns that part_columns() makes, where a file has them and they hold whole numbers.
+/// Keeps the columns that part_columns() makes, of given samples and of levels, where a file has
+/// them and they hold whole numbers.
 class ExtraReader {
   public:
     /// Reads the column `numbers` too, if that is not "". Throws UserError(bad_input) without it.
@@ -79,6 +80,7 @@ class ExtraReader {
         names.emplace_back(kGivenColumn);
         names.emplace_back(kClassColumn);
         names.emplace_back(kFeatureColumn);
+        names.emplace_back(kLevelColumn);
         for (const std::string& name : names) {
             if (const std::optional<std::size_t> place = place_of(name)) {
                 places_.push_back(*place);

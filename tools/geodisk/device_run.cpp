@@ -1,6 +1,7 @@
 #include "geodisk/device_run.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -62,7 +63,40 @@ std::uint64_t cut_to(SampleSet& set, const Domain& domain, std::size_t count) {
     const std::uint64_t cut = count_of(set, domain) - count;
     set.samples.resize(std::min(set.samples.size(), count));
     set.points.resize(std::min(set.points.size(), count * domain.dimension()));
+    set.given = std::min(set.given, count);
     return cut;
+}
+
+/// Returns the report of two runs, one after the other.
+RunReport sum_of(const RunReport& a, const RunReport& b) {
+    RunReport sum = b;
+    const std::uint64_t candidates = std::uint64_t{a.candidates} + b.candidates;
+    sum.candidates =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(candidates, kMostCandidates));
+    sum.chunks += a.chunks;
+    sum.iterations += a.iterations;
+    sum.dispatches += a.dispatches;
+    sum.disks += a.disks;
+    sum.regrown += a.regrown;
+    sum.starts += a.starts;
+    sum.windows += a.windows;
+    sum.tested += a.tested;
+    sum.most_waiting = std::max(a.most_waiting, b.most_waiting);
+    sum.longest_chain = std::max(a.longest_chain, b.longest_chain);
+    sum.most_vertices = std::max(a.most_vertices, b.most_vertices);
+    sum.most_conflicts = std::max(a.most_conflicts, b.most_conflicts);
+    sum.trips += a.trips;
+    sum.lane_trips += a.lane_trips;
+    sum.guard = std::max(a.guard, b.guard);
+    sum.device_bytes = std::max(a.device_bytes, b.device_bytes);
+    sum.uploaded += a.uploaded;
+    sum.seconds.compile += a.seconds.compile;
+    sum.seconds.upload += a.seconds.upload;
+    sum.seconds.sample += a.seconds.sample;
+    sum.seconds.readback += a.seconds.readback;
+    std::transform(a.stages.begin(), a.stages.end(), b.stages.begin(), sum.stages.begin(),
+                   std::plus<>());
+    return sum;
 }
 
 } // namespace
@@ -164,6 +198,24 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
     return set;
 }
 
+SampleSet RunDevice::sample_all(const Task& first, double min_distance, ProgressLine& progress,
+                                std::vector<std::size_t>& ends) {
+    SampleSet set = sample(first, min_distance, progress);
+    ends = {count_of(set, first.domain)};
+    for (auto next = first.next; next;) {
+        const Task task = next(set.samples);
+        const std::size_t given = set.given;
+        const RunReport before = set.report;
+        progress.begin_stage("sampling level " + std::to_string(ends.size()));
+        set = sample(task, min_distance, progress);
+        set.given = given; // Those before are samples of this set.
+        set.report = sum_of(before, set.report);
+        ends.push_back(count_of(set, task.domain));
+        next = task.next;
+    }
+    return set;
+}
+
 DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const WantedCount& wanted,
                             ProgressLine& progress) {
     Task task = task_at(min_distance); // Fails before a device is needed.
@@ -181,7 +233,8 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const Wa
     std::uint64_t most = 0;
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
-        SampleSet set = sample(task, min_distance, progress);
+        std::vector<std::size_t> ends;
+        SampleSet set = sample_all(task, min_distance, progress, ends);
         ++done.runs;
         starts += set.report.starts;
         seconds.compile += set.report.seconds.compile;
@@ -196,6 +249,7 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const Wa
         }
         if (wanted.samples == 0 || search.is_nearest()) {
             best = std::move(set);
+            done.ends = std::move(ends);
             done.min_distance = min_distance;
         }
         if (!next) {
@@ -207,7 +261,11 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const Wa
     }
     check_validation(context());
     if (wanted.is_exact) {
-        done.cut = cut_to(best, task.domain, static_cast<std::size_t>(wanted.samples));
+        const auto kept = static_cast<std::size_t>(wanted.samples);
+        done.cut = cut_to(best, task.domain, kept);
+        for (std::size_t& end : done.ends) {
+            end = std::min(end, kept);
+        }
     }
     done.run = best.report;
     done.run.seconds = seconds;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include <geodisk/context.hpp>
 #include <geodisk/domain.hpp>
@@ -23,11 +24,12 @@ namespace geodisk::tools {
 /// How a set of samples came about.
 struct DeviceRun {
     DeviceReport device;
-    Tuning tuning;           ///< As used.
-    double min_distance = 0; ///< As used.
-    std::uint32_t runs = 0;  ///< At this distance and those tried before.
-    std::uint64_t cut = 0;   ///< Last samples of the run that an exact count left out.
-    RunReport run;           ///< With the seconds of all runs.
+    Tuning tuning;                 ///< As used.
+    double min_distance = 0;       ///< As used.
+    std::uint32_t runs = 0;        ///< At this distance and those tried before.
+    std::uint64_t cut = 0;         ///< Last samples of the run that an exact count left out.
+    RunReport run;                 ///< With the seconds of all runs. Of all tasks together.
+    std::vector<std::size_t> ends; ///< Number of samples after each task.
     /// 0 where that was done before; those of the stages after are in `run`.
     double open_seconds = 0, compile_seconds = 0;
 };
@@ -41,6 +43,8 @@ struct DeviceResult {
 struct Task {
     Domain domain;
     double expected;
+    /// Makes the task that goes on from all samples so far, where one set takes several tasks.
+    std::function<Task(const std::vector<Sample>& before)> next{};
 };
 using TaskAt = std::function<Task(double min_distance)>;
 
@@ -111,6 +115,9 @@ class RunDevice {
     /// After the device was lost.
     void close();
     SampleSet sample(const Task& task, double min_distance, ProgressLine& progress);
+    /// Does all tasks of a set, and notes where each one ends.
+    SampleSet sample_all(const Task& first, double min_distance, ProgressLine& progress,
+                         std::vector<std::size_t>& ends);
 
     DeviceOptions device_;
     RunnerOptions options_;

@@ -101,6 +101,26 @@ void check_settled(const SampleJob& job, std::size_t settled, std::size_t given)
     }
 }
 
+/// Level by level, from the samples of the levels before.
+Task level_task(const SampleJob& job, const MeshInput& mesh, const SampleParams& last,
+                const Levels& levels, std::uint32_t level, const std::vector<Sample>& before) {
+    const SampleParams params = take(params_of_level(last, levels, level, before));
+    const double area = effective_area(mesh.prepared, params);
+    Task task{domain_of(job, mesh, params), expected_count(area, params.min_distance)};
+    if (level + 1 < levels.count) {
+        task.next = [&job, &mesh, last, levels, level](const std::vector<Sample>& samples) {
+            return level_task(job, mesh, last, levels, level + 1, samples);
+        };
+    }
+    return task;
+}
+
+/// The levels that --order asks for, where `last` are the parameters of the last one.
+Levels levels_of(const Method& method, const MeshInput& mesh, const SampleParams& last) {
+    return method.levels.count > 0 ? method.levels
+                                   : levels_for(mesh.prepared, last, method.levels.factor);
+}
+
 /// The columns that the file has besides those that all have.
 std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
                                        const SampleResult& result) {
@@ -116,6 +136,14 @@ std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& me
     }
     if (job.classes.is_given()) {
         columns.push_back({std::string(kClassColumn), result.classes});
+    }
+    if (result.levels && has_columns(job.out.target())) {
+        ExtraColumn level{std::string(kLevelColumn), {}};
+        std::uint32_t number = 0;
+        for (const std::size_t end : result.done.ends) {
+            level.values.resize(end, number++);
+        }
+        columns.push_back(std::move(level));
     }
     return columns;
 }
@@ -160,6 +188,9 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         settled = features.settle(params, device, progress);
         check_settled(job, settled.size(), given.samples.size());
         params.given = settled;
+        if (job.method.has_levels) {
+            return level_task(job, mesh, params, levels_of(job.method, mesh, params), 0, {});
+        }
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
         return Task{domain_of(job, mesh, params), job.method.expected(room)};
     };
@@ -181,6 +212,9 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.feature_length = features.length();
     result.classes.assign(set.classes.begin(), set.classes.end());
     result.classes.resize(result.rows.size()); // A single class has no table.
+    if (job.method.has_levels) {
+        result.levels = levels_of(job.method, mesh, params);
+    }
     result.avoided = given.avoided.size();
     std::vector<std::uint32_t> faces;
     for (const SampleRow& row : result.rows) {

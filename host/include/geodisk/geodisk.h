@@ -434,6 +434,22 @@ GEODISK_C_API geodisk_status geodisk_box_distance_for_count(const geodisk_box_pa
                                                             double count, double *distance,
                                                             geodisk_error *error);
 
+/* Writes the number of levels, in progressive order, of a run with these parameters, whose distance
+ * is that of the last level. Each level has the distance of the next one times `factor`, 1.1 to 8;
+ * 0 for 2. The first level expects 16 samples or up to factor * factor times as many. */
+GEODISK_C_API geodisk_status geodisk_level_count(const geodisk_mesh *mesh,
+                                                 const geodisk_surface_params *params,
+                                                 double factor, uint32_t *levels,
+                                                 geodisk_error *error);
+/* Writes the distance and the seed of a level; level 0 is the first of `levels`, at most 32. Sample
+ * level by level with these and otherwise the same parameters: the first level with their `given`,
+ * each later one with the samples of all levels before it as `given`. The samples up to the end of
+ * a level are a Poisson-disk set of its distance. Not for darts. */
+GEODISK_C_API geodisk_status geodisk_level_params(const geodisk_surface_params *params,
+                                                  double factor, uint32_t levels, uint32_t level,
+                                                  double *min_distance, uint64_t *seed,
+                                                  geodisk_error *error);
+
 /* ---- Sampling ---------------------------------------------------------------------------------- */
 
 /* Runs one domain at a time on a device, and keeps device memory for the next run. */

@@ -10,6 +10,7 @@
 #include <geodisk/frame_sampler.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/kernel_report.hpp>
+#include <geodisk/levels.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/placement.hpp>

@@ -8,6 +8,7 @@
 #include <geodisk/box.hpp>
 #include <geodisk/features.hpp>
 #include <geodisk/job_frame.hpp>
+#include <geodisk/levels.hpp>
 
 #include "c/c_call.hpp"
 #include "engine/domain/stages.hpp"
@@ -136,6 +137,10 @@ Result<Done> check_count(double count) {
         return wrong("count is not from 1 to 4294967295");
     }
     return Done{};
+}
+
+double factor_of(double factor) {
+    return factor == 0 ? kLevelFactor : factor;
 }
 
 } // namespace
@@ -371,6 +376,58 @@ geodisk_status geodisk_box_distance_for_count(const geodisk_box_params* params, 
             return size.error();
         }
         *distance = found;
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_level_count(const geodisk_mesh* mesh, const geodisk_surface_params* params,
+                                   double factor, uint32_t* levels, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (levels == nullptr) {
+            return wrong("levels is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        Part part;
+        if (const auto filled = fill_part(mesh, *given, part); !filled) {
+            return filled.error();
+        }
+        const PreparedMesh& prepared = part.mesh->prepared;
+        if (const auto checked = check_params(prepared, part.params); !checked) {
+            return checked.error();
+        }
+        const Levels found = levels_for(prepared, part.params, factor_of(factor));
+        if (const auto checked = params_of_level(part.params, found, 0, {}); !checked) {
+            return checked.error();
+        }
+        *levels = found.count;
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_level_params(const geodisk_surface_params* params, double factor,
+                                    uint32_t levels, uint32_t level, double* min_distance,
+                                    uint64_t* seed, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (min_distance == nullptr || seed == nullptr) {
+            return wrong("min_distance or seed is NULL");
+        }
+        const auto given = taken(params, "params");
+        if (!given) {
+            return given.error();
+        }
+        SampleParams last;
+        last.min_distance = given->min_distance;
+        last.seed = given->seed;
+        last.throws = given->throws;
+        const auto own = params_of_level(last, {levels, factor_of(factor)}, level, {});
+        if (!own) {
+            return own.error();
+        }
+        *min_distance = own->min_distance;
+        *seed = own->seed;
         return Done{};
     });
 }

@@ -16,6 +16,7 @@
 #include "files/sample_file.hpp"
 #include "geodisk/checks/gaps.hpp"
 #include "geodisk/checks/intrusions.hpp"
+#include "geodisk/checks/level_checks.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"
@@ -156,6 +157,7 @@ struct Check {
     std::size_t avoided = 0;           ///< Number of points to avoid.
     std::vector<Intrusion> intrusions;
     std::optional<GapCheck> gaps;
+    std::vector<LevelSpacing> levels; ///< Of samples in progressive order.
 
     /// Number of samples that were given.
     std::size_t given() const {
@@ -226,6 +228,7 @@ std::string result_text(const Check& check) {
     }
     const bool has_ratios = spacing.radii_vary || spacing.classes.is_given();
     print_violations(out, check.samples, check.result, has_ratios ? check.least_text() : "");
+    out << level_lines(check.levels);
     if (const std::size_t given = check.given(); given > 0) {
         const std::size_t pairs = check.among_given.violations.size();
         out << "given         " << grouped(given) << " of them"
@@ -283,7 +286,7 @@ Json intrusions_json(const std::vector<Intrusion>& intrusions) {
 
 std::string report_text(const Check& check) {
     const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked,
-                 avoided, intrusions, gaps] = check;
+                 avoided, intrusions, gaps, levels] = check;
     const std::size_t given = check.given();
     const bool has_distance = spacing.min_distance > 0;
     return text_of(Json{
@@ -308,6 +311,7 @@ std::string report_text(const Check& check) {
                         ? Json(nullptr)
                         : Json{{"points", avoided}, {"intrusions", intrusions_json(intrusions)}}},
         {"maximal", gap_json(gaps)},
+        {"levels", levels_json(levels)},
         {"wrong_radii", spacing.wrong},
         {"masked", mesh.face_mask.empty() ? Json(nullptr) : Json(masked.size())},
         {"off_the_mesh", strays.size()}});
@@ -333,6 +337,10 @@ void fail_on_violations(const Check& check) {
             message += (message.empty() ? "" : ", and ") + counted(count, one, many) + what;
         }
     };
+    if (const std::string fault = level_fault(check.levels);
+        !fault.empty() && check.result.violations.empty()) {
+        message = fault;
+    }
     if (check.samples.has_faces) {
         add(check.strays.size(), "position does", "positions do",
             " not agree with face and weights");
@@ -432,6 +440,11 @@ void run_verify(const VerifyOptions& options) {
         gaps =
             find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided, progress);
     }
+    std::vector<LevelSpacing> levels;
+    if (options.min_distance.empty()) {
+        levels =
+            check_levels(options.samples, samples, mesh, spacing.radii, found.others, progress);
+    }
     const Check check{options,
                       samples,
                       mesh,
@@ -443,7 +456,8 @@ void run_verify(const VerifyOptions& options) {
                       masked_samples(samples, mesh),
                       avoided.size(),
                       std::move(intrusions),
-                      std::move(gaps)};
+                      std::move(gaps),
+                      std::move(levels)};
     publish(options.out, report_text(check), result_text(check));
     fail_on_violations(check);
 }

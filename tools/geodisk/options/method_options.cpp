@@ -66,6 +66,35 @@ std::uint32_t parse_candidates(const std::string& option, const std::string& tex
     return static_cast<std::uint32_t>(value);
 }
 
+void parse_order(const MethodOptions& options, Method& method) {
+    if (options.order != "dart" && options.order != "progressive") {
+        fail_choice("--order", options.order, std::vector<std::string>{"dart", "progressive"});
+    }
+    method.has_levels = options.order == "progressive";
+    if (!method.has_levels && !(options.levels.empty() && options.level_factor.empty())) {
+        fail_usage(std::string(options.levels.empty() ? "--level-factor" : "--levels") +
+                   " is for --order progressive");
+    }
+    if (method.has_levels && options.throws_darts()) {
+        fail_usage("--order progressive is for --method pool; darts fill no level");
+    }
+    if (method.has_levels && options.is_maximal) {
+        fail_usage("--order progressive takes no --maximal; give --dense");
+    }
+    if (!options.levels.empty()) {
+        const double count = parse_count("--levels", options.levels);
+        if (count > kMostLevels) {
+            fail_usage("--levels: " + in_quotes(options.levels) + " is too many; the maximum is " +
+                       std::to_string(kMostLevels));
+        }
+        method.levels.count = static_cast<std::uint32_t>(count);
+    }
+    if (!options.level_factor.empty()) {
+        method.levels.factor = parse_ratio("--level-factor", options.level_factor,
+                                           kLeastLevelFactor, kMostLevelFactor);
+    }
+}
+
 } // namespace
 
 std::uint32_t Method::throws_for(double samples) const {
@@ -112,6 +141,7 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
         method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
         method.throws = options.throws.empty() ? 0 : parse_candidates("--darts", options.throws);
     }
+    parse_order(options, method);
     return method;
 }
 
@@ -169,6 +199,26 @@ void add_exact_option(Command command, MethodOptions& options, const std::string
                      "Place exactly --count samples: the first N of a run that has\n"
                      "up to 1 % more; takes at most six runs",
                      group);
+}
+
+void add_order_options(Command command, MethodOptions& options) {
+    command
+        .add_option("--order", options.order, "NAME",
+                    "dart: as darts come; progressive: in levels, coarse to fine, each\n"
+                    "with half the distance of the one before. The samples up to the\n"
+                    "end of a level are spaced by its distance; the column level has\n"
+                    "the level of each",
+                    kMethodGroup)
+        .offers({"dart", "progressive"})
+        .shows_default();
+    command.add_option("--levels", options.levels, "K",
+                       "Number of levels of --order progressive, 1 to 32 (default: the\n"
+                       "first one has 16 samples or somewhat more)",
+                       kMethodGroup);
+    command
+        .add_option("--level-factor", options.level_factor, "S",
+                    "Distance of a level, divided by that of the next, 1.1 to 8", kMethodGroup)
+        .shows_default(exact_text(kLevelFactor));
 }
 
 void add_method_options(Command command, MethodOptions& options, const std::string& domain) {

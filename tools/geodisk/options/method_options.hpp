@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <geodisk/count_search.hpp>
+#include <geodisk/levels.hpp>
 #include <geodisk/params.hpp>
 
 namespace geodisk::tools {
@@ -24,6 +25,7 @@ struct MethodOptions {
     std::string method = "pool", pool_ratio, throws;
     bool exact = false;
     bool is_dense = false, is_maximal = false;
+    std::string order = "dart", levels, level_factor;
 
     bool throws_darts() const { return names_darts(method); }
 };
@@ -39,6 +41,8 @@ struct Method {
     double pool_ratio = kDefaultPoolRatio;
     std::uint32_t throws = 0;     ///< 0 if not given.
     std::uint32_t stop_count = 0; ///< Of --count, where darts stop at it; else 0.
+    bool has_levels = false;      ///< --order progressive.
+    Levels levels{0};             ///< Their factor, and their number if that was given; else 0.
 
     /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
     /// they end at a number that leaves hardly any gap.
@@ -51,6 +55,9 @@ struct Method {
     /// UserError(usage) if there are fewer samples.
     void check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const;
 };
+
+/// Adds --order and those that go with it.
+void add_order_options(Command command, MethodOptions& options);
 
 /// Throws UserError(usage) for values out of range and options that contradict each other.
 Method parse_method(const MethodOptions& options, const std::string& count);

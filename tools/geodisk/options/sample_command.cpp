@@ -82,6 +82,9 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--metric", options.metric, usual.metric);
     list.add("--method", options.method.method, usual.method.method);
     list.add("--pool-ratio", options.method.pool_ratio);
+    list.add("--order", options.method.order, usual.method.order);
+    list.add("--levels", options.method.levels);
+    list.add("--level-factor", options.method.level_factor);
     list.add("--darts", options.method.throws);
     list.add_flag("--dense", options.method.is_dense);
     list.add_flag("--maximal", options.method.is_maximal);

@@ -38,6 +38,11 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
     if (options.method.is_maximal) {
         fail_usage("--metric " + options.metric + " takes no --maximal; give --dense");
     }
+    if (job.method.has_levels) {
+        fail_usage("--order progressive goes by distances along the surface, so it takes no "
+                   "--metric " +
+                   options.metric);
+    }
     if (options.density.is_given()) {
         fail_usage("--metric " + options.metric +
                    " takes no radii that vary, so neither --density nor --radius-factor");
@@ -152,6 +157,13 @@ SampleJob parse_job(const SampleOptions& options) {
     job.params.maximal = job.method.is_maximal;
     job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_seconds();
+    if (job.method.has_levels && job.out.is_dry_run) {
+        fail_usage("--dry-run tries one run, but --order progressive takes one for each level");
+    }
+    if (job.method.has_levels && (job.classes.is_given() || job.features)) {
+        fail_usage(std::string("--order progressive takes no ") +
+                   (job.features ? "--features" : "--classes"));
+    }
     check_metric(options, job);
     job.constraints.check(options.metric);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
@@ -209,6 +221,7 @@ void add_subject_options(Command command, SampleOptions& options) {
         .offers(metric_names())
         .shows_default();
     add_method_options(command, options.method, "the surface");
+    add_order_options(command, options.method);
     add_seed_option(command, options.run);
 }
 

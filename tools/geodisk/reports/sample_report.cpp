@@ -7,6 +7,7 @@
 #include <geodisk/version.hpp>
 
 #include "files/part_columns.hpp"
+#include "files/sample_columns.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/exact_text.hpp"
@@ -104,6 +105,55 @@ std::string feature_line(const SampleResult& result) {
            '\n';
 }
 
+/// A level, as it is told.
+struct ToldLevel {
+    double min_distance;
+    std::size_t samples; ///< Up to its end.
+};
+
+std::vector<ToldLevel> told_levels(const SampleResult& result, double last_distance) {
+    std::vector<ToldLevel> levels;
+    for (std::uint32_t level = 0; result.levels && level < result.levels->count; ++level) {
+        levels.push_back({last_distance * result.levels->scale(level), result.done.ends[level]});
+    }
+    return levels;
+}
+
+HeaderEntries level_entries(const std::vector<ToldLevel>& levels) {
+    if (levels.empty()) {
+        return {};
+    }
+    std::string distances, samples;
+    for (const ToldLevel& level : levels) {
+        const char* const blank = distances.empty() ? "" : " ";
+        distances += blank + exact_text(level.min_distance);
+        samples += blank + std::to_string(level.samples);
+    }
+    return {{"order", "progressive"},
+            {std::string(kLevelDistances), distances},
+            {"level_samples", samples}};
+}
+
+std::string level_lines(const std::vector<ToldLevel>& levels) {
+    std::string text;
+    for (const ToldLevel& level : levels) {
+        text += (text.empty() ? "levels        " : "              ") + grouped(level.samples) +
+                " samples at distance " + rounded(level.min_distance, 6) + '\n';
+    }
+    return text;
+}
+
+Json levels_json(const std::vector<ToldLevel>& levels) {
+    if (levels.empty()) {
+        return nullptr;
+    }
+    Json list = Json::array();
+    for (const ToldLevel& level : levels) {
+        list.push_back({{"min_distance", level.min_distance}, {"samples", level.samples}});
+    }
+    return list;
+}
+
 /// Says how many samples were given and points avoided, and those of each class, if any were.
 std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
     std::string text;
@@ -184,7 +234,8 @@ SampleHeader SampleReport::header() const {
                                     done.run.maximal.certified ? "certified" : "not certified");
     }
     for (const HeaderEntries& more :
-         {job_.constraints.entries(), part_name_entries(mesh_.file, job_.columns)}) {
+         {job_.constraints.entries(), level_entries(told_levels(result_, distance)),
+          part_name_entries(mesh_.file, job_.columns)}) {
         header.entries.insert(header.entries.end(), more.begin(), more.end());
     }
     return header;
@@ -216,6 +267,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"avoided", result_.avoided}, // Without --existing.
                   {"classes", nullptr},
                   {"features", nullptr},
+                  {"levels", levels_json(told_levels(result_, distance))},
                   {"seed", params.seed}};
     document["mesh"]["components_without_samples"] = result_.bare.count;
     if (result_.picture) {
@@ -265,6 +317,8 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
             << " at the samples\n";
     }
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
+        << level_lines(
+               told_levels(result_, told_distance(job_, mesh_, result_.params.min_distance)))
         << maximal_line(job_, mesh_, result_.done.run) << constraint_lines(job_, result_)
         << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(after), job_.out.output);

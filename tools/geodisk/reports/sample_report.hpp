@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/levels.hpp>
+
 #include "files/sample_file.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/device_run.hpp"
@@ -30,6 +32,7 @@ struct SampleResult {
     std::vector<std::uint32_t> features; ///< FeatureKind of the rows.
     std::size_t feature_corners = 0;     ///< Corners that may have samples.
     double feature_length = 0;           ///< Of the curves.
+    std::optional<Levels> levels;        ///< Of --order progressive; they end at `done.ends`.
     BareParts bare;
     std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;

@@ -20,20 +20,20 @@ ExistingLike = Union[Samples, Tuple[ArrayLike, ArrayLike]]
 AvoidLike = Tuple[ExistingLike, ArrayLike]
 
 #: geodisk_surface_point.
-_POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
+POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
 
 
 def existing_of(mesh: Mesh, existing: ExistingLike | None) -> NDArray[Any]:
     """Returns the samples to keep as the library takes them; none for None."""
     if existing is None:
-        return np.empty(0, _POINT)
+        return np.empty(0, POINT)
     return _points_of(mesh, existing, "existing")
 
 
 def avoided_of(mesh: Mesh, avoid: AvoidLike | None) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Returns points to avoid and their radii as the library takes them; none for None."""
     if avoid is None:
-        return np.empty(0, _POINT), np.empty(0)
+        return np.empty(0, POINT), np.empty(0)
     if not isinstance(avoid, (tuple, list)) or len(avoid) != 2:
         raise TypeError("avoid is a pair: points, as for existing, and their radius or radii")
     points = _points_of(mesh, avoid[0], "avoid")
@@ -64,7 +64,7 @@ def _points_of(mesh: Mesh, given: ExistingLike, name: str) -> NDArray[Any]:
             f"{name}: face_index has the shape {faces.shape}, barycentric {weights.shape}, not "
             "(n,) and (n, 3)"
         )
-    points = np.empty(len(faces), _POINT)
+    points = np.empty(len(faces), POINT)
     points["face"], points["weights"] = faces, weights
     if len(points) == 0:
         raise e.invalid(f"{name} has no samples; leave it out")

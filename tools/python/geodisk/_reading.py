@@ -76,6 +76,8 @@ def _samples(header: Header, **arrays: Any) -> Samples:
     arrays["min_distance"] = float(header.get("min_distance", math.nan))
     if "classes" in header:
         arrays["class_distances"] = _class_distances(header["classes"], arrays["min_distance"])
+    if "level_distances" in header:
+        arrays["level_distances"] = tuple(map(float, header["level_distances"].split()))
     arrays["seed"] = int(header["seed"]) if "seed" in header else None
     return Samples(**arrays)
 

@@ -13,17 +13,22 @@ from numpy.typing import NDArray
 from . import _library as c
 from . import _structs as s
 from ._classes import Classes
+from ._running import Made
 from ._samples import Samples
 from ._surface import Surface
 
 
-def _copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any] | None:
+_TYPES = {np.uint32: s.UINT32, np.float32: s.FLOAT32, np.float64: s.FLOAT64}
+
+
+def copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any] | None:
+    """Returns an attribute of all samples; None if they lack it."""
     width = c.samples_width(samples, attribute)
     if width == 0:
         return None
     count = c.samples_count(samples)
     array = np.empty((count, width), dtype)
-    kind = s.UINT32 if dtype == np.uint32 else s.FLOAT64
+    kind = _TYPES[dtype]
     c.call("geodisk_samples_copy", samples, attribute, kind, array.ctypes.data, 0, count)
     return array
 
@@ -36,7 +41,7 @@ def _polygons_of(surface: Surface | None, faces: NDArray[np.uint32]) -> NDArray[
 
 
 def samples_of(
-    handle: c.Handle,
+    made: Made,
     seed: int,
     surface: Surface | None = None,
     *,
@@ -50,17 +55,26 @@ def samples_of(
     `given` is the distance that was asked for, if any. Without it, the distance is `distance_part`
     of that of the run, see Radii.
     """
-    report = _report_of(handle)
+    report = report_of(made.samples) if made.report is None else made.report
     report["min_distance"] = report["min_distance"] * distance_part if given is None else given
-    columns = _columns_of(handle)
+    columns = _columns_of(made.samples)
     columns.pop("part")
     columns["given"] = _given(report["samples"], report["given"])
     if classes is not None:
-        numbers = _copied(handle.value, s.CLASS, np.uint32)
+        numbers = copied(made.samples.value, s.CLASS, np.uint32)
         columns["class"] = (
             np.zeros(report["samples"], np.uint32) if numbers is None else numbers[:, 0]
         )
         box["class_distances"] = classes.exact_factors * report["min_distance"]
+    if made.level_ends:
+        counts = np.diff(made.level_ends, prepend=0)
+        columns["level"] = np.repeat(np.arange(len(counts), dtype=np.uint32), counts)
+        scales = [distance / made.level_distances[-1] for distance in made.level_distances]
+        box["level_distances"] = tuple(report["min_distance"] * scale for scale in scales)
+        report["levels"] = [
+            {"min_distance": distance, "samples": end}
+            for distance, end in zip(box["level_distances"], made.level_ends)
+        ]
     return _made(columns, surface, report, report["min_distance"], seed, **box)
 
 
@@ -76,6 +90,8 @@ def first_of(samples: Samples, count: float) -> Samples:
         "missing": int(count) - len(kept),
         "rho": samples.report["rho"] * math.sqrt(len(kept) / max(1, len(samples))),
     }
+    for level in report.get("levels", []):
+        level["samples"] = min(level["samples"], len(kept))
     return dataclasses.replace(kept, report=report)
 
 
@@ -86,7 +102,7 @@ def samples_of_parts(
 
     The last number of a part is that of its given samples.
     """
-    report = _report_of(handle)
+    report = report_of(handle)
     columns = _columns_of(handle)
     part = columns.pop("part")
     assert part is not None
@@ -102,13 +118,14 @@ def samples_of_parts(
 
 def places_of(handle: c.Handle) -> tuple[NDArray[Any], NDArray[Any]]:
     """Returns the triangles and weights of samples on one surface."""
-    faces = _copied(handle.value, s.FACE, np.uint32)
-    weights = _copied(handle.value, s.BARYCENTRIC, np.float64)
+    faces = copied(handle.value, s.FACE, np.uint32)
+    weights = copied(handle.value, s.BARYCENTRIC, np.float64)
     assert faces is not None and weights is not None
     return faces[:, 0], weights
 
 
-def _report_of(handle: c.Handle) -> dict[str, Any]:
+def report_of(handle: c.Handle) -> dict[str, Any]:
+    """Returns how a run went."""
     report = s.Report()
     c.call("geodisk_samples_report", handle.value, ctypes.byref(report))
     return {
@@ -121,7 +138,7 @@ def _report_of(handle: c.Handle) -> dict[str, Any]:
 def _columns_of(handle: c.Handle) -> dict[str, NDArray[Any] | None]:
     samples = handle.value
     face, radius, part = (
-        _copied(samples, attribute, dtype)
+        copied(samples, attribute, dtype)
         for attribute, dtype in (
             (s.FACE, np.uint32),
             (s.RADIUS, np.float64),
@@ -129,10 +146,10 @@ def _columns_of(handle: c.Handle) -> dict[str, NDArray[Any] | None]:
         )
     )
     return {
-        "points": _copied(samples, s.POSITION, np.float64),
-        "normals": _copied(samples, s.NORMAL, np.float64),
+        "points": copied(samples, s.POSITION, np.float64),
+        "normals": copied(samples, s.NORMAL, np.float64),
         "face_index": None if face is None else face[:, 0],
-        "barycentric": _copied(samples, s.BARYCENTRIC, np.float64),
+        "barycentric": copied(samples, s.BARYCENTRIC, np.float64),
         "radius": None if radius is None else radius[:, 0],
         "part": None if part is None else part[:, 0],
     }
@@ -153,7 +170,7 @@ def _made(
 ) -> Samples:
     faces = columns["face_index"]
     whole = {} if surface is None else {k: x[faces] for k, x in surface.columns.items()}
-    for name in ("given", "class"):
+    for name in ("given", "class", "level"):
         column = columns.pop(name, None)
         if column is not None:
             whole[name] = column

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_double, c_int32
+from dataclasses import dataclass
 from typing import Any, Callable
 
 import numpy as np
@@ -19,8 +20,19 @@ _PATIENCE = 100  # Milliseconds, after which Python looks for signals.
 #: samples so far. Returning False stops the run, and so does raising anything.
 ProgressCallback = Callable[[float, int], object]
 
-#: Makes a domain of a minimum distance and a stop count.
-DomainMaker = Callable[[float, int], c.Handle]
+
+@dataclass(frozen=True)
+class Made:
+    """Samples of a run, or of one for each level."""
+
+    samples: c.Handle
+    report: dict[str, Any] | None = None  #: Of all levels together.
+    level_distances: tuple[float, ...] = ()
+    level_ends: tuple[int, ...] = ()  #: Number of samples up to the end of each level.
+
+
+#: Samples at a minimum distance.
+RunAt = Callable[["Runs", float], Made]
 
 
 class Bar:
@@ -133,24 +145,20 @@ class CountSearch:
 
 
 def sampled(
-    domain_at: DomainMaker,
+    run_at: RunAt,
     first: float,
     count: float | None,
     exact: bool,
-    stop_count: int,
     device: DeviceLike | None,
     progress: bool | ProgressCallback,
-) -> c.Handle:
-    """Returns samples at the first distance, or at the one that a search for the count ends with.
-
-    The latter are all of a run; `stop_count` is left to the caller.
-    """
+) -> Made:
+    """Returns samples at the first distance, or at the one that a search for the count ends with."""
     with Runs(device, progress) as runs:
         if count is None:
-            return runs.run(domain_at(first, stop_count))
+            return run_at(runs, first)
         search = CountSearch(count, first, exact)
         while search.next > 0:
-            found = runs.run(domain_at(search.next, 0))  # All, or it would miss the count.
-            search.note(found, c.samples_count(found.value))
-        best: c.Handle = search.best
+            found = run_at(runs, search.next)
+            search.note(found, c.samples_count(found.samples.value))
+        best: Made = search.best
         return best

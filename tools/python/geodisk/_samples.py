@@ -89,10 +89,13 @@ class Samples:
         Numbers of the given faces, if polygons were split into triangles.
     columns : dict of ndarray of uint32, shape (n,)
         Numbers that the triangles have in a file, as requested from :class:`Mesh`. ``"given"``
-        is 1 for existing samples that a run kept, else 0. ``"class"`` is the class of each sample.
-        ``"feature"`` is 2 on a corner, 1 on a curve, 0 on a face.
+        is 1 for existing samples that a run kept, else 0. ``"class"`` is the class of each sample,
+        ``"level"`` its level in progressive order. ``"feature"`` is 2 on a corner, 1 on a curve, 0
+        on a face.
     class_distances : ndarray of float64, shape (k, k) or None
         Minimum distances of the pairs of classes; None if samples have no classes.
+    level_distances : tuple of float, or None
+        Minimum distances of the levels of progressive order, the largest first.
 
     Raises
     ------
@@ -133,6 +136,7 @@ class Samples:
     polygon_index: NDArray[np.uint32] | None = None
     columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
     class_distances: NDArray[np.float64] | None = None
+    level_distances: tuple[float, ...] | None = None
     _surface: Surface | None = None
 
     def __post_init__(self) -> None:
@@ -176,6 +180,8 @@ class Samples:
         if order.shape != (n,):
             raise e.invalid(f"order has the shape {order.shape}, not {(n,)}")
         keep("order", order)
+        if self.level_distances is not None:
+            keep("level_distances", tuple(float(each) for each in self.level_distances))
         if self.extents is not None:
             sides = tuple(float(side) for side in self.extents)
             if not all(side > 0 and math.isfinite(side) for side in sides):
@@ -191,6 +197,11 @@ class Samples:
 
     def __len__(self) -> int:
         return len(self.radius)
+
+    @property
+    def level(self) -> NDArray[np.uint32] | None:
+        """Level of each sample in progressive order, from 0; None in dart order."""
+        return self.columns.get("level")
 
     @overload
     def __getitem__(self, key: int | np.integer[Any]) -> Sample: ...

@@ -16,12 +16,13 @@ from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._features import Features
+from ._levels import levels_of, run_levels
 from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
 from ._results import first_of, samples_of
-from ._running import ProgressCallback, sampled
+from ._running import Made, ProgressCallback, Runs, sampled
 from ._samples import Samples
 from ._values import check_exact, distance_of, integer
 
@@ -41,6 +42,9 @@ def sample(
     throws: int = 0,
     stop_count: int = 0,
     maximal: bool = False,
+    order: str = "dart",
+    levels: int | None = None,
+    level_factor: float | None = None,
     face_keys: ArrayLike | None = None,
     face_mask: ArrayLike | None = None,
     existing: ExistingLike | None = None,
@@ -90,6 +94,15 @@ def sample(
         True to go on after the pool until no further sample fits anywhere. The report then has
         ``is_certified`` 1 if every point is nearer to a sample than ``largest_gap``. Not with
         `throws`, `stop_count`, `density` and other metrics.
+    order : {"dart", "progressive"}
+        "progressive" returns samples in levels, coarse to fine: each level has half the distance of
+        the one before, and the last one the given distance. The samples up to the end of a level
+        are spaced by its distance. ``samples.level`` has the level of each, and
+        ``samples.level_distances`` their distances.
+    levels : int, optional
+        Number of levels, 1 to 32. By default the first one has 16 samples or somewhat more.
+    level_factor : float, optional
+        Distance of a level, divided by that of the next: 2, or 1.1 to 8.
     face_keys : array_like of int, shape (f,), optional
         One key per triangle, all different, by which its candidates are drawn: a triangle with the
         same key has the same candidates in every mesh.
@@ -173,6 +186,11 @@ def sample(
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
     mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format)
+    in_levels = levels_of(order, levels, level_factor, metric, throws)
+    if in_levels is not None and (classes is not None or features is not None or maximal):
+        raise e.invalid("order='progressive' takes no classes, features and maximal")
+    if maximal and (exact or (count is not None and stop_count)):
+        raise e.invalid("maximal leaves no gaps, exact and stop_count drop the last samples")
     radii = radii_of(mesh, density, radius_factor)
     part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)
@@ -206,12 +224,19 @@ def sample(
     if edges is not None and kinds is not None:
         raise e.invalid("features take no classes")
 
-    def domain_at(at: float, stop: int) -> c.Handle:
-        params.min_distance, params.stop_count = at, stop
+    def run_at(runs: Runs, at: float) -> Made:
+        def domain() -> c.Handle:
+            return c.Handle("domain", "geodisk_domain_surface", mesh._handle.value, byref(params))
+
+        params.min_distance = at
+        if in_levels is not None:
+            return run_levels(runs, mesh, params, in_levels, domain)
+        params.stop_count = stop_count if count is None else 0  # Or it would miss the count.
+        params.given, params.given_count = kept.ctypes.data, len(kept)
         settled = None if edges is None else edges.settle(params, len(kept))
-        domain = c.Handle("domain", "geodisk_domain_surface", mesh._handle.value, byref(params))
+        made = domain()
         del settled  # It was copied.
-        return domain
+        return Made(runs.run(made))
 
     if distance is None:
         found = c_double()
@@ -224,7 +249,7 @@ def sample(
             byref(found),
         )
         distance = found.value * part
-    made = sampled(domain_at, distance / part, count, exact, stop_count, device, progress)
+    made = sampled(run_at, distance / part, count, exact, device, progress)
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
     if edges is not None:
         samples = edges.marked(samples, len(kept))
@@ -284,15 +309,16 @@ def sample_box(
         throws=throws,
     )
 
-    def domain_at(at: float, stop: int) -> c.Handle:
-        params.min_distance, params.stop_count = at, stop
-        return c.Handle("domain", "geodisk_domain_box", byref(params))
+    def run_at(runs: Runs, at: float) -> Made:
+        params.min_distance = at
+        params.stop_count = stop_count if count is None else 0  # Or it would miss the count.
+        return Made(runs.run(c.Handle("domain", "geodisk_domain_box", byref(params))))
 
     if distance is None:
         found = c_double()
         c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
         distance = found.value
-    made = sampled(domain_at, distance, count, exact, stop_count, device, progress)
+    made = sampled(run_at, distance, count, exact, device, progress)
     samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))
     samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, None, count, stop_count, throws))

@@ -53,6 +53,9 @@ class Verification:
         Number of samples with a 1 in ``columns["given"]``.
     given_violations : ndarray of int64, shape (k, 2)
         Pairs of these that are too close, closest first. They count as no violations.
+    level_violations : tuple of int
+        Numbers of pairs too close for each level of progressive order, among the samples up to its
+        end. Empty in dart order, and with `min_distance`.
     """
 
     samples: int
@@ -68,11 +71,17 @@ class Verification:
     rho: float
     given: int
     given_violations: NDArray[np.int64]
+    level_violations: tuple[int, ...] = ()
 
     @property
     def ok(self) -> bool:
         """True if no pair is too close, no sample misplaced and no radius wrong."""
-        return len(self.violations) == 0 and self.misplaced == 0 and self.wrong_radii == 0
+        return (
+            len(self.violations) == 0
+            and self.misplaced == 0
+            and self.wrong_radii == 0
+            and not any(self.level_violations)
+        )
 
     def __bool__(self) -> bool:
         return self.ok
@@ -83,6 +92,8 @@ class Verification:
             found = f"{len(self.violations)} too close, {self.misplaced} misplaced"
             if self.wrong_radii > 0:
                 found += f", {self.wrong_radii} of wrong radius"
+            if any(self.level_violations):
+                found += f", {sum(self.level_violations)} too close in levels"
         return (
             f"<geodisk.Verification: {self.samples} samples, {found}, smallest distance "
             f"{self.smallest:.9g}, {self.smallest_ratio:.9g} of the required one>"
@@ -183,6 +194,9 @@ def verify(
         rho=math.nan if rho is None else rho,
         given=0 if given is None else given["samples"],
         given_violations=_pairs({} if given is None else given["violations"]),
+        level_violations=tuple(
+            level["violations"]["pairs"] for level in report.get("levels") or []
+        ),
     )
 
 

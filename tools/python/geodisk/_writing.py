@@ -16,9 +16,20 @@ if TYPE_CHECKING:
 
 Header = dict[str, str]
 
-#: Names of columns of whole numbers: what part of its file a triangle lies in, and whether the
-#: sample was given, its class, and its feature.
-WHOLE_COLUMNS = ("mesh", "primitive", "node", "material", "group", "part", "given", "class", "feature")
+#: Names of columns of whole numbers: what part of its file a triangle lies in, whether the sample
+#: was given, its class, its feature, and its level.
+WHOLE_COLUMNS = (
+    "mesh",
+    "primitive",
+    "node",
+    "material",
+    "group",
+    "part",
+    "given",
+    "class",
+    "feature",
+    "level",
+)
 
 
 def header_of(samples: Samples) -> Header:
@@ -32,6 +43,9 @@ def header_of(samples: Samples) -> Header:
         header["classes"] = ";".join(rows) + (";" if len(rows) == 1 else "")
     if samples.seed is not None:
         header["seed"] = str(samples.seed)
+    if samples.level_distances is not None:
+        header["order"] = "progressive"
+        header["level_distances"] = " ".join(map(repr, samples.level_distances))
     if samples.extents is not None:
         header["box"] = " x ".join(map(repr, samples.extents))
         header["sides"] = "periodic" if samples.periodic else "open"
