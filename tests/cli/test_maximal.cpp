@@ -40,7 +40,7 @@ TEST_CASE("a maximal set is certified, and verify agrees") {
     const TemporaryFolder folder;
     std::string summary;
     const Json report = sampled(folder, {"-d", "0.2", "--maximal"}, &summary);
-    CHECK(contains(summary, "certified: no point is 0.2"));
+    CHECK(contains(summary, "certified: every point is within 0.2"));
     CHECK(report["stopped_by"] == "maximal");
     CHECK(report["maximal"]["certificate"] == true);
     CHECK(report["maximal"]["rounds"] > 0);
@@ -69,7 +69,7 @@ TEST_CASE("verify finds a point that is uncovered") {
         run(folder, {"verify", "builtin:cube", "a.ply", "--maximal", "--json", "v.json"});
     CHECK(verified.status != 0);
     CHECK(contains(verified.err, "the set is not maximal"));
-    CHECK(contains(verified.err, "at the point of triangle"));
+    CHECK(contains(verified.err, "a sample fits in triangle"));
     const Json found = Json::parse(bytes_of(folder / "v.json"))["maximal"];
     CHECK(found["certificate"] == false);
     CHECK(found["largest_gap"] > 0.2);

@@ -73,25 +73,28 @@ GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
     return {check.result(), allowed, min_distance * mesh.distance_part, mesh.radii.has_value()};
 }
 
-std::string gap_text(const GapCheck& gaps, const MeshInput& mesh) {
-    const ref::Coverage& found = gaps.found;
-    std::string text = found.is_beyond ? "more than " : "";
-    text += gaps.radii_vary ? rounded(found.largest, 6) + " of the sum of two radii"
-                            : rounded(found.largest * gaps.distance, 6);
-    if (gaps.is_maximal()) {
-        return text + ", every point is covered";
-    }
-    const auto& [face, weight1, weight2] = *found.uncovered;
+std::string uncovered_text(const GapCheck& gaps, const MeshInput& mesh) {
+    const auto& [face, weight1, weight2] = *gaps.found.uncovered;
     const float weights[3] = {static_cast<float>(1 - weight1 - weight2),
                               static_cast<float>(weight1), static_cast<float>(weight2)};
-    text += ", at the point of triangle " + std::to_string(face) + " with weights " +
-            rounded(double{weights[0]}, 6) + ' ' + rounded(double{weights[1]}, 6) + ' ' +
-            rounded(double{weights[2]}, 6);
+    std::string text = "triangle " + std::to_string(face) + ", weights";
+    for (const float weight : weights) {
+        text += ' ' + rounded(double{weight}, 6);
+    }
     const auto at = mesh.point(face, weights);
     for (std::uint32_t axis = 0; axis < mesh.dimension(); ++axis) {
         text += (axis == 0 ? ", position " : " ") + rounded(at[axis], 6);
     }
     return text;
+}
+
+std::string gap_text(const GapCheck& gaps, const MeshInput& mesh) {
+    const ref::Coverage& found = gaps.found;
+    const std::string size = gaps.radii_vary
+                                 ? rounded(found.largest, 6) + " of the sum of two radii"
+                                 : rounded(found.largest * gaps.distance, 6);
+    return (found.is_beyond ? "more than " : "") + size +
+           (gaps.is_maximal() ? ", every point is covered" : ", in " + uncovered_text(gaps, mesh));
 }
 
 Json gap_json(const std::optional<GapCheck>& gaps) {

@@ -30,7 +30,10 @@ GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
                    std::span<const double> radii, double min_distance,
                    std::span<const KeepOut> avoided, ProgressLine& progress);
 
-/// "0.00185, no point is uncovered", or where the gap is.
+/// Says where the largest gap is: "triangle 7, weights 0.2 0.3 0.5, position 1 2 3". There must be
+/// one.
+std::string uncovered_text(const GapCheck& gaps, const MeshInput& mesh);
+/// Says how large the largest gap is, and where: "0.00185, every point is covered".
 std::string gap_text(const GapCheck& gaps, const MeshInput& mesh);
 Json gap_json(const std::optional<GapCheck>& gaps);
 

@@ -354,8 +354,9 @@ void fail_on_violations(const Check& check) {
     add(check.masked.size(), "sample is", "samples are",
         (" on faces that " + check.options.mask.names() + " left out").c_str());
     if (check.gaps && !check.gaps->is_maximal()) {
-        message += (message.empty() ? "" : ", and ") + std::string("the set is not maximal: ") +
-                   gap_text(*check.gaps, check.mesh) + " from the nearest sample";
+        message += (message.empty() ? "" : ", and ") +
+                   std::string("the set is not maximal, a sample fits in ") +
+                   uncovered_text(*check.gaps, check.mesh);
     }
     if (!message.empty()) {
         throw UserError(ExitCode::violation, check.options.samples + ": " + message);

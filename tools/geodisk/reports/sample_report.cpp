@@ -58,9 +58,9 @@ std::string maximal_line(const SampleJob& job, const MeshInput& mesh, const RunR
     const MaximalReport& report = run.maximal;
     const std::string gap = rounded(report.largest_gap * mesh.distance_part, 6);
     return "maximal       " + counted(report.rounds, "round", "rounds") + ", " +
-           (report.certified
-                ? "certified: no point is " + gap + " or more from all samples\n"
-                : "not certified: a gap up to " + gap + " wide is too small for its darts\n");
+           (!report.certified ? "not certified: a gap is too small for darts\n"
+            : mesh.radii      ? "certified: no further sample fits\n"
+                              : "certified: every point is within " + gap + " of a sample\n");
 }
 
 /// Returns the number of samples of each class.

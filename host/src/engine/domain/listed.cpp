@@ -1,6 +1,7 @@
 #include "engine/domain/listed.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <string>
 
@@ -118,6 +119,39 @@ ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cell
         buffers.orders[capacity + (place >> 5 << 1)] |= 1u << (place & 31); // Undecided.
     }
     return buffers;
+}
+
+Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParams& params,
+                                     const JobFrame& frame,
+                                     std::span<const ListedCandidate> candidates) {
+    PlacedSurface surface = placed(mesh, params, frame);
+    surface.stages = listed_stages(surface.stages.samples, candidates.size());
+    auto cells = count_cells({&surface, 1});
+    if (!cells) {
+        return cells.error();
+    }
+    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
+    made->is_listed = true;
+    made->listed_ = listed_buffers(surface, made->cells_, candidates);
+    const double most = static_cast<double>(made->settled.size() + candidates.size());
+    made->samples = std::min(made->samples, most);
+    return Domain::Impl::wrap(std::move(made));
+}
+
+Result<Domain> SurfaceDomain::lights(const PreparedMesh& mesh, const SampleParams& params,
+                                     const JobFrame& frame, std::uint32_t most_records) {
+    PlacedSurface surface = placed(mesh, params, frame);
+    surface.stages = listed_stages(surface.stages.samples, 1);
+    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, FaceCells{});
+    // A job needs a candidate. This one is never decided.
+    const ListedCandidate candidate{0, 0, 0};
+    made->is_listed = true;
+    made->listed_ = listed_buffers(surface, made->cells_, {&candidate, 1});
+    made->listed_.weights = {0, most_records, 0, 0};
+    made->kernels.lights = true;
+    made->most_records_ = most_records;
+    made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
+    return Domain::Impl::wrap(std::move(made));
 }
 
 Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,

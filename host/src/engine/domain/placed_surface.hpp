@@ -20,6 +20,9 @@ struct PlacedSurface {
     double scale = 1; ///< Length in the instance of a unit of the mesh.
 };
 
+/// Places a surface that is sampled alone.
+PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame);
+
 /// All surfaces of a job, at least one.
 using PlacedSurfaces = std::span<const PlacedSurface>;
 

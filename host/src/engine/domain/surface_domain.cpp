@@ -83,10 +83,6 @@ Result<Domain> wrapped(Result<std::unique_ptr<const Domain::Impl>> made) {
                 : Result<Domain>(made.error());
 }
 
-PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame) {
-    return {&mesh, params, frame, stages_in(frame, mesh, params), 0, 0, 0, 1};
-}
-
 Error in_part(std::size_t part, Error error) {
     error.message = "surface " + std::to_string(part) + ": " + error.message;
     return error;
@@ -121,6 +117,10 @@ Result<PlacedSurface> place(const SurfacePart& part) {
 }
 
 } // namespace
+
+PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame) {
+    return {&mesh, params, frame, stages_in(frame, mesh, params), 0, 0, 0, 1};
+}
 
 Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& params) noexcept {
     return guarded([&]() -> Result<Domain> {
@@ -192,39 +192,6 @@ SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
     }
     return std::unique_ptr<const Impl>(
         std::make_unique<SurfaceDomain>(std::move(surfaces), std::move(*cells)));
-}
-
-Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParams& params,
-                                     const JobFrame& frame,
-                                     std::span<const ListedCandidate> candidates) {
-    PlacedSurface surface = placed(mesh, params, frame);
-    surface.stages = listed_stages(surface.stages.samples, candidates.size());
-    auto cells = count_cells({&surface, 1});
-    if (!cells) {
-        return cells.error();
-    }
-    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
-    made->is_listed = true;
-    made->listed_ = listed_buffers(surface, made->cells_, candidates);
-    const double most = static_cast<double>(made->settled.size() + candidates.size());
-    made->samples = std::min(made->samples, most);
-    return Domain::Impl::wrap(std::move(made));
-}
-
-Result<Domain> SurfaceDomain::lights(const PreparedMesh& mesh, const SampleParams& params,
-                                     const JobFrame& frame, std::uint32_t most_records) {
-    PlacedSurface surface = placed(mesh, params, frame);
-    surface.stages = listed_stages(surface.stages.samples, 1);
-    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, FaceCells{});
-    // A job needs a candidate. This one is never decided.
-    const ListedCandidate candidate{0, 0, 0};
-    made->is_listed = true;
-    made->listed_ = listed_buffers(surface, made->cells_, {&candidate, 1});
-    made->listed_.weights = {0, most_records, 0, 0};
-    made->kernels.lights = true;
-    made->most_records_ = most_records;
-    made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
-    return Domain::Impl::wrap(std::move(made));
 }
 
 Result<Domain> SurfaceDomain::plain(const PreparedMesh& mesh, const SampleParams& params,

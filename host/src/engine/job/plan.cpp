@@ -276,7 +276,9 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         const Domain::Impl& of = Domain::Impl::of(domain);
         RunPlan plan;
         plan.pool_block = tuning().pool_block;
-        plan.slots = wanted_slots(of.samples, tuning().batches, report);
+        // Disks that only light faces are never in vain.
+        const std::uint32_t batches = of.kernels.lights ? 1 : tuning().batches;
+        plan.slots = wanted_slots(of.samples, batches, report);
         plan.stages = stages_at_once(of.stages, of.most_candidates(report.limits, plan.slots));
         const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
         plan.sample_capacity =
