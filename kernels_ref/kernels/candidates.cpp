@@ -158,8 +158,10 @@ void draw_candidates(const Surface<Real>& surface, const SampleParams& params, s
         const std::array<std::uint32_t, 4> counter{key, k, stage, 0};
         const auto random = philox(params.seed, counter);
         priorities[k] = random[0] >> kPriorityShift;
-        if (surface.has_classes()) { // In the lowest bits.
-            priorities[k] = priorities[k] / 8 * 8 + surface.classes.of(random[1]);
+        if (surface.has_classes()) { // In the lowest bits; classes of few candidates come early.
+            const std::uint32_t own = surface.classes.of(random[1]);
+            const std::uint64_t early = priorities[k] * surface.classes.turns[own] >> 31;
+            priorities[k] = static_cast<std::uint32_t>(early) / 8 * 8 + own;
         }
         points[k] =
             draw_in_face(surface, params.seed, counter, face, random).template point<Real>();

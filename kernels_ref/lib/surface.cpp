@@ -84,6 +84,8 @@ void Surface<Real>::set_classes(std::span<const float> factors) {
     double sum = 0;
     for (std::uint32_t a = 0; a < classes.count; ++a) {
         sum += shares[a];
+        classes.turns[a] = static_cast<std::uint64_t>(
+            std::ldexp(shares[a] / *std::max_element(shares, shares + 8), 31));
         classes.ends[a] = static_cast<std::uint64_t>(std::ldexp(sum / all, 32));
     }
 }

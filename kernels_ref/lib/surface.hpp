@@ -41,10 +41,11 @@ struct FaceRadii {
 /// The classes of candidates: distances of pairs, and random words that stand for them.
 template <class Real>
 struct Classes {
-    std::uint32_t count = 0; ///< 0 if there are no classes.
-    Real distance[8][8]{};   ///< In units of the frame.
-    Real reach[8]{};         ///< Largest distance of each class.
-    std::uint64_t ends[8]{}; ///< Random words below it are of a class up to this.
+    std::uint32_t count = 0;  ///< 0 if there are no classes.
+    Real distance[8][8]{};    ///< In units of the frame.
+    Real reach[8]{};          ///< Largest distance of each class.
+    std::uint64_t ends[8]{};  ///< Random words below it are of a class up to this.
+    std::uint64_t turns[8]{}; ///< What priorities are multiplied by, in units of 2^-31.
 
     /// Returns the class that a random word stands for.
     std::uint32_t of(std::uint32_t random) const {

@@ -4,9 +4,6 @@
 
 layout(constant_id = kSpecClasses) const bool kClasses = false;
 
-// Returns the order of a candidate with its class in the lowest bits.
-uint with_class(uint order, uint number) { return (order & ~kClassMask) | number; }
-
 // Returns the first weight word of a candidate as `draw` writes it.
 uint weight_with_class(uint weight, uint order) {
     return kClasses ? weight | (order & kClassMask) << kClassShift : weight;

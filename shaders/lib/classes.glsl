@@ -25,4 +25,14 @@ uint class_of_random(uint random) {
     return low.x + low.y + low.z + low.w + high.x + high.y + high.z;
 }
 
+// Returns the order of a candidate with its class in the lowest bits. Priorities of a class with a large
+// distance are smaller, so that the few candidates that it has are as dense among the first of a stage as
+// those of other classes.
+uint with_class(uint order, uint number) {
+    uint priority = order & ((1u << kPriorityBits) - 1u);
+    uint high, low;
+    umulExtended(priority << 1, class_word(kClassTurns + number), high, low);
+    return (order - priority) | (high & ~kClassMask) | number;
+}
+
 #endif

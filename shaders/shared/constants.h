@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 22u;
+GEODISK_CONST uint kAbi = 23u;
 
 // If radii vary: maximum of proposals per candidate. It takes the first that is kept, or the last.
 GEODISK_CONST uint kMostProposals = 1024u;
@@ -101,12 +101,13 @@ GEODISK_CONST uint kMostClasses = 8u;
 GEODISK_CONST uint kClassMask = 7u;
 GEODISK_CONST uint kClassShift = 28u;
 // Words of the table of classes: for each class the highest random word of it and those before it; for each
-// pair its distance; for each class its largest distance; the cells per unit of length. Lengths are in units
-// of the minimum distance.
+// pair its distance; for each class its largest distance; the cells per unit of length; for each class what
+// its priorities are multiplied by, in units of 2^-31. Lengths are in units of the minimum distance.
 GEODISK_CONST uint kClassDistances = 8u;
 GEODISK_CONST uint kClassReaches = 72u;
 GEODISK_CONST uint kClassCells = 80u;
-GEODISK_CONST uint kClassWords = 84u; // whole rows
+GEODISK_CONST uint kClassTurns = 84u;
+GEODISK_CONST uint kClassWords = 92u; // whole rows
 
 // Modes of select.
 GEODISK_CONST uint kSelectPool = 0u;    // visits all candidates, and lists those that come next

@@ -148,8 +148,13 @@ void add_classes(const SampleParams& params, UploadParts& parts) {
     std::fill_n(table.begin(), gpu::kMostClasses, ~0u);
     const std::uint32_t count = class_count(params);
     const double all = class_density(params);
-    double below = 0;
+    double below = 0, densest = 0;
     for (std::uint32_t a = 0; a < count; ++a) {
+        densest = std::max(densest, density_of(params, a));
+    }
+    for (std::uint32_t a = 0; a < count; ++a) {
+        table[gpu::kClassTurns + a] =
+            static_cast<std::uint32_t>(density_of(params, a) / densest * 0x1p31);
         below += density_of(params, a);
         if (a + 1 < count) {
             table[a] = static_cast<std::uint32_t>(below / all * 0x1p32) - 1;
