@@ -114,10 +114,10 @@ class CountSearch:
 
     def __init__(self, count: float, first: float, exact: bool = False) -> None:
         if exact:
-            make, number = "geodisk_count_search_create_exact", int(count)
+            made = c.Handle("count_search", "geodisk_count_search_create_exact", int(count))
         else:
-            make, number = "geodisk_count_search_create", float(count)
-        self._search = c.Handle("count_search", make, number)
+            made = c.Handle("count_search", "geodisk_count_search_create", float(count))
+        self._search = made
         self._count, self._most = count, 0
         self.next = first  #: The distance to try, or 0 when the search has ended.
         self.best: Any = None  #: What was noted with the nearest count.
