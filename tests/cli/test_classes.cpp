@@ -92,8 +92,8 @@ TEST_CASE("classes by a table, in a file too, and with existing samples") {
 
 TEST_CASE("a page of classes") {
     const TemporaryFolder folder;
-    const Outcome page = run(folder, {"report", "builtin:cube:4", "-d", "20%", "--classes", "2",
-                                      "-o", "a.html"});
+    const Outcome page =
+        run(folder, {"report", "builtin:cube:4", "-d", "20%", "--classes", "2", "-o", "a.html"});
     INFO(page.err);
     CHECK(page.status == 0);
 }

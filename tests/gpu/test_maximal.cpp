@@ -127,7 +127,7 @@ TEST_SUITE("maximal") {
         std::vector<std::uint8_t> mask(knot.face_count(), 1);
         std::fill_n(mask.begin(), mask.size() / 2, std::uint8_t{0});
         params.face_mask = mask;
-        check_maximal(knot, params);
+        check_narrow(knot, params, check_maximal(knot, params));
     }
 
     TEST_CASE("four samples saturate a sphere at a quarter of its girth") {

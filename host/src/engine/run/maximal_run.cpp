@@ -118,14 +118,13 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
                                      std::span<const KeepOut> avoid) {
     const double most = most_records();
     while (!samples.empty() || !avoid.empty()) {
-        const auto count =
-            std::min(samples.size(),
-                     std::max<std::size_t>(1, static_cast<std::size_t>(most / records_per_disk_)));
+        const auto disks =
+            std::max<std::size_t>(1, static_cast<std::size_t>(most / records_per_disk_));
         SampleParams params = job_.params;
-        params.given = samples.first(count);
-        params.avoid = avoid;
-        const double expected =
-            records_per_disk_ * static_cast<double>(count + avoid.size()) + kLeastRecords;
+        params.avoid = avoid.first(std::min(avoid.size(), disks));
+        params.given = samples.first(std::min(samples.size(), disks - params.avoid.size()));
+        const auto settled = static_cast<double>(params.avoid.size() + params.given.size());
+        const double expected = records_per_disk_ * settled + kLeastRecords;
         const auto domain = SurfaceDomain::lights(*job_.mesh, params, job_.frame,
                                                   static_cast<std::uint32_t>(expected));
         if (!domain) {
@@ -137,14 +136,13 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
             co_return set.error();
         }
         add(set_.report, set->report);
-        const double of_disk = lit.wanted / static_cast<double>(count + avoid.size());
         if (lit.wanted > lit.records.size()) {
-            records_per_disk_ = std::max(of_disk, records_per_disk_) * kSpareRecords;
+            records_per_disk_ = std::max(lit.wanted / settled, records_per_disk_) * kSpareRecords;
             continue; // Again, with room for all.
         }
         lit_.add(lit.records);
-        samples = samples.subspan(count);
-        avoid = {};
+        samples = samples.subspan(params.given.size());
+        avoid = avoid.subspan(params.avoid.size());
     }
     co_return Done{};
 }
