@@ -30,6 +30,7 @@ struct DiskCount {
     std::uint32_t chain = 0;        ///< Longest chain of crossings.
     std::uint32_t vertices = 0;     ///< Vertices reached.
     std::uint32_t tested = 0;       ///< Points whose distance was computed.
+    bool trims = false;             ///< Windows are trimmed.
 };
 
 /// A disk with too many windows: edges of many faces, or very many triangles.
@@ -111,9 +112,10 @@ class Windows {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
         const auto across = static_cast<std::uint32_t>(root(static_cast<float>(vertices)));
         const bool is_strip = longest_chain > count_.vertices / gpu::kStripChain;
+        const std::uint32_t most = longest_chain > gpu::kLongStrip ? 0 : gpu::kStripRoot;
         const std::uint32_t each =
             gpu::kUntrimmedEach +
-            gpu::kUntrimmedPerRoot * (is_strip ? std::min(across, gpu::kStripRoot) : across);
+            gpu::kUntrimmedPerRoot * (is_strip ? std::min(across, most) : across);
         return pushed > least + vertices * each;
     }
 
@@ -124,8 +126,17 @@ class Windows {
     /// Returns true if points have classes.
     bool classed() const { return kMayVary && !words_.empty(); }
 
+    /// Returns by how much a window may be farther than the one that trims it.
+    Real trim_error() const {
+        constexpr Real kPart = std::numeric_limits<Real>::epsilon() /
+                               static_cast<Real>(std::numeric_limits<float>::epsilon());
+        return base_error_ * Real{0.5} * kPart;
+    }
+
     Real error_of(std::uint32_t crossings) const {
-        return base_error_ + static_cast<Real>(crossings) * crossing_error_;
+        const Real of_trimmed = base_error_ * Real{0.5} + crossing_error_ * Real{0.5};
+        const Real each = is_trimming_ ? of_trimmed : crossing_error_;
+        return base_error_ + static_cast<Real>(crossings) * each;
     }
 
     /// Begins to spread a source, window or event over a face. Long chains widen limit and margin:
@@ -386,9 +397,10 @@ class Windows {
     Real limit_;
     const Real guard_, least_margin_, slack_;
     const Real base_error_, crossing_error_;
-    Real margin_ = 0;       ///< By how much a known path must beat a window in this operation.
-    Real beyond_guard_ = 0; ///< By how much its error exceeds the guard.
-    Real own_radius_ = 0;   ///< Radius of the source, if radii vary.
+    bool is_trimming_ = false; ///< The disk trims its windows: a crossing then adds more.
+    Real margin_ = 0;          ///< By how much a known path must beat a window in this operation.
+    Real beyond_guard_ = 0;    ///< By how much its error exceeds the guard.
+    Real own_radius_ = 0;      ///< Radius of the source, if radii vary.
     std::uint32_t own_class_ = 0;
     std::span<const std::uint32_t> words_; ///< Of the points, if they have classes.
     DiskCount count_;

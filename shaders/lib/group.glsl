@@ -17,6 +17,7 @@
 
 LaneRec lane; // the window in flight of this invocation
 uint overflow;
+bool trims() { return false; }
 const bool kRemembers = true;
 
 shared GroupRec group;

@@ -10,7 +10,8 @@ bool makes_many(uint least, uint vertices, uint longest_chain, uint pushed) {
     uint counted = min(vertices, kUntrimmedVertices);
     uint across = uint(root(float(counted)));
     bool is_strip = longest_chain > vertices / kStripChain;
-    uint each = kUntrimmedEach + kUntrimmedPerRoot * (is_strip ? min(across, kStripRoot) : across);
+    uint most = longest_chain > kLongStrip ? 0u : kStripRoot;
+    uint each = kUntrimmedEach + kUntrimmedPerRoot * (is_strip ? min(across, most) : across);
     return pushed > least + counted * each;
 }
 

@@ -230,13 +230,14 @@ GEODISK_CONST uint kIterationsPerGridTrip =
 // A disk of v vertices restarts to trim once it has pushed kUntrimmedWindows + v (kUntrimmedEach +
 // kUntrimmedPerRoot sqrt(v)) windows and events, for v up to kUntrimmedVertices. Disks of real meshes mostly
 // have about v sqrt(v). In a strip all windows go the same way: where a chain is longer than v / kStripChain,
-// the root counts as kStripRoot at most.
+// the root counts as kStripRoot at most, and in a strip of longer chains than kLongStrip not at all.
 GEODISK_CONST uint kUntrimmedWindows = 1024u;
 GEODISK_CONST uint kUntrimmedInGroups = 65536u; // in place of kUntrimmedWindows
 GEODISK_CONST uint kUntrimmedEach = 32u;
 GEODISK_CONST uint kUntrimmedPerRoot = 4u;
 GEODISK_CONST uint kStripChain = 4u;
 GEODISK_CONST uint kStripRoot = 24u;
+GEODISK_CONST uint kLongStrip = 512u;
 GEODISK_CONST uint kUntrimmedVertices = 65536u;
 // Edges whose windows a trimming disk keeps, a power of two; kKeptPerEdge windows each.
 GEODISK_CONST uint kKeptEdges = 2048u;
