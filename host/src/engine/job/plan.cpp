@@ -38,12 +38,12 @@ constexpr std::uint32_t kIdlePerSlot = 32;
 constexpr std::uint32_t kCandidatesPerIdle = 16;
 constexpr std::uint32_t kLeastIdle = 4096;
 // Work groups beside lanes for large disks, and what one of them holds at first. A lane leaves a
-// disk to them after so many windows, where others wait for it; a CPU's lanes only where it is to
-// be trimmed.
+// disk to them after so many windows, since others wait for it.
 constexpr std::uint32_t kLargeGroups = 16;
 constexpr std::uint32_t kLargeWindows = 4096;
 constexpr std::uint32_t kLargeVertices = 8192;
 constexpr std::uint32_t kLargeAfter = 2048;
+constexpr std::uint32_t kKeepsAll = ~std::uint32_t{0};
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
@@ -145,12 +145,12 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
     return Done{};
 }
 
-/// Changes the plan for a disk of very many windows. Where a GPU's lanes compute disks, some work
-/// groups beside them do that. If there are such, or all are computed by groups, the disk must be
-/// trimmed, which lanes do. A CPU's lanes do it at once: they are as fast as groups.
-void provide_for_large(RunPlan& plan, const DeviceReport& report) {
+/// Changes the plan for a disk of very many windows. Where lanes are to leave it to work groups,
+/// there are some from now on. If there are, or lanes keep it, or all are computed by groups, the
+/// disk must be trimmed, which lanes do.
+void provide_for_large(RunPlan& plan) {
     if (plan.disks_by == DisksBy::lanes && plan.large_groups == 0 &&
-        report.type != VK_PHYSICAL_DEVICE_TYPE_CPU) {
+        plan.large_after != kKeepsAll) {
         plan.large_groups = kLargeGroups;
         return;
     }
@@ -293,7 +293,9 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan.large_window_capacity = std::max(kLargeWindows, 2 * plan.window_capacity);
         plan.large_table_capacity = std::max(kLargeVertices, 2 * plan.table_capacity);
         variant.groups = plan.disks_by == DisksBy::groups;
-        plan.large_after = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? ~0u : kLargeAfter;
+        // A CPU's lanes are as fast as groups, and groups do not light faces.
+        const bool keeps_all = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU || of.kernels.lights;
+        plan.large_after = keeps_all ? kKeepsAll : kLargeAfter;
         plan.step_budget = most_steps(report, variant);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
         fit(plan, pool_bytes);
@@ -318,7 +320,7 @@ Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uin
     grow(gpu::kOverflowWindows << gpu::kOverflowLargeShift, grown.large_window_capacity);
     grow(gpu::kOverflowVertices << gpu::kOverflowLargeShift, grown.large_table_capacity);
     if ((overflow & gpu::kOverflowTrims) != 0) {
-        provide_for_large(grown, report);
+        provide_for_large(grown);
     }
     pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
     fit(grown, pool_bytes);
