@@ -93,7 +93,8 @@ TEST_CASE("the benchmark tells its results and circumstances") {
     }
 }
 
-TEST_CASE("a tuning is found, kept for the device, and changes no sample") {
+TEST_CASE("a tuning is found, kept for the device, and changes no sample" *
+          doctest::test_suite("slow")) {
     const TemporaryFolder folder;
     Setting tuned = bench();
     tuned.environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}};

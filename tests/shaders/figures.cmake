@@ -4,7 +4,8 @@
 # No kernel may take scratch memory or spill vector registers: lanes would then wait for memory in the
 # innermost loops. Scalar registers may spill a few: they go to lanes of a vector register. The bound
 # on vector registers leaves GFX6 to GFX9 two waves per SIMD, and later ones eight. Kernels with disks of
-# points to avoid, or with classes, need a few more, which leaves later ones seven; no others pay for them.
+# points to avoid, with classes, or whose disks trim need a few more, which leaves later ones seven; no others pay
+# for them.
 set(most_scratch_bytes 0)
 set(most_spilled_vgprs 0)
 set(most_spilled_sgprs 20)
@@ -63,7 +64,7 @@ function(check_kernels name family least_kernels)
         require_at_most(${most_spilled_vgprs} "Spilled VGPRs" "${statistics}" "${title}")
         require_at_most(${most_spilled_sgprs} "Spilled SGPRs" "${statistics}" "${title}")
         set(bound ${most_vgprs})
-        if(variant MATCHES "points to avoid|classes")
+        if(variant MATCHES "points to avoid|classes|trimming")
             set(bound ${most_vgprs_of_few})
         endif()
         require_at_most(${bound} "VGPRs" "${statistics}" "${title}")
