@@ -247,6 +247,27 @@ TEST_SUITE("faults") {
         CHECK(bench.spy.strangers() == 0);
     }
 
+    TEST_CASE("nor does one where work groups compute all disks, or those that lanes leave") {
+        RunnerOptions by_groups;
+        by_groups.plan.disks_by = DisksBy::groups;
+        RunnerOptions leaving;
+        leaving.plan.large_groups = 2;
+        leaving.plan.large_after = 10;
+        for (const RunnerOptions& options : {by_groups, leaving}) {
+            Bench bench;
+            {
+                Runner runner = bench.prepared_runner(options);
+                for (const char* function :
+                     {"vkCreateBuffer", "vkAllocateMemory", "vkMapMemory", "vkQueueSubmit"}) {
+                    CAPTURE(function);
+                    CHECK(sweep_run(bench, runner, function, kNoDeviceMemory) > 0);
+                }
+            }
+            CHECK(bench.spy.alive() == "");
+            CHECK(bench.spy.strangers() == 0);
+        }
+    }
+
     TEST_CASE("nor does one between chunks") {
         Bench bench;
         {

@@ -22,9 +22,10 @@ namespace {
 
 constexpr std::uint32_t kMostCandidatesTried = 2000;
 
-/// One that has room for everything, one whose memory has to grow, and one whose disks all trim.
-std::array<Runner, 3>& runners() {
-    static std::array<Runner, 3> all = [] {
+/// One that has room for everything, one whose memory has to grow, one whose disks all trim, one
+/// whose disks are computed by work groups, and one where lanes leave most to groups.
+std::array<Runner, 5>& runners() {
+    static std::array<Runner, 5> all = [] {
         RunPlan tight;
         tight.slots = 8;
         tight.window_capacity = 2;
@@ -34,13 +35,21 @@ std::array<Runner, 3>& runners() {
         tight.stages = 1;
         RunPlan trimming;
         trimming.trims = true;
+        RunPlan groups;
+        groups.disks_by = DisksBy::groups;
+        groups.window_capacity = 2;
+        RunPlan leaving;
+        leaving.large_groups = 2;
+        leaving.large_after = 10;
+        leaving.large_window_capacity = 2;
         const auto runner = [](const RunPlan& plan) {
             RunnerOptions options;
             options.plan = plan;
             const Context& context = shared_context();
             return expect(Runner::create(context.device(), context.queue(), options));
         };
-        return std::array{runner({}), runner(tight), runner(trimming)};
+        return std::array{runner({}), runner(tight), runner(trimming), runner(groups),
+                          runner(leaving)};
     }();
     return all;
 }
@@ -70,7 +79,7 @@ void check(Input& input, const PreparedMesh& mesh) {
     params.seed = input.next(256);
     params.min_distance = 2 * mesh.statistics().diagonal / (1 + input.next(24));
     params.radii = radii ? &*radii : nullptr;
-    Runner& runner = runners()[input.next(3)];
+    Runner& runner = runners()[input.next(5)];
     const auto candidates = pool_size(mesh, params);
     if (!candidates || *candidates > kMostCandidatesTried) {
         return;

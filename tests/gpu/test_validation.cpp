@@ -28,6 +28,16 @@ TEST_SUITE("validation") {
             const SampleSet set = expect(runner.sample_and_wait(mesh, params));
             CHECK(set.report.regrown > 0);
             CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+            // So do work groups, for all disks or for those that lanes leave.
+            RunnerOptions by_groups = tight;
+            by_groups.plan.disks_by = DisksBy::groups;
+            RunnerOptions leaving = tight;
+            leaving.plan.large_groups = 2;
+            leaving.plan.large_after = 10;
+            for (const RunnerOptions& other : {by_groups, leaving}) {
+                runner = expect(Runner::create(context.device(), context.queue(), other));
+                CHECK(points_of(expect(runner.sample_and_wait(mesh, params))) == points_of(set));
+            }
             // And later stages the samples of those before, in a buffer that has to grow.
             tight.plan.stages = 1;
             tight.plan.slots = 16;
