@@ -87,6 +87,21 @@ TEST_CASE("several sets tell whether they are even") {
     CHECK_FALSE(contains(text.out, "on average"));
 }
 
+TEST_CASE("with a mask, only the faces that take samples count") {
+    const TemporaryFolder folder;
+    make_set(folder, "half.ply", {"-d", "0.1", "--mask", "z>0"});
+    const auto masked = analysis(folder, {"half.ply", "--mask", "z>0"})["sets"][0];
+    CHECK(masked["rho"].get<double>() == doctest::Approx(0.72).epsilon(0.02));
+    CHECK(masked["uncovered"].get<double>() < 0.01);
+    CHECK(masked["largest_gap"].get<double>() < 1.5);
+    const auto whole = analysis(folder, {"half.ply"})["sets"][0];
+    CHECK(whole["rho"].get<double>() < 0.6);
+    CHECK(whole["uncovered"].get<double>() > 0.4);
+    check_fails(folder, 3, "on faces that --mask left out, first sample",
+                {"analyze", kMesh, "half.ply", "--mask", "z>0.5"});
+    check_fails(folder, 2, "--only", {"analyze", kMesh, "half.ply", "--only", "part:x"});
+}
+
 TEST_CASE("what cannot be analyzed is told") {
     const TemporaryFolder folder;
     make_set(folder, "a.ply", {"-n", "50"});

@@ -42,7 +42,7 @@ TEST_CASE("nearest distances are those of all pairs in the plane") {
     const std::vector<Point> points = random_points(surface, 8, 300);
     const double distance = 0.05;
     const SurfaceStatistics result =
-        measure(surface, with_radius(points, distance / 2), 2000, 1, {});
+        measure(surface, {}, with_radius(points, distance / 2), 2000, 1, {});
     double smallest = 10, sum = 0;
     std::uint64_t lonely = 0;
     std::vector<double> histogram(result.nearest.counts.size(), 0);
@@ -74,7 +74,7 @@ TEST_CASE("what one disk leaves uncovered is the rest of the area") {
     const TestMesh mesh = flat_grid(4, 4, 1, 1);
     const PreparedMesh surface = prepared(mesh);
     const std::vector<SurfaceDisk> one = with_radius({point_at(mesh, 0.5, 0.5)}, 0.15);
-    const SurfaceStatistics result = measure(surface, one, 40000, 1, {});
+    const SurfaceStatistics result = measure(surface, {}, one, 40000, 1, {});
     CHECK(result.uncovered == doctest::Approx(1 - std::numbers::pi * 0.3 * 0.3).epsilon(0.01));
     // The farthest places are the corners.
     CHECK(result.largest_gap == doctest::Approx(std::sqrt(0.5) / 0.3).epsilon(0.02));
@@ -93,7 +93,7 @@ TEST_CASE("random points know nothing of each other, on any surface") {
         const double distance = distance_for_count(surface.statistics().area, count);
         const auto samples =
             with_radius(random_points(surface, 4, static_cast<std::uint32_t>(count)), distance / 2);
-        const SurfaceStatistics result = measure(surface, samples, 30000, 2, {});
+        const SurfaceStatistics result = measure(surface, {}, samples, 30000, 2, {});
         const auto& g = result.pair_correlation.counts;
         REQUIRE(g.size() == 80);
         for (std::size_t bin = 0; bin + 10 <= g.size(); bin += 10) { // Half a distance each.

@@ -29,15 +29,21 @@ double uniform(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// Random places, uniform by area: one in each of `count` parts of equal area, face by face.
-std::vector<Point> draw_places(const PreparedMesh& mesh, std::uint32_t count,
-                               std::mt19937_64& random) {
+/// Random places on the faces that the mask keeps, uniform by area: one in each of `count` parts of
+/// equal area, face by face.
+std::vector<Point> draw_places(const PreparedMesh& mesh, std::span<const std::uint8_t> face_mask,
+                               std::uint32_t count, std::mt19937_64& random) {
     const auto& edges = mesh.half_edges();
     std::vector<double> up_to; // Areas of all faces so far.
     up_to.reserve(edges.size() / 3);
     double area = 0;
+    std::ptrdiff_t last = 0; // Face that the mask keeps.
     for (std::size_t h = 0; h < edges.size(); h += 3) {
-        up_to.push_back(area += edges[h].length * edges[h].apex_y / 2);
+        if (face_mask.empty() || face_mask[h / 3] != 0) {
+            area += edges[h].length * edges[h].apex_y / 2;
+            last = static_cast<std::ptrdiff_t>(h / 3);
+        }
+        up_to.push_back(area);
     }
     std::vector<Point> places;
     places.reserve(count);
@@ -49,7 +55,6 @@ std::vector<Point> draw_places(const PreparedMesh& mesh, std::uint32_t count,
             u = 1 - u;
             v = 1 - v;
         }
-        const auto last = static_cast<std::ptrdiff_t>(up_to.size()) - 1;
         places.push_back({static_cast<std::uint32_t>(std::min(face, last)), u, v});
     }
     return places;
@@ -208,10 +213,11 @@ void note_pairs(const std::vector<Found>& all, std::size_t samples, SurfaceStati
 
 } // namespace
 
-SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfaceDisk> samples,
-                          std::uint32_t probes, std::uint64_t seed, const PartDone& tell) {
+SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const std::uint8_t> face_mask,
+                          std::span<const SurfaceDisk> samples, std::uint32_t probes,
+                          std::uint64_t seed, const PartDone& tell) {
     std::mt19937_64 random(seed);
-    const std::vector<Point> places = draw_places(mesh, probes, random);
+    const std::vector<Point> places = draw_places(mesh, face_mask, probes, random);
     const auto [least, most] = std::minmax_element(
         samples.begin(), samples.end(),
         [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });

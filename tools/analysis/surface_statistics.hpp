@@ -38,7 +38,7 @@ struct SurfaceStatistics {
     std::uint64_t lonely = 0;        ///< Samples without another one in reach.
     Histogram nearest;               ///< Of each sample's nearest.
     std::vector<Neighbor> neighbors; ///< Of each sample: the nearest.
-    std::uint32_t probes = 0;        ///< Random places, uniform by area.
+    std::uint32_t probes = 0;        ///< Random places, uniform by area of the faces looked at.
     double uncovered = 0;   ///< Part of them that is not within 1 of a sample, where another
                             ///< one would have room.
     double largest_gap = 0; ///< Of a probe to the nearest sample; the reach, if beyond it.
@@ -48,10 +48,12 @@ struct SurfaceStatistics {
     Histogram pair_correlation;
 };
 
-/// Draws `probes` places by `seed`; `samples` are not empty, and their radii positive. Works on as
-/// many threads as there are cores; the result does not depend on them. Throws UserError(bad_input)
-/// for a disk that does not end, and what `tell` throws.
-SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const SurfaceDisk> samples,
-                          std::uint32_t probes, std::uint64_t seed, const PartDone& tell);
+/// Draws `probes` places by `seed`, on the faces that `face_mask` keeps (SampleParams::face_mask);
+/// `samples` are not empty, and their radii positive. Works on as many threads as there are cores;
+/// the result does not depend on them. Throws UserError(bad_input) for a disk that does not end,
+/// and what `tell` throws.
+SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const std::uint8_t> face_mask,
+                          std::span<const SurfaceDisk> samples, std::uint32_t probes,
+                          std::uint64_t seed, const PartDone& tell);
 
 } // namespace geodisk::tools::analysis

@@ -48,7 +48,9 @@ SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> di
         [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });
     set.min_distance = 2 * most->radius;
     if (least->radius == most->radius) {
-        set.rho = packing_density(mesh.prepared.statistics().area, set.min_distance,
+        SampleParams params;
+        params.face_mask = mesh.face_mask;
+        set.rho = packing_density(effective_area(mesh.prepared, params), set.min_distance,
                                   static_cast<double>(set.samples));
     }
     std::vector<std::uint32_t> faces;
@@ -56,10 +58,10 @@ SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> di
     for (const SurfaceDisk& disk : disks) {
         faces.push_back(disk.face);
     }
-    set.bare_components = parts_without(mesh.prepared, faces, {}).count;
+    set.bare_components = parts_without(mesh.prepared, faces, mesh.face_mask).count;
     progress.begin_stage("measuring distances");
-    set.found = analysis::measure(mesh.prepared, disks, probes_for(probes, set.samples), seed,
-                                  [&](double part) {
+    set.found = analysis::measure(mesh.prepared, mesh.face_mask, disks,
+                                  probes_for(probes, set.samples), seed, [&](double part) {
                                       check_interrupted();
                                       progress.update(part, grouped(set.samples) + " samples");
                                   });

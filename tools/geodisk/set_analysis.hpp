@@ -22,8 +22,8 @@ void add_probes_option(Command command, std::string& probes);
 /// many samples. Throws UserError(usage).
 std::uint32_t probes_for(const std::string& probes, std::size_t samples);
 
-/// Measures samples with these disks, not none, on `mesh`. Random places are drawn by `seed`. The
-/// path is left to the caller. Throws UserError.
+/// Measures samples with these disks, not none, on the faces of `mesh` that its mask keeps. Random
+/// places are drawn by `seed`. The path is left to the caller. Throws UserError.
 SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
                           const std::string& probes, std::uint64_t seed, ProgressLine& progress);
 

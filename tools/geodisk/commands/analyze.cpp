@@ -15,6 +15,7 @@
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/distance_options.hpp"
+#include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/analysis_report.hpp"
@@ -22,6 +23,7 @@
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -39,10 +41,13 @@ constexpr std::uint32_t kMostRegions = 32;
 
 struct AnalyzeOptions {
     MeshOptions mesh;
+    MaskOptions mask;
     std::vector<std::string> samples;
     DistanceOptions distance;
     std::string probes, seed = "0", tolerance;
     OutputOptions out; ///< No samples.
+
+    HeaderEntries additions() const { return with_entries(mesh.additions(), mask); }
 };
 
 /// Regions of the mesh, and how many samples of each set they hold.
@@ -73,7 +78,8 @@ class RegionCounts {
         areas.reserve(edges.size() / 3);
         for (std::uint32_t face = 0; 3 * std::size_t{face} < edges.size(); ++face) {
             const HalfEdge& edge = edges[std::size_t{3} * face];
-            areas.push_back(edge.length * edge.apex_y / 2);
+            const bool is_in = mesh.face_mask.empty() || mesh.face_mask[face] != 0;
+            areas.push_back(is_in ? edge.length * edge.apex_y / 2 : 0);
             for (std::uint32_t axis = 0; axis < mesh.dimension(); ++axis) {
                 centers.push_back((mesh.vertex(face, 0)[axis] + mesh.vertex(face, 1)[axis] +
                                    mesh.vertex(face, 2)[axis]) /
@@ -92,11 +98,16 @@ class RegionCounts {
 SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
                         const MeshInput& mesh, RegionCounts& regions,
                         std::vector<MeshWarning>& warnings, ProgressLine& progress) {
-    const HeaderEntries additions = options.mesh.additions();
+    const HeaderEntries additions = options.additions();
     const SampleFile samples = read_samples_exactly_on(path, options.mesh.mesh, mesh, &additions,
                                                        options.tolerance, warnings, progress);
     if (samples.rows.empty()) {
         fail_input(path, "has no samples to analyze");
+    }
+    if (const auto masked = masked_samples(samples, mesh); !masked.empty()) {
+        fail_input(path, counted(masked.size(), "sample is", "samples are") + " on faces that " +
+                             options.mask.names() + " left out, first sample " +
+                             std::to_string(masked.front()));
     }
     const std::vector<SurfaceDisk> disks =
         sample_disks(path, samples, mesh, options.distance.parsed());
@@ -112,23 +123,28 @@ void run_analyze(const AnalyzeOptions& options) {
     options.distance.parsed(); // Before the files are read.
     check_tolerance(options.tolerance);
     parse_seed("--seed", options.seed);
+    options.mask.only_rules();
+    options.mask.mask_rules();
     probes_for(options.probes, 1);
     std::vector<NamedFile> read;
     for (const std::string& samples : options.samples) {
         read.push_back({"the samples", samples});
     }
     options.mesh.add_files(read, "the mesh");
+    options.mask.add_files(read);
     check_outputs(options.out, "", read);
     ProgressLine progress(options.out.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress);
+    const MeshInput mesh = load_mesh(options.mesh, progress, {}, options.mask);
     std::vector<MeshWarning> warnings = mesh.warnings;
     std::vector<SetAnalysis> sets;
     RegionCounts regions;
     for (const std::string& path : options.samples) {
         sets.push_back(analyze_set(options, path, mesh, regions, warnings, progress));
     }
-    const Analysis analysis{options.mesh, mesh, warnings, sets,
-                            are_alike(sets) ? regions.test() : std::nullopt};
+    const HeaderEntries additions = options.additions();
+    const Analysis analysis{options.mesh, additions,
+                            mesh,         warnings,
+                            sets,         are_alike(sets) ? regions.test() : std::nullopt};
     publish(options.out, report_json(analysis), report_text(analysis));
 }
 
@@ -150,6 +166,7 @@ void add_analyze_command(Command app) {
     command.add_option("--seed", options->seed, "S", "Seed of the random points").shows_default();
     add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
+    add_mask_options(command, options->mask);
     add_json_option(command, options->out);
     add_quiet_option(command, options->out, "No progress and no result");
     command.has_footer(help_footer(kExamples));

@@ -90,7 +90,7 @@ Json set_json(const SetAnalysis& set) {
 
 std::string report_text(const Analysis& analysis) {
     std::ostringstream out;
-    out << mesh_lines("mesh", analysis.mesh_options.mesh, analysis.mesh_options.additions(),
+    out << mesh_lines("mesh", analysis.mesh_options.mesh, analysis.additions,
                       analysis.mesh);
     Table table({"samples of", "number", "rho", "smallest", "mean\nnearest", "room\nfor more",
                  "largest\ngap", "pairs\npeak", "at", "bare\nparts"});
@@ -132,7 +132,7 @@ std::string report_json(const Analysis& analysis) {
         sets.push_back(set_json(set));
     }
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(analysis.mesh_options.mesh, analysis.mesh_options.additions(),
+                  {"mesh", mesh_json(analysis.mesh_options.mesh, analysis.additions,
                                      analysis.mesh)},
                   {"warnings", warnings_json(analysis.warnings)},
                   {"sets", sets},

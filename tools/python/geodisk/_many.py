@@ -14,7 +14,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
-from ._existing import ExistingLike, existing_of
+from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._mesh import Mesh, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import MeshLike
@@ -40,6 +40,7 @@ class _Job:
         face_keys: ArrayLike | None,
         face_mask: ArrayLike | None,
         existing: ExistingLike | None,
+        avoid: AvoidLike | None,
         pool_ratio: float,
     ) -> None:
         self.mesh, self.seed = mesh, seed
@@ -48,6 +49,7 @@ class _Job:
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
         self._mask = None if face_mask is None else mask_of(mesh, face_mask)
         self.existing = existing_of(mesh, existing)
+        self._avoided, self._avoided_radii = avoided_of(mesh, avoid)
         if count is not None and len(self.existing) >= count:
             raise e.invalid(f"count is {count}, but {len(self.existing)} existing samples count too")
         radii = None if self._radii is None else self._radii.handle.value
@@ -60,6 +62,9 @@ class _Job:
             face_mask=None if self._mask is None else self._mask.ctypes.data,
             given=self.existing.ctypes.data,
             given_count=len(self.existing),
+            avoid=self._avoided.ctypes.data,
+            avoid_radii=self._avoided_radii.ctypes.data,
+            avoid_count=len(self._avoided),
         )
         self.search: CountSearch | None = None
         if distance is None:
@@ -118,6 +123,7 @@ def sample_many(
     face_keys: Sequence[ArrayLike | None] | None = None,
     face_mask: Sequence[ArrayLike | None] | None = None,
     existing: Sequence[ExistingLike | None] | None = None,
+    avoid: Sequence[AvoidLike | None] | None = None,
     pool_ratio: float = 20,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -137,7 +143,7 @@ def sample_many(
         faces, as for :func:`sample`. A :class:`Mesh` may appear several times.
     min_distance, radius, count, seed : number, or a sequence with one per mesh
         As for :func:`sample`.
-    density, radius_factor, face_keys, face_mask, existing : sequence with one per mesh, or None
+    density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
     exact, pool_ratio, weld, keep_seams, columns, mesh_format, device, progress
         As for :func:`sample`, for all meshes.
@@ -173,6 +179,7 @@ def sample_many(
     factors = _each_array(radius_factor, "radius_factor", n)
     masks = _each_array(face_mask, "face_mask", n)
     kept = _each_array(existing, "existing", n)
+    avoided = _each_array(avoid, "avoid", n)
 
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
@@ -187,6 +194,7 @@ def sample_many(
             keys[i],
             masks[i],
             kept[i],
+            avoided[i],
             pool_ratio,
         )
 
