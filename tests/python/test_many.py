@@ -44,6 +44,15 @@ def test_counts_densities_and_keys():
     assert flat.points.shape[1] == 2 and flat.normals is None  # Of another dimension.
 
 
+def test_points_to_avoid():
+    points = (([0], [[0.25, 0.5, 0.25]]), 0.9)
+    a, b = geodisk.sample_many([MESHES[0]] * 2, min_distance=0.3, avoid=[points, None])
+    assert same(a, geodisk.sample(MESHES[0], min_distance=0.3, avoid=points))
+    assert same(b, geodisk.sample(MESHES[0], min_distance=0.3)) and len(a) < len(b)
+    with pytest.raises(ValueError, match="mesh 1: avoid has no samples"):
+        geodisk.sample_many([MESHES[0]] * 2, min_distance=0.3, avoid=[None, (([], np.empty((0, 3))), 1)])
+
+
 @pytest.mark.parametrize(
     "meshes, arguments, kind, text",
     [

@@ -168,6 +168,35 @@ def test_transfer():
     assert np.isnan(geodisk.transfer(one, VERTICES).min_distance)
 
 
+def test_constraints_are_verified():
+    mask = np.arange(len(FACES)) % 3 == 0
+    masked = geodisk.sample(VERTICES, FACES, min_distance=0.3, face_mask=mask)
+    assert geodisk.verify(masked, face_mask=mask) and geodisk.verify(masked).masked == 0
+    wrong = geodisk.verify(SAMPLES, face_mask=np.nonzero(mask)[0])
+    assert not wrong and wrong.masked == (~mask[SAMPLES.face_index]).sum() > 0
+    assert "outside the mask" in repr(wrong)
+
+    points = (SAMPLES[:2], [0.9, 0.5])
+    clear = geodisk.sample(VERTICES, FACES, min_distance=0.3, avoid=points)
+    assert geodisk.verify(clear, avoid=points)
+    near = geodisk.verify(SAMPLES, avoid=points)
+    assert not near and {0, 1} <= set(near.within_avoided.tolist())
+    assert near.ok is False and "points to avoid" in repr(near)
+    numbers = ([0], [[0.25, 0.5, 0.25]])
+    bare = geodisk.Mesh(len(VERTICES), FACES, edge_lengths=LENGTHS)
+    away = geodisk.sample(bare, min_distance=0.3, avoid=(numbers, 1.0), face_mask=mask)
+    assert geodisk.verify(away, avoid=(numbers, 1.0), face_mask=mask)
+
+
+def test_maximal_sets_are_verified():
+    full = geodisk.sample(VERTICES, FACES, min_distance=0.3, maximal=True)
+    found = geodisk.verify(full, maximal=True)
+    assert found and found.is_maximal and found.largest_gap <= 0.3 * 1.001
+    gaps = geodisk.verify(SAMPLES, maximal=True)
+    assert not gaps and gaps.is_maximal is False and gaps.largest_gap > 0.3
+    assert geodisk.verify(SAMPLES).is_maximal is None
+
+
 def test_render(tmp_path):
     picture = geodisk.render(SAMPLES, size=(64, 48), view=(-30, 20), background="transparent")
     assert picture.size == (64, 48) and "64 x 48" in repr(picture)
@@ -205,6 +234,16 @@ def test_render(tmp_path):
         ),
         (lambda: geodisk.verify(SAMPLES, density=np.nan * ONES), ValueError, "density"),
         (lambda: geodisk.verify(SQUARE, density=ONES), ValueError, "box"),
+        (lambda: geodisk.verify(SQUARE, face_mask=[0]), ValueError, "box"),
+        (lambda: geodisk.verify(SQUARE, maximal=True), ValueError, "box"),
+        (lambda: geodisk.verify(SAMPLES, face_mask=[]), ValueError, "leaves out all faces"),
+        (lambda: geodisk.verify(SAMPLES, avoid=1), TypeError, "avoid is a pair"),
+        (lambda: geodisk.verify(SAMPLES, avoid=(SAMPLES, 0)), ValueError, "point 0 has the radius 0"),
+        (
+            lambda: geodisk.verify(SAMPLES, avoid=(([9**6], [[1, 0, 0]]), 1)),
+            ValueError,
+            "point 0 is in face 531441",
+        ),
         (lambda: geodisk.verify(geodisk.Samples([[0, 0]])), ValueError, "do not know their mesh"),
         (
             lambda: geodisk.verify(geodisk.Samples([[0, 0]], extents=(1, 1))),

@@ -112,7 +112,7 @@ TEST_CASE("radii that vary are taken in pairs") {
     std::vector<SurfaceDisk> samples =
         with_radius({point_at(mesh, 0.3, 0.5), point_at(mesh, 0.5, 0.5)}, 0.05);
     samples[1].radius = 0.2;
-    const SurfaceStatistics result = measure(surface, samples, 1000, 1, {});
+    const SurfaceStatistics result = measure(surface, {}, samples, 1000, 1, {});
     CHECK(result.smallest == doctest::Approx(0.8).epsilon(1e-6));
     CHECK(result.lonely == 0);
     CHECK(result.pair_correlation.counts.empty());

@@ -24,9 +24,8 @@ class CountSearch {
     /// Records the number of samples that a distance gave. Returns the distance to try next, or
     /// nothing when the search has ended:
     /// - the count is within 5 % of `wanted` or differs by one; or is as exact() says,
-    /// - a larger distance gives no fewer samples; in an exact search also if a smaller one gives
-    /// no
-    ///   more,
+    /// - a larger distance gives no fewer samples; an exact search also ends if a smaller one gives
+    ///   no more,
     /// - this was the seventh try. Exact searches end with the sixth, or go on to the twelfth while
     ///   no try has given enough.
     GEODISK_API std::optional<double> note(double distance, std::uint64_t count) noexcept;

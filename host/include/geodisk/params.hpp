@@ -73,8 +73,8 @@ struct SampleParams {
     std::span<const std::uint8_t> given_classes{};
     /// Goes on after the pool until no further sample fits anywhere: the set is maximal. Only
     /// Runner does, in several rounds; see RunReport::maximal and host/docs/maximal.md. The samples
-    /// begin with those of the pool. Not with `throws`, `stop_count`, a density, several surfaces
-    /// or distances through space.
+    /// begin with those of the pool. Not with `throws`, `stop_count`, a density, classes, several
+    /// surfaces or distances through space.
     bool maximal = false;
 };
 

@@ -6,8 +6,8 @@ namespace {
 constexpr const char* kExitStatus = R"(
 Exit status:
   0    success
-  1    verify found samples too close, off the mesh or with a wrong radius; some meshes of a list
-       failed; conformance found a set that differs
+  1    verify found samples too close, in a wrong place or with a wrong radius, or a gap; some meshes
+       of a list failed; conformance found a set that differs
   2    wrong usage: an unknown option, no distance or several, a value out of range
   3    an input file is missing, unreadable or malformed
   4    an output cannot be written

@@ -197,7 +197,8 @@ void check_one_distance(const MethodOptions& options,
 void add_exact_option(Command command, MethodOptions& options, const std::string& group) {
     command.add_flag("--exact", options.exact,
                      "Place exactly --count samples: the first N of a run that has\n"
-                     "up to 1 % more; takes at most six runs",
+                     "up to 1 % more; takes one to six runs, or up to twelve\n"
+                     "while none has N",
                      group);
 }
 

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from ._arrays import indices, real
-from ._mesh import Mesh
 from ._samples import Samples
 from ._surface import Surface
 
@@ -23,27 +22,29 @@ AvoidLike = Tuple[ExistingLike, ArrayLike]
 POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
 
 
-def existing_of(mesh: Mesh, existing: ExistingLike | None) -> NDArray[Any]:
+def existing_of(surface: Surface, existing: ExistingLike | None) -> NDArray[Any]:
     """Returns the samples to keep as the library takes them; none for None."""
     if existing is None:
         return np.empty(0, POINT)
-    return _points_of(mesh, existing, "existing")
+    return _points_of(surface, existing, "existing")
 
 
-def avoided_of(mesh: Mesh, avoid: AvoidLike | None) -> tuple[NDArray[Any], NDArray[np.float64]]:
+def avoided_of(
+    surface: Surface, avoid: AvoidLike | None
+) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Returns points to avoid and their radii as the library takes them; none for None."""
     if avoid is None:
         return np.empty(0, POINT), np.empty(0)
     if not isinstance(avoid, (tuple, list)) or len(avoid) != 2:
         raise TypeError("avoid is a pair: points, as for existing, and their radius or radii")
-    points = _points_of(mesh, avoid[0], "avoid")
+    points = _points_of(surface, avoid[0], "avoid")
     radii = real(avoid[1], "avoid").astype(np.float64)
     if radii.ndim > 0 and radii.shape != points.shape:
         raise e.invalid(f"avoid has {len(points)} points and radii of the shape {radii.shape}")
     return points, np.ascontiguousarray(np.broadcast_to(radii, points.shape))
 
 
-def _points_of(mesh: Mesh, given: ExistingLike, name: str) -> NDArray[Any]:
+def _points_of(surface: Surface, given: ExistingLike, name: str) -> NDArray[Any]:
     if isinstance(given, Samples):
         if given.face_index is None or given.barycentric is None:
             raise e.invalid(
@@ -51,7 +52,7 @@ def _points_of(mesh: Mesh, given: ExistingLike, name: str) -> NDArray[Any]:
                 f"points without them on a mesh (geodisk sample --{name})"
             )
         faces, weights = given.face_index, given.barycentric
-        _check_places(mesh._surface, given, faces, weights, name)
+        _check_places(surface, given, faces, weights, name)
     else:
         if not isinstance(given, (tuple, list)) or len(given) != 2:
             raise TypeError(

@@ -49,7 +49,7 @@ class Features:
         if not domain.value:
             return None
         with Runs(self._device, False) as runs:
-            settled = existing_of(self._mesh, places_of(runs.run(domain)))
+            settled = existing_of(self._mesh._surface, places_of(runs.run(domain)))
         params.given, params.given_count = settled.ctypes.data, len(settled)
         return settled
 

@@ -13,7 +13,7 @@ from ._mesh import mesh_of
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._surface import Surface
-from ._writing import header_of, write_ply
+from ._writing import columns_of, header_of, write_ply
 
 
 def surface_of(
@@ -50,16 +50,28 @@ def write_samples(folder: pathlib.Path, samples: Samples) -> str:
     return "samples.ply"
 
 
-def write_subject(folder: pathlib.Path, samples: Samples, surface: Surface | None) -> list[str]:
-    """Writes samples and their surface, where they lie on one; the arguments that name them."""
+def write_subject(
+    folder: pathlib.Path,
+    samples: Samples,
+    surface: Surface | None,
+    mask: NDArray[np.uint8] | None = None,
+) -> list[str]:
+    """Writes samples and their surface, where they lie on one; the arguments that name them.
+
+    A mask has a byte per triangle, 1 where it takes samples.
+    """
     if surface is None:
         return [write_samples(folder, samples)]
-    mesh, options = write_surface(folder, surface)
+    mesh, options = write_surface(folder, surface, mask=mask)
     return [mesh, write_samples(folder, samples), *options]
 
 
 def write_surface(
-    folder: pathlib.Path, surface: Surface, name: str = "mesh", suffix: str = ""
+    folder: pathlib.Path,
+    surface: Surface,
+    name: str = "mesh",
+    suffix: str = "",
+    mask: NDArray[np.uint8] | None = None,
 ) -> tuple[str, list[str]]:
     """Writes it to files; the name of the mesh, and options that end with `suffix`."""
     faces = surface.indices()
@@ -81,11 +93,18 @@ def write_surface(
         lines = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]
         lines += [f"property double {axis}" for axis in columns]
         lines += [f"element face {len(faces)}", "property list uchar uint vertex_indices"]
+        kinds: list[Any] = [("corners", "u1"), ("face", "<u4", 3)]
+        if mask is not None:
+            lines.append("property uchar face_mask")
+            kinds.append(("mask", "u1"))
+            options += ["--mask", "face_mask=1"]
         file.write("\n".join([*lines, "end_header\n"]).encode())
         if columns:
             file.write(np.stack(list(columns.values()), axis=1).astype("<f8").tobytes())
-        records = np.empty(len(faces), [("corners", "u1"), ("face", "<u4", 3)])
+        records = np.empty(len(faces), kinds)
         records["corners"], records["face"] = 3, faces
+        if mask is not None:
+            records["mask"] = mask
         file.write(records.tobytes())
     return f"{name}.ply", options
 
@@ -101,6 +120,37 @@ def write_density(
         raise e.invalid(f"the {name} of vertex {small[0]} is {array[small[0]]}, below 0.001")
     np.savetxt(folder / "density.txt", array, fmt="%.17g")
     return ["--" + name.replace("_", "-"), "file:density.txt"]
+
+
+def write_avoided(
+    folder: pathlib.Path, surface: Surface, points: NDArray[Any], radii: NDArray[np.float64]
+) -> list[str]:
+    """Writes points to avoid with their radii; the option that names the file."""
+    faces, weights = points["face"], points["weights"].astype(np.float64)
+    corners = surface.indices()
+    if int(faces.max()) >= len(corners):
+        first = int(np.argmax(faces >= len(corners)))
+        raise e.invalid(
+            f"avoid: point {first} is in face {faces[first]}, the mesh has {len(corners)}"
+        )
+    wrong = ~((radii > 0) & np.isfinite(radii))
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        raise e.invalid(f"avoid: point {first} has the radius {radii[first]}, not a positive one")
+    places = None
+    if surface.edge_lengths is None:
+        places = np.einsum("ij,ijk->ik", weights, surface.coordinates()[corners[faces]])
+    columns = columns_of(Samples(places, face_index=faces, barycentric=weights), as_box=False)
+    columns["avoid_radius"] = radii
+    np.savetxt(
+        folder / "avoid.csv",
+        np.column_stack(list(columns.values())),
+        fmt="%.17g",
+        delimiter=",",
+        header=",".join(columns),
+        comments="",
+    )
+    return ["--avoid", "avoid.csv:avoid_radius"]
 
 
 def _as_columns(coordinates: NDArray[Any]) -> dict[str, NDArray[Any]]:

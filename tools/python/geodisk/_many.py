@@ -47,9 +47,9 @@ class _Job:
         self._radii = radii_of(mesh, density, radius_factor)
         self.distance_part = 1.0 if self._radii is None else self._radii.distance_part
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
-        self._mask = None if face_mask is None else mask_of(mesh, face_mask)
-        self.existing = existing_of(mesh, existing)
-        self._avoided, self._avoided_radii = avoided_of(mesh, avoid)
+        self._mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
+        self.existing = existing_of(mesh._surface, existing)
+        self._avoided, self._avoided_radii = avoided_of(mesh._surface, avoid)
         if count is not None and len(self.existing) >= count:
             raise e.invalid(f"count is {count}, but {len(self.existing)} existing samples count too")
         radii = None if self._radii is None else self._radii.handle.value

@@ -293,10 +293,10 @@ def mesh_of(
     return vertices
 
 
-def mask_of(mesh: Mesh, face_mask: ArrayLike) -> NDArray[np.uint8]:
+def mask_of(surface: Surface, face_mask: ArrayLike) -> NDArray[np.uint8]:
     """Returns which triangles take samples, as the library takes it."""
     given = np.asarray(face_mask)
-    triangles, polygons = int(mesh._info.faces), mesh.polygons
+    triangles, polygons = len(surface.indices()), surface.polygons
     if given.dtype.kind != "b":
         chosen = indices(given, "face_mask")
         if chosen.ndim != 1:

@@ -74,7 +74,7 @@ def sample(
         or the approximate number of samples, for which a distance is found.
     exact : bool
         Return exactly `count` samples: the first ones of a run that has up to 1 % more. The search
-        for its distance takes at most six runs.
+        for its distance takes one to six runs, or up to twelve while none has enough.
     seed : int
         A 64-bit number. Equal seeds give equal samples, on every device.
     density : array_like of float, shape (v,), optional
@@ -194,9 +194,9 @@ def sample(
     radii = radii_of(mesh, density, radius_factor)
     part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)
-    mask = None if face_mask is None else mask_of(mesh, face_mask)
-    kept = existing_of(mesh, existing)
-    points, point_radii = avoided_of(mesh, avoid)
+    mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
+    kept = existing_of(mesh._surface, existing)
+    points, point_radii = avoided_of(mesh._surface, avoid)
     if count is not None and len(kept) >= count:
         raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
     params = s.SurfaceParams(

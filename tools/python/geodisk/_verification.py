@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
-from ._inputs import surface_of, write_density, write_subject
+from ._existing import AvoidLike, avoided_of
+from ._inputs import surface_of, write_avoided, write_density, write_subject
+from ._mesh import mask_of
 from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._radii import one_of
@@ -56,6 +58,15 @@ class Verification:
     level_violations : tuple of int
         Numbers of pairs too close for each level of progressive order, among the samples up to its
         end. Empty in dart order, and with `min_distance`.
+    masked : int
+        Number of samples on triangles that `face_mask` leaves out, except given ones.
+    within_avoided : ndarray of int64, shape (k,)
+        Samples within the radius of a point of `avoid`, except given ones.
+    is_maximal : bool or None
+        With `maximal`, whether no further sample fits anywhere; else None.
+    largest_gap : float
+        With `maximal`, no point is farther than this from all samples; else, and if radii vary,
+        NaN. If a sample fits, the gap is at least this large.
     """
 
     samples: int
@@ -72,15 +83,25 @@ class Verification:
     given: int
     given_violations: NDArray[np.int64]
     level_violations: tuple[int, ...] = ()
+    masked: int = 0
+    within_avoided: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, np.int64))
+    is_maximal: bool | None = None
+    largest_gap: float = math.nan
 
     @property
     def ok(self) -> bool:
-        """True if no pair is too close, no sample misplaced and no radius wrong."""
+        """True if no pair is too close, no sample in a wrong place and no radius wrong.
+
+        With `maximal` also only if no further sample fits.
+        """
         return (
             len(self.violations) == 0
             and self.misplaced == 0
             and self.wrong_radii == 0
             and not any(self.level_violations)
+            and self.masked == 0
+            and len(self.within_avoided) == 0
+            and self.is_maximal is not False
         )
 
     def __bool__(self) -> bool:
@@ -94,6 +115,12 @@ class Verification:
                 found += f", {self.wrong_radii} of wrong radius"
             if any(self.level_violations):
                 found += f", {sum(self.level_violations)} too close in levels"
+            if self.masked > 0:
+                found += f", {self.masked} outside the mask"
+            if len(self.within_avoided) > 0:
+                found += f", {len(self.within_avoided)} near points to avoid"
+            if self.is_maximal is False:
+                found += ", not maximal"
         return (
             f"<geodisk.Verification: {self.samples} samples, {found}, smallest distance "
             f"{self.smallest:.9g}, {self.smallest_ratio:.9g} of the required one>"
@@ -108,6 +135,9 @@ def verify(
     min_distance: float | None = None,
     density: ArrayLike | None = None,
     radius_factor: ArrayLike | None = None,
+    face_mask: ArrayLike | None = None,
+    avoid: AvoidLike | None = None,
+    maximal: bool = False,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -128,6 +158,12 @@ def verify(
     density, radius_factor : array_like of float, shape (v,), optional
         As for :func:`sample`. Radii are computed again from it and the minimum distance (by default
         that of the samples), and compared with those of the samples.
+    face_mask, avoid
+        As for :func:`sample`. All samples but given ones must lie on these triangles, and outside
+        the radii of these points.
+    maximal : bool, default False
+        Whether to check that no further sample fits anywhere. Takes `face_mask` and `avoid` into
+        account.
 
     Returns
     -------
@@ -168,8 +204,17 @@ def verify(
         )
     if varying and surface is None:
         raise e.invalid(f"{varying} is of a mesh, and these samples are in a box")
+    if surface is None and (face_mask is not None or avoid is not None or maximal):
+        raise e.invalid("face_mask, avoid and maximal are of a mesh, and these samples are in a box")
+    mask = None if surface is None or face_mask is None else mask_of(surface, face_mask)
+    if mask is not None and not mask.any():
+        raise e.invalid("face_mask leaves out all faces")
     with folder() as place:
-        arguments = [*write_subject(place, samples, surface), "--json", "report.json"]
+        arguments = [*write_subject(place, samples, surface, mask), "--json", "report.json"]
+        if surface is not None and avoid is not None:
+            arguments += write_avoided(place, surface, *avoided_of(surface, avoid))
+        if maximal:
+            arguments.append("--maximal")
         values = radius_factor if density is None else density
         if varying and surface is not None and values is not None:
             arguments += write_density(place, surface, varying, values)
@@ -178,7 +223,9 @@ def verify(
         run(place, ["verify", *arguments], accepted=(0, 1))
         report = json.loads((place / "report.json").read_text("utf-8"))
     violations, closest = report["violations"], report["smallest"]
-    given = report.get("given")
+    given, gaps = report.get("given"), report.get("maximal")
+    intrusions = (report.get("avoided") or {}).get("intrusions", {})
+    gap = None if gaps is None else gaps["largest_gap"]
     distance, rho = report["min_distance"], report.get("rho")
     return Verification(
         samples=len(samples),
@@ -197,6 +244,10 @@ def verify(
         level_violations=tuple(
             level["violations"]["pairs"] for level in report.get("levels") or []
         ),
+        masked=report.get("masked") or 0,
+        within_avoided=np.array(intrusions.get("rows", []), np.int64),
+        is_maximal=None if gaps is None else gaps["certificate"],
+        largest_gap=math.nan if gap is None else gap,
     )
 
 
