@@ -118,6 +118,10 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
         folder, {"sample", kMesh, "-o", "a.ply", "-n", "5", "--exact", "--avoid", "one.csv:1000"});
     CHECK(full.status == 2);
     CHECK(contains(full.err, "no distance tried gave more than 0 of 5 samples"));
+    const Outcome none =
+        run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "50", "--avoid", "one.csv:1000"});
+    CHECK(none.status == 2);
+    CHECK(contains(none.err, "--count: found room for 0 samples only, down to distance "));
     CHECK(!std::filesystem::exists(folder / "a.ply"));
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "cli/command.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
+#include "program/exact_text.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -65,6 +67,35 @@ TEST_CASE("corners closer than the distance are left out, and a smooth surface h
         folder, {"sample", "builtin:icosphere", "-o", "b.ply", "-d", "0.2", "--features", "60"});
     CHECK(none.status == 0);
     CHECK(contains(none.err, "so there are no features"));
+}
+
+TEST_CASE("marks that do not fit their places are found") {
+    const TemporaryFolder folder;
+    const char* const mesh = "builtin:cube:4";
+    const Outcome made =
+        run(folder, {"sample", mesh, "-o", "a.ply", "-d", "20%", "--features", "30"});
+    REQUIRE(made.status == 0);
+    const tools::SampleFile samples = tools::read_samples(folder / "a.ply");
+    const auto marks = samples.extra_values("feature");
+    const std::size_t last = marks.size() - 1;
+    for (const auto& [row, mark] : std::vector<std::pair<std::size_t, std::uint32_t>>{
+             {0, 0}, {0, 1}, {8, 0}, {8, 2}, {last, 1}, {last, 2}, {last, 7}}) {
+        std::string bad = "# features: 30\nx,y,z,face_index,bary_u,bary_v,bary_w,feature\n";
+        for (std::size_t i = 0; i < marks.size(); ++i) {
+            const tools::SampleRow& at = samples.rows[i];
+            bad += tools::exact_text(at.position[0]) + ',' + tools::exact_text(at.position[1]) +
+                   ',' + tools::exact_text(at.position[2]) + ',' + std::to_string(at.face) + ',' +
+                   tools::exact_text(double{at.bary[0]}) + ',' +
+                   tools::exact_text(double{at.bary[1]}) + ',' +
+                   tools::exact_text(double{at.bary[2]}) + ',' +
+                   std::to_string(i == row ? mark : marks[i]) + '\n';
+        }
+        std::ofstream(folder / "bad.csv") << bad;
+        const Outcome found = run(folder, {"verify", mesh, "bad.csv", "-d", "20%"});
+        INFO(row, " ", mark, found.out, found.err);
+        CHECK(found.status == 1);
+        CHECK(contains(found.err, "1 sample has a wrong mark in the column feature"));
+    }
 }
 
 TEST_CASE("what takes no features ends in an error, without a file") {

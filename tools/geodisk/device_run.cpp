@@ -58,6 +58,32 @@ std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
     return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
 }
 
+/// Factor between two distances that give equally many samples, above which there is no room.
+constexpr double kNoRoom = 16;
+
+/// Notes counts of samples at ever smaller distances, until they show that no more samples fit.
+class RoomCheck {
+  public:
+    /// Throws UserError if there is no room for the `wanted` samples: at still smaller distances a
+    /// run would only take longer.
+    void note(double distance, std::uint64_t count, double wanted) {
+        if (count != count_) {
+            count_ = count;
+            largest_ = distance;
+        }
+        largest_ = std::max(largest_, distance);
+        if (static_cast<double>(count) < wanted && distance * kNoRoom <= largest_) {
+            fail_usage("--count: found room for " + counted(count, "sample", "samples") +
+                       " only, down to distance " + rounded(distance, 6) +
+                       "; leave more room, or give --min-distance");
+        }
+    }
+
+  private:
+    std::uint64_t count_ = 0;
+    double largest_ = 0; ///< Distance that gave this count.
+};
+
 /// Leaves out all but the first samples. Returns how many those left out were.
 std::uint64_t cut_to(SampleSet& set, const Domain& domain, std::size_t count) {
     const std::uint64_t cut = count_of(set, domain) - count;
@@ -231,6 +257,7 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const Wa
     std::uint32_t starts = 0;
     CountSearch search = wanted.search();
     std::uint64_t most = 0;
+    RoomCheck room;
     for (;;) {
         progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
         std::vector<std::size_t> ends;
@@ -245,6 +272,7 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const Wa
         const std::uint64_t count = count_of(set, task.domain);
         most = std::max(most, count);
         if (wanted.samples > 0) {
+            room.note(min_distance, count, wanted.samples);
             next = search.note(min_distance, count);
         }
         if (wanted.samples == 0 || search.is_nearest()) {

@@ -14,6 +14,7 @@
 #include "files/input_file.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
+#include "geodisk/checks/feature_checks.hpp"
 #include "geodisk/checks/gaps.hpp"
 #include "geodisk/checks/intrusions.hpp"
 #include "geodisk/checks/level_checks.hpp"
@@ -157,7 +158,8 @@ struct Check {
     std::size_t avoided = 0;           ///< Number of points to avoid.
     std::vector<Intrusion> intrusions;
     std::optional<GapCheck> gaps;
-    std::vector<LevelSpacing> levels; ///< Of samples in progressive order.
+    std::vector<LevelSpacing> levels;          ///< Of samples in progressive order.
+    std::vector<std::uint32_t> wrong_features; ///< Samples whose mark as feature is wrong.
 
     /// Number of samples that were given.
     std::size_t given() const {
@@ -253,6 +255,10 @@ std::string result_text(const Check& check) {
     if (spacing.wrong > 0) {
         out << "wrong radii   " << grouped(spacing.wrong) << '\n';
     }
+    if (!check.wrong_features.empty()) {
+        out << "features      " << grouped(check.wrong_features.size())
+            << " with a wrong mark, first sample " << check.wrong_features.front() << '\n';
+    }
     if (!check.masked.empty()) {
         out << "masked        " << grouped(check.masked.size()) << " on faces that "
             << check.options.mask.names() << " left out, first sample " << check.masked.front()
@@ -286,7 +292,7 @@ Json intrusions_json(const std::vector<Intrusion>& intrusions) {
 
 std::string report_text(const Check& check) {
     const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked,
-                 avoided, intrusions, gaps, levels] = check;
+                 avoided, intrusions, gaps, levels, features] = check;
     const std::size_t given = check.given();
     const bool has_distance = spacing.min_distance > 0;
     return text_of(Json{
@@ -313,6 +319,7 @@ std::string report_text(const Check& check) {
         {"maximal", gap_json(gaps)},
         {"levels", levels_json(levels)},
         {"wrong_radii", spacing.wrong},
+        {"wrong_features", features.size()},
         {"masked", mesh.face_mask.empty() ? Json(nullptr) : Json(masked.size())},
         {"off_the_mesh", strays.size()}});
 }
@@ -351,6 +358,8 @@ void fail_on_violations(const Check& check) {
     add(check.intrusions.size(), "sample is", "samples are",
         " within the radius of a point to avoid");
     add(spacing.wrong, "radius is", "radii are", " not what the density options give");
+    add(check.wrong_features.size(), "sample has", "samples have",
+        " a wrong mark in the column feature");
     add(check.masked.size(), "sample is", "samples are",
         (" on faces that " + check.options.mask.names() + " left out").c_str());
     if (check.gaps && !check.gaps->is_maximal()) {
@@ -458,7 +467,8 @@ void run_verify(const VerifyOptions& options) {
                       avoided.size(),
                       std::move(intrusions),
                       std::move(gaps),
-                      std::move(levels)};
+                      std::move(levels),
+                      wrong_features(options.samples, samples, mesh)};
     publish(options.out, report_text(check), result_text(check));
     fail_on_violations(check);
 }
