@@ -58,7 +58,6 @@ class Detector : public Windows<Real, kMayVary> {
         count_ = {};
         untrimmed_ = 0;
         waiting_.begin_disk(trims_all_);
-        is_trimming_ = trims_all_;
         begin();
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
         spread_from_source(source, light);
@@ -69,7 +68,6 @@ class Detector : public Windows<Real, kMayVary> {
                 makes_many(gpu::kUntrimmedWindows, waiting_.longest_chain(), waiting_.pushed())) {
                 untrimmed_ = waiting_.pushed();
                 waiting_.begin(true);
-                is_trimming_ = true;
                 begin();
                 spread_from_source(source, light);
             } else if (is_endless()) {
@@ -79,7 +77,6 @@ class Detector : public Windows<Real, kMayVary> {
         count_.windows = waiting_.pushed();
         count_.most_waiting = waiting_.most();
         count_.chain = waiting_.longest_chain();
-        count_.trims = waiting_.trims();
         return count_;
     }
 
@@ -88,10 +85,9 @@ class Detector : public Windows<Real, kMayVary> {
     using Base::adaptive, Base::arrival_at_apex, Base::begin_operation, Base::entry_through,
         Base::error_of, Base::leave, Base::leave_shadow, Base::lit_child, Base::makes_many,
         Base::reach_through, Base::remember;
-    using Base::count_, Base::is_trimming_, Base::limit_, Base::margin_, Base::own_radius_,
-        Base::slack_;
+    using Base::count_, Base::limit_, Base::margin_, Base::own_radius_, Base::slack_;
     using Base::kFull, Base::kNearVertex, Base::kNoEdge, Base::kWholeFan;
-    using Base::square, Base::surface_, Base::trim_error, Base::turns_back;
+    using Base::square, Base::surface_, Base::turns_back;
     using typename Base::Child;
     using typename Base::Window;
     using Event = ref::Event<Real>;
@@ -224,8 +220,7 @@ class Detector : public Windows<Real, kMayVary> {
     bool is_trimmed(std::uint32_t h, const Window& window) {
         return kept_.trims(surface_.edges[h].origin, surface_.edges[next_in_face(h)].origin,
                            surface_.edges[h].length,
-                           {window.x, window.y, window.b0, window.b1, window.sigma}, limit_,
-                           trim_error());
+                           {window.x, window.y, window.b0, window.b1, window.sigma}, limit_);
     }
 
     /// Carries the window, given in the frame of h with its source at (x, -y), into the face of h.

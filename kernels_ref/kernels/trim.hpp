@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -28,10 +29,9 @@ class KeptWindows {
     void begin_disk() { ++generation_; }
 
     /// Returns true if a window that comes to the edge from vertex `start` to vertex `end` is
-    /// dropped: another one is not farther by more than `error`, everywhere that the window lights
+    /// dropped: another one is not farther by more than rounding, everywhere that the window lights
     /// before its paths are `limit` long. Otherwise it may be kept from now on.
-    bool trims(std::uint32_t start, std::uint32_t end, Real length, Window window, Real limit,
-               Real error) {
+    bool trims(std::uint32_t start, std::uint32_t end, Real length, Window window, Real limit) {
         if (start > end) {
             std::swap(start, end);
             window = {length - window.x, window.y, length - window.b1, length - window.b0,
@@ -44,7 +44,7 @@ class KeptWindows {
             return row.start == start && row.end == end && row.generation == generation_;
         };
         for (const Row& row : kept) {
-            if (is_of_edge(row) && dominates(row.window, window, limit, error)) {
+            if (is_of_edge(row) && dominates(row.window, window, limit)) {
                 return true;
             }
         }
@@ -66,18 +66,20 @@ class KeptWindows {
         std::uint32_t generation = 0;
         Window window;
     };
+    static constexpr Real kError = std::numeric_limits<Real>::epsilon();
+
     static Real square(Real v) { return v * v; }
 
     /// Returns true if the kept window is hardly farther from the point `at` of the edge.
-    static bool is_as_near(const Window& kept, const Window& other, Real at, Real error) {
+    static bool is_as_near(const Window& kept, const Window& other, Real at) {
         const Real distance = other.sigma + root(square(at - other.x) + square(other.y));
-        const Real rest = (distance - kept.sigma) + error;
+        const Real rest = (distance - kept.sigma) + kError;
         return rest >= 0 && square(at - kept.x) + square(kept.y) <= rest * rest;
     }
 
     /// Returns true if this holds everywhere. The difference of the two is largest at an end, or
     /// where both sources are collinear with the point.
-    static bool dominates(const Window& kept, const Window& other, Real limit, Real error) {
+    static bool dominates(const Window& kept, const Window& other, Real limit) {
         const Real way = limit - other.sigma;
         const Real low = std::max(other.b0, other.x - way);
         const Real high = std::min(other.b1, other.x + way);
@@ -90,9 +92,9 @@ class KeptWindows {
         const Real part = across > static_cast<Real>(kSmallestSquare)
                               ? ratio(over - low * under, across)
                               : Real{0};
-        return kept.b0 - error <= low && kept.b1 + error >= high &&
-               is_as_near(kept, other, low, error) && is_as_near(kept, other, high, error) &&
-               is_as_near(kept, other, low + width * part, error);
+        return kept.b0 - kError <= low && kept.b1 + kError >= high &&
+               is_as_near(kept, other, low) && is_as_near(kept, other, high) &&
+               is_as_near(kept, other, low + width * part);
     }
 
     std::vector<std::array<Row, gpu::kKeptPerEdge>> edges_; ///< Kept windows; empty until a disk

@@ -30,7 +30,6 @@ struct DiskCount {
     std::uint32_t chain = 0;        ///< Longest chain of crossings.
     std::uint32_t vertices = 0;     ///< Vertices reached.
     std::uint32_t tested = 0;       ///< Points whose distance was computed.
-    bool trims = false;             ///< Windows are trimmed.
 };
 
 /// A disk with too many windows: edges of many faces, or very many triangles.
@@ -126,17 +125,8 @@ class Windows {
     /// Returns true if points have classes.
     bool classed() const { return kMayVary && !words_.empty(); }
 
-    /// Returns by how much a window may be farther than the one that trims it.
-    Real trim_error() const {
-        constexpr Real kPart = std::numeric_limits<Real>::epsilon() /
-                               static_cast<Real>(std::numeric_limits<float>::epsilon());
-        return base_error_ * Real{0.5} * kPart;
-    }
-
     Real error_of(std::uint32_t crossings) const {
-        const Real of_trimmed = base_error_ * Real{0.5} + crossing_error_ * Real{0.5};
-        const Real each = is_trimming_ ? of_trimmed : crossing_error_;
-        return base_error_ + static_cast<Real>(crossings) * each;
+        return base_error_ + static_cast<Real>(crossings) * crossing_error_;
     }
 
     /// Begins to spread a source, window or event over a face. Long chains widen limit and margin:
@@ -397,10 +387,9 @@ class Windows {
     Real limit_;
     const Real guard_, least_margin_, slack_;
     const Real base_error_, crossing_error_;
-    bool is_trimming_ = false; ///< The disk trims its windows: a crossing then adds more.
-    Real margin_ = 0;          ///< By how much a known path must beat a window in this operation.
-    Real beyond_guard_ = 0;    ///< By how much its error exceeds the guard.
-    Real own_radius_ = 0;      ///< Radius of the source, if radii vary.
+    Real margin_ = 0;       ///< By how much a known path must beat a window in this operation.
+    Real beyond_guard_ = 0; ///< By how much its error exceeds the guard.
+    Real own_radius_ = 0;   ///< Radius of the source, if radii vary.
     std::uint32_t own_class_ = 0;
     std::span<const std::uint32_t> words_; ///< Of the points, if they have classes.
     DiskCount count_;

@@ -146,10 +146,6 @@ double Frame::error_of(std::uint32_t crossings) const {
     return radii_vary ? of_crossings + kRadiiError : of_crossings;
 }
 
-double Frame::error_of_trimmed(std::uint32_t crossings) const {
-    return error_of(0) + crossings * (0.5 * error_of(0) + 0.5 * kCrossingError);
-}
-
 double Frame::guard_for(double error_bound) const {
     const double of_radii = radii_vary ? kRadiiError : 0;
     const double least = radii_vary ? 0x1p-15 : 0x1p-13;

@@ -44,8 +44,6 @@ struct Frame {
     float intensity(std::uint32_t stage) const;
     /// Returns a bound on the error of a distance over this many crossings.
     double error_of(std::uint32_t crossings) const;
-    /// Returns the same in disks that trim their windows, each by at most half of error_of(0).
-    double error_of_trimmed(std::uint32_t crossings) const;
     double guard_for(double error_bound) const;
     /// Returns the tolerances for an error bound; without one, for the first.
     Tolerances tolerances(double error_bound) const;

@@ -17,7 +17,6 @@
 
 LaneRec lane; // the window in flight of this invocation
 uint overflow;
-bool trims() { return false; }
 const bool kRemembers = true;
 
 shared GroupRec group;

@@ -17,9 +17,6 @@ uint first_vertex;
 uint first_kept;
 uint first_remembered;
 
-// Returns true if the disk trims its windows.
-bool trims() { return kTrims && lane.trims != 0u; }
-
 // Returns the index in the pool of a row of this lane.
 uint own_row(uint at) { return slice + at * kPoolBlock; }
 

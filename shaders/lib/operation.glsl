@@ -42,19 +42,8 @@ float own_limit() {
 // By how much a known path must beat a window before that is dropped.
 float margin;
 
-// A window is trimmed where another one is not farther by more than this: 2^-21, times the longest edge if
-// that is longer than 1. Less does not tell equal paths from others.
-float trim_error() {
-    precise float error = job.base_error * 0.5;
-    return error;
-}
-
-// A crossing adds to the error by rounding, and in disks that trim by that. The bound of rounding is twice
-// what they need, which is still many times what is seen.
 float error_of(uint crossings) {
-    precise float of_trimmed = trim_error() + kCrossingError * 0.5;
-    float each = trims() ? of_trimmed : kCrossingError;
-    precise float error = job.base_error + float(crossings) * each;
+    precise float error = job.base_error + float(crossings) * kCrossingError;
     return error;
 }
 

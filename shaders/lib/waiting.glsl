@@ -12,6 +12,8 @@
 
 layout(constant_id = kSpecEventHeap) const bool kEventHeap = false;
 
+bool trims() { return kTrims && lane.trims != 0u; }
+
 bool holds_window() { return kHolds && lane.held_around != kNoWindow; }
 
 // Returns the windows on the stack and the one held.

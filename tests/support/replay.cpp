@@ -28,9 +28,6 @@ struct Side {
           detector(surface, pool.bins, tolerances, limit) {}
 };
 
-// Of disks with long chains that trim their windows, in the meshes of the tests.
-constexpr double kWidestGuard = 0.01;
-
 /// Distances from the sample in hand, by rank; of several paths the shortest counts.
 class Distances {
   public:
@@ -81,9 +78,7 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double
     const ref::Frame frame = ref::frame_of(mesh, params);
     const ref::Tolerances tolerances = frame.tolerances(error_bound);
     Side<float> floats(mesh, params, tolerances, tolerances.limit);
-    // As far as any guard takes a disk.
-    const double farthest = std::max(2 * tolerances.guard, kWidestGuard);
-    Side<double> doubles(mesh, params, tolerances, tolerances.limit + farthest);
+    Side<double> doubles(mesh, params, tolerances, tolerances.limit + 2 * tolerances.guard);
     std::vector<bool> decided(floats.pool.size(), false);
     ReplayReport report;
     for (std::uint32_t rank = 0; rank < floats.pool.size(); ++rank) {
@@ -111,9 +106,8 @@ ReplayReport replay(const PreparedMesh& mesh, const SampleParams& params, double
             };
             return params.radii == nullptr ? limit : radius(rank) + radius(q) + (limit - 1);
         };
-        const double of_chain =
-            disk.trims ? frame.error_of_trimmed(disk.chain) : frame.error_of(disk.chain);
-        judge(hits, truth, limit_with, std::max(tolerances.guard, of_chain), report);
+        judge(hits, truth, limit_with, std::max(tolerances.guard, frame.error_of(disk.chain)),
+              report);
         for (const auto& [q, distance] : hits) {
             decided[q] = true;
         }

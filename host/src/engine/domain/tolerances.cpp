@@ -58,10 +58,6 @@ double ErrorModel::error_of(std::uint32_t chain) const noexcept {
     return per_crossing_ * (chain + 4 * std::ceil(longest_)) + further_;
 }
 
-double ErrorModel::error_of_trimmed(std::uint32_t chain) const noexcept {
-    return error_of(0) + (error_of(0) + per_crossing_) / 2 * chain;
-}
-
 double ErrorModel::guard_for(double error_bound) const noexcept {
     return power_of_two_from(error_bound - further_, least_guard_) + further_;
 }

@@ -44,8 +44,6 @@ class GEODISK_API ErrorModel {
 
     /// Of chains of so many crossings.
     double error_of(std::uint32_t chain) const noexcept;
-    /// The same in disks that trim their windows.
-    double error_of_trimmed(std::uint32_t chain) const noexcept;
     /// Returns a guard that is safe while errors keep to the bound: powers of two from 2^-13 on,
     /// and where radii vary from 2^-15 on, so that an edit somewhere does not decide anew about
     /// ties elsewhere.

@@ -409,12 +409,10 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     report_.candidates = static_cast<std::uint32_t>(*darts);
     report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
     take_counts(control(), report_);
-    const RunPlan& last = submissions_.plan();
-    const double of_longest = last.trims ? job().error.error_of_trimmed(report_.longest_chain)
-                                         : job().error.error_of(report_.longest_chain);
-    report_.guard = std::max(of_.guard_for(last.error_bound), of_longest);
+    report_.guard = std::max(of_.guard_for(submissions_.plan().error_bound),
+                             job().error.error_of(report_.longest_chain));
     report_.device_bytes = memory_.bytes();
-    report_.plan = last;
+    report_.plan = submissions_.plan();
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }
