@@ -196,6 +196,7 @@ GEODISK_CONST uint kTrimIterationsPerStep = kTripsPerStep * 5u * (kMostLevels + 
 // Disks in waves: what a lane goes through of a phase in a step, and corners of a fan that one event
 // lights. Waves after which their step doubles, in case the first face was far smaller than others.
 GEODISK_CONST uint kItemsPerStep = 32u;
+GEODISK_CONST uint kLeastGroupWindows = 4u; // A disk begins with three.
 GEODISK_CONST uint kCornersPerEvent = 16u;
 GEODISK_CONST uint kWavesPerStep = 256u;
 // A step is halved after so many vertices that were lit again, and a quarter of those in the disk.

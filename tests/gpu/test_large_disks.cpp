@@ -54,6 +54,18 @@ TEST_SUITE("large disks") {
         }
     }
 
+    // A disk begins with three windows: a slice that had room for two lost the third.
+    TEST_CASE("work groups of the least slices lose no window") {
+        const PreparedMesh mesh = prepared(builtin("cube", 1));
+        const SampleParams params = params_for(mesh, 40);
+        RunnerOptions options;
+        options.plan.disks_by = DisksBy::groups;
+        options.plan.window_capacity = 2;
+        const SampleSet set = sample(mesh, params, options);
+        CHECK(set.report.plan.window_capacity >= gpu::kLeastGroupWindows);
+        CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+    }
+
     TEST_CASE("they change no set") {
         for (const auto& [name, resolution] :
              {std::pair{"lattice", 1}, std::pair{"crossed-sheet", 6}, std::pair{"veronese", 3},

@@ -178,7 +178,8 @@ struct RunPlan {
     std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another;
                                        ///< or work groups, as `disks_by` says.
     std::uint32_t window_capacity = 0; ///< Maximum of waiting windows in a lane, and of vertex
-                                       ///< events; a power of two.
+                                       ///< events; a power of two, at least 2, or 4 by
+                                       ///< groups.
     std::uint32_t table_capacity = 0;  ///< Rows of a lane's vertex table, at most half full; a
                                        ///< power of two.
     std::uint32_t list_capacity = 0;   ///< Conflicts per slot, a multiple of 4.

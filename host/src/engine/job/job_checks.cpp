@@ -34,7 +34,7 @@ Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDevice
 /// Returns true if work groups for large disks have slices of possible sizes.
 bool has_large_slices(const RunPlan& plan) {
     constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
-    return plan.large_groups <= kMost && plan.large_window_capacity >= 2 &&
+    return plan.large_groups <= kMost && plan.large_window_capacity >= gpu::kLeastGroupWindows &&
            std::has_single_bit(plan.large_window_capacity) &&
            std::has_single_bit(plan.large_table_capacity) && plan.large_window_capacity <= kMost &&
            plan.large_table_capacity <= kMost;
@@ -64,8 +64,10 @@ Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkD
 
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
     constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
+    const std::uint32_t least_windows =
+        plan.disks_by == DisksBy::groups ? gpu::kLeastGroupWindows : 2;
     const bool fine =
-        plan.slots >= kLeastSlots && plan.window_capacity >= 2 &&
+        plan.slots >= kLeastSlots && plan.window_capacity >= least_windows &&
         std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
         plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
         plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&

@@ -210,6 +210,11 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.large_window_capacity, wanted.large_window_capacity);
     replace(plan.large_table_capacity, wanted.large_table_capacity);
     replace(plan.large_after, wanted.large_after);
+    // A disk of a work group begins with several windows.
+    if (plan.disks_by == DisksBy::groups) {
+        plan.window_capacity = std::max(plan.window_capacity, gpu::kLeastGroupWindows);
+    }
+    plan.large_window_capacity = std::max(plan.large_window_capacity, gpu::kLeastGroupWindows);
     plan.trims = plan.trims || wanted.trims;
     plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
