@@ -6,7 +6,7 @@ namespace {
 constexpr const char* kExitStatus = R"(
 Exit status:
   0    success
-  1    verify found samples too close, in a wrong place or with a wrong radius, or a gap; some meshes
+  1    verify found samples too close, misplaced or with a wrong radius, or a gap; some meshes
        of a list failed; conformance found a set that differs
   2    wrong usage: an unknown option, no distance or several, a value out of range
   3    an input file is missing, unreadable or malformed
