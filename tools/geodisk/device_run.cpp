@@ -1,7 +1,6 @@
 #include "geodisk/device_run.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -90,39 +89,8 @@ std::uint64_t cut_to(SampleSet& set, const Domain& domain, std::size_t count) {
     set.samples.resize(std::min(set.samples.size(), count));
     set.points.resize(std::min(set.points.size(), count * domain.dimension()));
     set.given = std::min(set.given, count);
+    set.classes.resize(std::min(set.classes.size(), count));
     return cut;
-}
-
-/// Returns the report of two runs, one after the other.
-RunReport sum_of(const RunReport& a, const RunReport& b) {
-    RunReport sum = b;
-    const std::uint64_t candidates = std::uint64_t{a.candidates} + b.candidates;
-    sum.candidates =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(candidates, kMostCandidates));
-    sum.chunks += a.chunks;
-    sum.iterations += a.iterations;
-    sum.dispatches += a.dispatches;
-    sum.disks += a.disks;
-    sum.regrown += a.regrown;
-    sum.starts += a.starts;
-    sum.windows += a.windows;
-    sum.tested += a.tested;
-    sum.most_waiting = std::max(a.most_waiting, b.most_waiting);
-    sum.longest_chain = std::max(a.longest_chain, b.longest_chain);
-    sum.most_vertices = std::max(a.most_vertices, b.most_vertices);
-    sum.most_conflicts = std::max(a.most_conflicts, b.most_conflicts);
-    sum.trips += a.trips;
-    sum.lane_trips += a.lane_trips;
-    sum.guard = std::max(a.guard, b.guard);
-    sum.device_bytes = std::max(a.device_bytes, b.device_bytes);
-    sum.uploaded += a.uploaded;
-    sum.seconds.compile += a.seconds.compile;
-    sum.seconds.upload += a.seconds.upload;
-    sum.seconds.sample += a.seconds.sample;
-    sum.seconds.readback += a.seconds.readback;
-    std::transform(a.stages.begin(), a.stages.end(), b.stages.begin(), sum.stages.begin(),
-                   std::plus<>());
-    return sum;
 }
 
 } // namespace
@@ -235,7 +203,8 @@ SampleSet RunDevice::sample_all(const Task& first, double min_distance, Progress
         progress.begin_stage("sampling level " + std::to_string(ends.size()));
         set = sample(task, min_distance, progress);
         set.given = given; // Those before are samples of this set.
-        set.report = sum_of(before, set.report);
+        set.report.starts += before.starts;
+        set.report.add(before);
         ends.push_back(count_of(set, task.domain));
         next = task.next;
     }

@@ -91,6 +91,10 @@ struct RunReport {
     RunSeconds seconds;
     StageSeconds stages{}; ///< Device time, 0 without RunnerOptions::time_stages.
     MaximalReport maximal;
+
+    /// Adds the work of another run: numbers and seconds are summed, maxima kept. `starts`, `plan`
+    /// and `maximal` stay.
+    GEODISK_API void add(const RunReport& other) noexcept;
 };
 
 /// Samples in dart-throwing order.

@@ -34,34 +34,6 @@ constexpr double kPartOfMemory = 0.2;
 constexpr double kPartOfBinding = 0.5;
 constexpr std::uint32_t kLeastRecords = 4096;
 
-/// Adds the report of a job to that of the jobs before.
-void add(RunReport& sum, const RunReport& job) {
-    sum.candidates += job.candidates;
-    sum.chunks += job.chunks;
-    sum.iterations += job.iterations;
-    sum.dispatches += job.dispatches;
-    sum.disks += job.disks;
-    sum.regrown += job.regrown;
-    sum.windows += job.windows;
-    sum.tested += job.tested;
-    sum.most_waiting = std::max(sum.most_waiting, job.most_waiting);
-    sum.longest_chain = std::max(sum.longest_chain, job.longest_chain);
-    sum.most_vertices = std::max(sum.most_vertices, job.most_vertices);
-    sum.most_conflicts = std::max(sum.most_conflicts, job.most_conflicts);
-    sum.trips += job.trips;
-    sum.lane_trips += job.lane_trips;
-    sum.guard = std::max(sum.guard, job.guard);
-    sum.device_bytes = std::max(sum.device_bytes, job.device_bytes);
-    sum.uploaded += job.uploaded;
-    sum.seconds.compile += job.seconds.compile;
-    sum.seconds.upload += job.seconds.upload;
-    sum.seconds.sample += job.seconds.sample;
-    sum.seconds.readback += job.seconds.readback;
-    for (std::size_t stage = 0; stage < kStages; ++stage) {
-        sum.stages[stage] += job.stages[stage];
-    }
-}
-
 class MaximalRun {
   public:
     MaximalRun(Runner::Impl& runner, const MaximalJob& job)
@@ -135,7 +107,7 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
         if (!set) {
             co_return set.error();
         }
-        add(set_.report, set->report);
+        set_.report.add(set->report);
         if (lit.wanted > lit.records.size()) {
             records_per_disk_ = std::max(lit.wanted / settled, records_per_disk_) * kSpareRecords;
             continue; // Again, with room for all.
@@ -164,7 +136,7 @@ Task<Result<std::vector<Sample>>> MaximalRun::fill(std::uint32_t round, double g
     if (!filled) {
         co_return filled.error();
     }
-    add(set_.report, filled->report);
+    set_.report.add(filled->report);
     co_return std::move(filled->samples);
 }
 

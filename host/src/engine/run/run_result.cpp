@@ -17,6 +17,34 @@ void take_counts(const gpu::ControlRec& control, RunReport& report) {
     report.lane_trips = wide(control.lane_trips_low, control.lane_trips_high);
 }
 
+void RunReport::add(const RunReport& other) noexcept {
+    // Of several runs together there may be more than fit.
+    candidates += std::min(other.candidates, ~candidates);
+    chunks += other.chunks;
+    iterations += other.iterations;
+    dispatches += other.dispatches;
+    disks += other.disks;
+    regrown += other.regrown;
+    windows += other.windows;
+    tested += other.tested;
+    most_waiting = std::max(most_waiting, other.most_waiting);
+    longest_chain = std::max(longest_chain, other.longest_chain);
+    most_vertices = std::max(most_vertices, other.most_vertices);
+    most_conflicts = std::max(most_conflicts, other.most_conflicts);
+    trips += other.trips;
+    lane_trips += other.lane_trips;
+    guard = std::max(guard, other.guard);
+    device_bytes = std::max(device_bytes, other.device_bytes);
+    uploaded += other.uploaded;
+    seconds.compile += other.seconds.compile;
+    seconds.upload += other.seconds.upload;
+    seconds.sample += other.seconds.sample;
+    seconds.readback += other.seconds.readback;
+    for (std::size_t stage = 0; stage < kStages; ++stage) {
+        stages[stage] += other.stages[stage];
+    }
+}
+
 SampleSet to_set(const Domain::Impl& domain, std::span<const gpu::SampleRec> records,
                  const RunReport& report) {
     SampleSet set{{}, {}, report, domain.settled.size() - domain.avoided, {}};
