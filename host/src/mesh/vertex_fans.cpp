@@ -133,9 +133,14 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
     fan.flags = regular_flags(open, fan.total_angle);
 }
 
+/// Returns the angle of a corner in units of a fan.
+std::uint32_t corner_size(std::uint32_t fan_angles) {
+    return (fan_angles & ~gpu::kCornerTurned) >> 16;
+}
+
 bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed) {
     const std::uint32_t fine = packed & ~kShortSide;
-    const std::uint32_t size = ((fan_angles & ~gpu::kCornerTurned) >> 16) * kFinePerUnit;
+    const std::uint32_t size = corner_size(fan_angles) * kFinePerUnit;
     // Starts are rounded down, ends up.
     return (packed & kShortSide) == 0 && size + 1 >= fine && size <= fine + 2 * kFinePerUnit;
 }
@@ -163,7 +168,7 @@ bool FanBuilder::fits(std::uint32_t v, const VertexFan& fan,
             is_turned == step.entered_by_own) {
             return false;
         }
-        end = start + ((angle & ~gpu::kCornerTurned) >> 16);
+        end = start + corner_size(angle);
     }
     return end == fan.total_angle && end <= gpu::kLargestFanAngle;
 }

@@ -71,10 +71,15 @@ float cells_per_unit(const gpu::RadiiRec& radii) {
                                 (std::bit_cast<std::uint32_t>(largest) & 0x7f800000u));
 }
 
+/// Returns the cells per unit of length over a face.
+float cells_per_unit(const SampleParams& params, std::uint32_t face) {
+    return params.class_factors.empty() ? cells_per_unit(radii_of(params, face))
+                                        : class_cells_per_unit(params);
+}
+
 Grid face_grid(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
                double unit) {
-    const float per_unit = params.class_factors.empty() ? cells_per_unit(radii_of(params, face))
-                                                        : class_cells_per_unit(params);
+    const float per_unit = cells_per_unit(params, face);
     const auto edges = mesh.half_edges().subspan(std::size_t{3} * face, 3);
     std::uint32_t corner = 0;
     for (std::uint32_t k = 1; k < 3; ++k) {
@@ -224,7 +229,7 @@ void for_face_grids(const PlacedSurface& surface,
         const auto [columns, rows, corner] = face_grid(*surface.mesh, surface.params, f, unit);
         const FaceGrid grid{first, static_cast<std::uint32_t>(columns),
                             static_cast<std::uint32_t>(rows), corner,
-                            unit / cells_per_unit(radii_of(surface.params, f))};
+                            unit / cells_per_unit(surface.params, f)};
         visit(f, grid);
         first += grid.columns * grid.rows;
     }

@@ -65,18 +65,14 @@ std::vector<KernelVariant> all_kernel_variants() {
                 variants.emplace_back(surface).classes = true;
             }
         }
-        KernelVariant of_groups;
-        of_groups.adaptive = adaptive;
-        of_groups.groups = true;
-        variants.push_back(of_groups);
-        variants.push_back(of_groups);
-        variants.back().avoids = true;
-        KernelVariant of_lights;
-        of_lights.adaptive = adaptive;
-        of_lights.lights = true;
-        variants.push_back(of_lights);
-        variants.push_back(of_lights);
-        variants.back().avoids = true;
+        for (bool KernelVariant::*const kind : {&KernelVariant::groups, &KernelVariant::lights}) {
+            for (const bool avoids : {false, true}) {
+                KernelVariant& variant = variants.emplace_back();
+                variant.adaptive = adaptive;
+                variant.*kind = true;
+                variant.avoids = avoids;
+            }
+        }
         if (!adaptive) {
             KernelVariant& classed = variants.emplace_back();
             classed.groups = classed.classes = true;
