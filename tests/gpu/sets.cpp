@@ -90,6 +90,15 @@ Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double 
     return float_set(mesh, with, error_bound);
 }
 
+Points points_of(const std::vector<ListedCandidate>& candidates) {
+    Points points;
+    for (const auto& [face, weight1, weight2] : candidates) {
+        points.push_back(
+            {face, static_cast<float>(weight1) * 0x1p-24f, static_cast<float>(weight2) * 0x1p-24f});
+    }
+    return points;
+}
+
 std::vector<Sample> samples_of(const Points& points) {
     std::vector<Sample> samples;
     for (const auto& [face, second, third] : points) {

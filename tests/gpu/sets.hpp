@@ -8,6 +8,7 @@
 #include <geodisk/runner.hpp>
 
 #include "device_run.hpp"
+#include "engine/domain/listed.hpp"
 
 namespace geodisk::test {
 
@@ -37,6 +38,7 @@ Points listed_set(const PreparedMesh& mesh, const SampleParams& params, double e
                   const Points& candidates);
 
 Points points_of(const SampleSet& set);
+Points points_of(const std::vector<ListedCandidate>& candidates);
 std::vector<Sample> samples_of(const Points& points);
 
 /// Runs on the shared device, by a sampler for the radii of `params`.

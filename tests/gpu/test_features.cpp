@@ -28,15 +28,6 @@ SampleSet sample_features(const PreparedMesh& mesh, const SampleParams& params,
     return expect(runner.sample_and_wait(expect(feature_domain(mesh, params, features))));
 }
 
-Points points_of(const std::vector<ListedCandidate>& candidates) {
-    Points points;
-    for (const auto& [face, weight1, weight2] : candidates) {
-        points.push_back(
-            {face, static_cast<float>(weight1) * 0x1p-24f, static_cast<float>(weight2) * 0x1p-24f});
-    }
-    return points;
-}
-
 std::size_t count_of(const std::vector<Sample>& samples, FeatureKind kind) {
     return static_cast<std::size_t>(std::ranges::count_if(
         samples, [kind](const Sample& sample) { return feature_of(sample) == kind; }));

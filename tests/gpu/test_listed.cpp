@@ -32,15 +32,6 @@ std::vector<ListedCandidate> random_points(const PreparedMesh& mesh, std::size_t
     return points;
 }
 
-Points points_of(const std::vector<ListedCandidate>& candidates) {
-    Points points;
-    for (const auto& [face, weight1, weight2] : candidates) {
-        points.push_back(
-            {face, static_cast<float>(weight1) * 0x1p-24f, static_cast<float>(weight2) * 0x1p-24f});
-    }
-    return points;
-}
-
 /// Checks that a run decides the candidates as the twin does, also if it has little room.
 void check_as_twin(const PreparedMesh& mesh, const SampleParams& params, std::size_t count) {
     const auto candidates = random_points(mesh, count);
