@@ -1,0 +1,28 @@
+// How far samples must be apart, as the options of `geodisk verify` and a sample file say.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "files/sample_file.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/class_options.hpp"
+#include "geodisk/options/verify_options.hpp"
+
+namespace geodisk::tools {
+
+/// How far samples must be apart.
+struct WantedSpacing {
+    ClassTable classes;
+    double min_distance = 0; ///< Of all pairs, or of two with the largest radius; 0 if not known.
+    bool radii_vary = false;
+    std::vector<double> radii; ///< By row.
+    std::size_t wrong = 0;     ///< Rows whose own radius is another.
+};
+
+/// With density options the radii are computed again; without, those of the file count, unless a
+/// distance is given. Throws UserError if neither says how far, or the file lacks classes.
+WantedSpacing wanted_spacing(const VerifyOptions& options, const SampleFile& samples,
+                             const MeshInput& mesh);
+
+} // namespace geodisk::tools
