@@ -6,13 +6,15 @@
 // the next dispatch: some drivers end long loops, lavapipe silently. The number of iterations of a
 // step is bounded, see kIterationsPerStep.
 // reads: faces, fans, radii, cells, weights, orders   writes: pool, slots, control
-// spec: local size, rounding, pool block, counted lanes, adaptive, event heap, trims, many rows, avoids, classes
+// spec: local size, rounding, pool block, counted lanes, adaptive, event heap, trims, many rows, avoids, classes,
+//       points
 //
 // lavapipe executes both sides of every branch, so a trip is one straight line of as few loads and
 // stores as possible: it takes one window or corner, spreads it, and scans.
 //
 // Compiled with GEODISK_LIGHT it is the kernel `light`: the disks of settled samples, which list no
-// candidates but record how they light each face.
+// candidates but record how they light each face. With GEODISK_REACH it is the kernel `reach`: such disks
+// record the vertices, or the candidates, that they reach, and how far these are.
 
 #define GEODISK_KEEPS_CONSTANTS
 #include "../lib/prelude.glsl"
@@ -28,7 +30,9 @@ layout(constant_id = kSpecCountedLanes) const uint kCountedLanes = 0u;
 
 #ifndef GEODISK_LIGHT
 GEODISK_WORDS(kBindCells, cells);
+#ifndef GEODISK_REACH
 GEODISK_WORDS(kBindWeights, weights);
+#endif
 GEODISK_WORDS(kBindOrders, orders);
 #endif
 GEODISK_OWN_ROWS(kBindPool, kBindPoolTexels, pool);
@@ -39,6 +43,9 @@ GEODISK_CONTROL;
 #include "../lib/list.glsl"
 #include "../lib/waiting.glsl"
 #include "../lib/vertex_table.glsl"
+#ifdef GEODISK_REACH
+#include "../lib/hits.glsl"
+#endif
 #include "../lib/propagate.glsl"
 #include "../lib/shadow.glsl"
 #include "../lib/trim.glsl"
@@ -46,9 +53,13 @@ GEODISK_CONTROL;
 #ifdef GEODISK_LIGHT
 #include "../lib/light.glsl"
 #else
-void note_conflict(uint place, bool is_active, bool conflicts) {
+#ifndef GEODISK_REACH
+const bool kScans = true;
+
+void note_conflict(uint place, bool is_active, bool conflicts, float square) {
     list_conflict(lane.idle_conflicts, lane.active_conflicts, place, is_active, conflicts);
 }
+#endif
 
 #include "../lib/scan.glsl"
 #endif
@@ -74,7 +85,7 @@ void hand_in_slot() {
     complete_one();
 }
 
-#ifdef GEODISK_LIGHT
+#if defined(GEODISK_LIGHT) || defined(GEODISK_REACH)
 void block_conflicts() { lane.phase = kPhaseComplete; }
 #else
 // Counts the candidate among the blocks of the active ones behind it in its disk.
@@ -298,11 +309,13 @@ void trip() {
         float source_square = place_source();
         set_margin();
         spread(source_square);
-        if (lane.phase != kPhaseSource || lane.cursor == 1u) {
+        if (kScans && (lane.phase != kPhaseSource || lane.cursor == 1u)) {
             begin_scan(entry_x(), lane.mode == kModeInside ? lane.y : -lane.y);
         }
     }
-    scan_some();
+    if (kScans) {
+        scan_some();
+    }
     if (due) {
         follow_up();
     }

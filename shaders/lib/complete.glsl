@@ -4,7 +4,7 @@
 
 #include "slots.glsl"
 
-#ifndef GEODISK_LIGHT
+#if !defined(GEODISK_LIGHT) && !defined(GEODISK_REACH)
 // Adds a block of the candidate with these sample words to the one at this place, if that is active and
 // comes after it.
 void block(uvec4 own, uint place) {

@@ -174,7 +174,7 @@ void push_proposal(uvec4 row) {
     pool[proposal_row(at)] = row;
 }
 
-void note_conflict(uint place, bool is_active, bool conflicts) {
+void note_conflict(uint place, bool is_active, bool conflicts, float square) {
     ++own_tested;
     if (conflicts) {
         if (atomicAdd(group.conflicts, 1u) >= push.list_capacity) {

@@ -11,6 +11,8 @@ layout(set = 0, binding = kBindWeights, std430) coherent buffer lit_buffer { uve
 
 uint own_place;
 
+const bool kScans = true;
+
 bool scanning() { return false; }
 
 void scan_some() {}

@@ -46,6 +46,9 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
             best = distance;
             note_vertex(row, vertex, distance, inside ? kNoHalfEdge : lane.half_edge,
                         inside ? 0.0 : m.crossing);
+#ifdef GEODISK_REACH
+            note_reached(vertex, distance);
+#endif
             bool whole_fan = lane.phase == kPhaseSource && distance <= kNearVertex;
             if (whole_fan || (origin & kOriginBends) != 0u) {
                 uint corner = i == 0u   ? lane.half_edge

@@ -1,6 +1,7 @@
 // Tests the candidates of a face that the operation in flight can reach. Cells are visited row by row,
 // some candidates per trip of the main loop, so that a long list never exceeds the bound on iterations.
-// The kernel says what becomes of a candidate: note_conflict(place, is_active, conflicts).
+// The kernel says what becomes of a candidate: note_conflict(place, is_active, conflicts, square), with the
+// squared distance from the source of the operation.
 #ifndef GEODISK_SCAN_GLSL
 #define GEODISK_SCAN_GLSL
 
@@ -9,6 +10,10 @@
 #include "strip.glsl"
 
 uint own_place;
+
+#ifndef GEODISK_REACH
+uint weight_word(uint at) { return word_at(weights, at); }
+#endif
 
 bool scanning() { return lane.scan_place < lane.scan_end || lane.scan_row != lane.scan_row_end; }
 
@@ -158,9 +163,9 @@ void scan_some() {
             continue;
         }
         ++lane.tested;
-        uint word = word_at(weights, 2u * place);
+        uint word = weight_word(2u * place);
         float weight1 = weight_of(weight_in(word));
-        float weight2 = weight_of(word_at(weights, 2u * place + 1u));
+        float weight2 = weight_of(weight_word(2u * place + 1u));
         vec2 q = position_in(corner, edge.len, apex, weight1, weight2);
         precise float dx = q.x - sx;
         precise float dy = q.y - sy;
@@ -170,8 +175,9 @@ void scan_some() {
         float limit2 = kAdaptive ? conflict_square(limit_with(radius_at(radii, weight1, weight2)))
                        : kClasses && !keeps_out() ? conflict_square(limit_for(class_in(word)))
                                                   : rest2;
-        bool conflicts = squared(dx, dy) < limit2 && (inside || (at >= from && at <= to));
-        note_conflict(place, is_active(strip, bit), conflicts);
+        float square = squared(dx, dy);
+        bool conflicts = square < limit2 && (inside || (at >= from && at <= to));
+        note_conflict(place, is_active(strip, bit), conflicts, square);
     }
 }
 

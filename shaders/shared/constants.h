@@ -279,6 +279,7 @@ GEODISK_CONST uint kSpecKeyed = 13u; // faces are drawn by keys of the caller
 GEODISK_CONST uint kSpecLanesApart = 12u; // pool blocks of one lane
 GEODISK_CONST uint kSpecAvoids = 15u; // points to avoid have disks
 GEODISK_CONST uint kSpecClasses = 16u; // candidates have classes
+GEODISK_CONST uint kSpecPoints = 17u;  // disks tell which candidates they reach, else which vertices
 GEODISK_CONST uint kSpecGroupLanes = 14u; // local size of group_detect: lanes that compute one disk
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.

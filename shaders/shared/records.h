@@ -117,6 +117,11 @@ struct LitRec {
     float x; float y; float low; float high;
 };
 
+// A path that a disk found: from a settled sample to a vertex or candidate, by its number or place.
+struct HitRec {
+    uint sample_index; uint target; float distance; uint spare;
+};
+
 // State of the run. The leading words are the indirect sizes of select, detect and resolve. The words
 // before `accepted` start from zero with every chunk.
 struct ControlRec {

@@ -137,7 +137,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 32);
+        CHECK(controls == 34);
     }
 
     TEST_CASE("no kernel binds more than seven storage buffers") {

@@ -12,6 +12,7 @@
 #include <geodisk/kernel_report.hpp>
 #include <geodisk/levels.hpp>
 #include <geodisk/mesh.hpp>
+#include <geodisk/neighbours.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/placement.hpp>
 #include <geodisk/radius_field.hpp>

@@ -24,26 +24,26 @@ double sum_of(const float (&weights)[3]) {
     return double{weights[0]} + double{weights[1]} + double{weights[2]};
 }
 
-/// Returns what is wrong with a sample, or "".
-std::string fault_of(const Sample& sample, const PreparedMesh& mesh) {
-    if (sample.face >= mesh.face_count()) {
-        return "is in face " + std::to_string(sample.face) + ", but there are " +
+} // namespace
+
+std::string fault_of(const Sample& point, const PreparedMesh& mesh) {
+    if (point.face >= mesh.face_count()) {
+        return "is in face " + std::to_string(point.face) + ", but there are " +
                std::to_string(mesh.face_count());
     }
-    const auto edges = mesh.half_edges().subspan(std::size_t{3} * sample.face, 3);
+    const auto edges = mesh.half_edges().subspan(std::size_t{3} * point.face, 3);
     if (edges[0].origin == edges[1].origin || edges[1].origin == edges[2].origin ||
         edges[2].origin == edges[0].origin) {
-        return "is in face " + std::to_string(sample.face) +
+        return "is in face " + std::to_string(point.face) +
                ", which repeats a vertex and holds no samples";
     }
-    const double least = std::min({sample.weights[0], sample.weights[1], sample.weights[2]});
+    const double least = std::min({point.weights[0], point.weights[1], point.weights[2]});
     const bool are_weights =
-        least >= -kWeightTolerance && std::abs(sum_of(sample.weights) - 1) <= kWeightTolerance;
+        least >= -kWeightTolerance && std::abs(sum_of(point.weights) - 1) <= kWeightTolerance;
     return are_weights ? "" : "has weights that are negative or do not sum to 1";
 }
 
-/// Returns the weights of the second and third corner as multiples of 2^-24 that sum to at most 1.
-std::array<float, 2> rounded(const float (&weights)[3]) {
+std::array<float, 2> rounded_weights(const float (&weights)[3]) {
     const double sum = sum_of(weights);
     const auto steps_of = [sum](double weight, double most) {
         return std::clamp(std::round(weight / sum * 0x1p24), 0.0, most);
@@ -52,8 +52,6 @@ std::array<float, 2> rounded(const float (&weights)[3]) {
     const double third = steps_of(weights[2], 0x1p24 - second);
     return {static_cast<float>(second * 0x1p-24), static_cast<float>(third * 0x1p-24)};
 }
-
-} // namespace
 
 Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params) {
     for (std::size_t i = 0; i < params.given.size(); ++i) {
@@ -84,7 +82,7 @@ void add_given(const SampleParams& params, std::uint32_t first_face,
                std::vector<gpu::SampleRec>& settled) {
     for (std::size_t i = 0; i < params.given.size(); ++i) {
         const Sample& sample = params.given[i];
-        const auto [second, third] = rounded(sample.weights);
+        const auto [second, third] = rounded_weights(sample.weights);
         const std::uint32_t order = params.given_classes.empty() ? 0 : params.given_classes[i];
         settled.push_back({order, first_face + sample.face, second, third});
     }
@@ -94,7 +92,7 @@ void add_avoided(const PlacedSurface& surface, std::vector<gpu::SampleRec>& sett
     for (const auto& [center, radius] : surface.params.avoid) {
         const double length = working_distance(*surface.mesh, radius / surface.scale);
         const auto ratio = static_cast<float>(std::max(length / surface.frame.unit, kLeastRadius));
-        const auto [second, third] = rounded(center.weights);
+        const auto [second, third] = rounded_weights(center.weights);
         settled.push_back({std::bit_cast<std::uint32_t>(ratio),
                            (surface.first_face + center.face) | gpu::kKeepsOut, second, third});
     }

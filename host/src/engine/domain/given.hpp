@@ -1,8 +1,10 @@
 // Samples that are given to a job, and points to avoid: checked, and as the device takes them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <geodisk/mesh.hpp>
@@ -18,6 +20,12 @@ namespace geodisk {
 
 /// Checks the given samples and points to avoid of a job. Errors name the sample.
 Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params);
+
+/// Returns what is wrong with a point of a surface, as the end of a sentence, or "".
+std::string fault_of(const Sample& point, const PreparedMesh& mesh);
+
+/// Returns the weights of the second and third corner as multiples of 2^-24 that sum to at most 1.
+std::array<float, 2> rounded_weights(const float (&weights)[3]);
 
 /// Appends given samples that check_given() finds no fault with, with their classes as orders.
 /// Their faces are numbered from `first_face` on; weights are rounded to multiples of 2^-24.

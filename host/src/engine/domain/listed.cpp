@@ -10,6 +10,7 @@
 #include "constants.h"
 #include "engine/capacity.hpp"
 #include "engine/domain/surface_domain.hpp"
+#include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 
@@ -102,8 +103,8 @@ Stages listed_stages(double samples, std::size_t candidates) {
 ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cells,
                              std::span<const ListedCandidate> candidates) {
     ListedBuffers buffers;
-    std::vector<std::uint32_t> sorted =
-        sorted_by_face(surface.mesh->face_count(), candidates, buffers.starts);
+    std::vector<std::uint32_t>& sorted = buffers.numbers;
+    sorted = sorted_by_face(surface.mesh->face_count(), candidates, buffers.starts);
     buffers.cells = sort_by_cell(surface, cells, candidates, buffers.starts, sorted);
     const std::uint32_t capacity = capacity_for(surface.stages, 1);
     const auto count = static_cast<std::uint32_t>(candidates.size());
@@ -147,9 +148,37 @@ Result<Domain> SurfaceDomain::lights(const PreparedMesh& mesh, const SampleParam
     const ListedCandidate candidate{0, 0, 0};
     made->is_listed = true;
     made->listed_ = listed_buffers(surface, made->cells_, {&candidate, 1});
-    made->listed_.weights = {0, most_records, 0, 0};
-    made->kernels.lights = true;
-    made->most_records_ = most_records;
+    made->listed_.weights = {0, most_records, 1, 0};
+    made->kernels.ending = Ending::light;
+    made->record_bytes_ = kRowBytes + std::uint64_t{most_records} * sizeof(gpu::LitRec);
+    made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
+    return Domain::Impl::wrap(std::move(made));
+}
+
+Result<Domain> SurfaceDomain::reach(const PreparedMesh& mesh, const SampleParams& params,
+                                    const JobFrame& frame, std::span<const ListedCandidate> targets,
+                                    std::uint32_t most_records) {
+    // Without targets a job needs a candidate.
+    const ListedCandidate candidate{0, 0, 0};
+    const auto candidates = targets.empty() ? std::span(&candidate, 1) : targets;
+    PlacedSurface surface = placed(mesh, params, frame);
+    surface.stages = listed_stages(surface.stages.samples, candidates.size());
+    auto cells = targets.empty() ? FaceCells{} : count_cells({&surface, 1});
+    if (!cells) {
+        return cells.error();
+    }
+    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
+    made->is_listed = true;
+    made->listed_ = listed_buffers(surface, made->cells_, candidates);
+    made->kernels.ending = Ending::reach;
+    made->kernels.points = !targets.empty();
+    // Behind the head the weights, two to a row, then the records.
+    std::vector<std::uint32_t>& words = made->listed_.weights;
+    words.resize((words.size() + 3) / 4 * 4, 0);
+    const auto first = static_cast<std::uint32_t>(1 + words.size() / 4);
+    words.insert(words.begin(), {0, most_records, first, 0});
+    made->record_bytes_ =
+        words.size() * sizeof words[0] + std::uint64_t{most_records} * sizeof(gpu::HitRec);
     made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
     return Domain::Impl::wrap(std::move(made));
 }

@@ -38,6 +38,8 @@ GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleP
 /// What the device holds of listed candidates: the contents of these buffers.
 struct ListedBuffers {
     std::vector<std::uint32_t> starts, cells, weights, orders;
+    std::vector<std::uint32_t>
+        numbers; ///< In the list, of the candidate at each place. Not uploaded.
 };
 
 /// Returns the stages of a job with so many listed candidates: a single one.

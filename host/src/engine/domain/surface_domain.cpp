@@ -256,7 +256,7 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
     const double faces = faces_per_disk();
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    if (!kernels.lights && suits_groups(faces, plan.slots, report)) {
+    if (!kernels.records() && suits_groups(faces, plan.slots, report)) {
         plan.disks_by = DisksBy::groups;
         plan.pool_block = 1;
         // More than it has threads would be disks in vain.
@@ -314,8 +314,7 @@ void SurfaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,
         needs.bytes[static_cast<std::size_t>(role)] = upload_size(role);
     }
     needs.bytes[gpu::kBindWeights] =
-        kernels.lights ? kRowBytes + std::uint64_t{most_records_} * sizeof(gpu::LitRec)
-                       : std::uint64_t{candidates} * 8;
+        kernels.records() ? record_bytes_ : std::uint64_t{candidates} * 8;
 }
 
 std::string SurfaceDomain::beside_candidates() const {

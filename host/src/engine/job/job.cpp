@@ -95,7 +95,7 @@ Job::Impl::~Impl() {
 
 Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_plan) {
     const bool has_slices = wanted.domain == DomainKind::surface;
-    const bool may_group = has_slices && !wanted.lights;
+    const bool may_group = has_slices && !wanted.records();
     wanted.groups =
         (for_plan.disks_by == DisksBy::groups || for_plan.large_groups > 0) && may_group;
     wanted.trims = for_plan.trims && has_slices;
@@ -193,7 +193,7 @@ void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
     push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(chunk_end - 1u)) -
                         static_cast<std::uint32_t>(std::countr_zero(constants.buckets));
-    chunk_end = variant.lights ? 0 : chunk_end; // Only settled samples have disks.
+    chunk_end = variant.records() ? 0 : chunk_end; // Only settled samples have disks.
     apply_end();
 }
 

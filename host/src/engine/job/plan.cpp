@@ -281,8 +281,8 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         const Domain::Impl& of = Domain::Impl::of(domain);
         RunPlan plan;
         plan.pool_block = tuning().pool_block;
-        // Disks that only light faces are never in vain.
-        const std::uint32_t batches = of.kernels.lights ? 1 : tuning().batches;
+        // Disks that only record are never in vain.
+        const std::uint32_t batches = of.kernels.records() ? 1 : tuning().batches;
         plan.slots = wanted_slots(of.samples, batches, report);
         plan.stages = stages_at_once(of.stages, of.most_candidates(report.limits, plan.slots));
         const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
@@ -298,8 +298,8 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan.large_window_capacity = std::max(kLargeWindows, 2 * plan.window_capacity);
         plan.large_table_capacity = std::max(kLargeVertices, 2 * plan.table_capacity);
         variant.groups = plan.disks_by == DisksBy::groups;
-        // A CPU's lanes are as fast as groups, and groups do not light faces.
-        const bool keeps_all = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU || of.kernels.lights;
+        // A CPU's lanes are as fast as groups, and groups do not record.
+        const bool keeps_all = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU || of.kernels.records();
         plan.large_after = keeps_all ? kKeepsAll : kLargeAfter;
         plan.step_budget = most_steps(report, variant);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);

@@ -65,12 +65,16 @@ std::vector<KernelVariant> all_kernel_variants() {
                 variants.emplace_back(surface).classes = true;
             }
         }
-        for (bool KernelVariant::*const kind : {&KernelVariant::groups, &KernelVariant::lights}) {
-            for (const bool avoids : {false, true}) {
-                KernelVariant& variant = variants.emplace_back();
-                variant.adaptive = adaptive;
-                variant.*kind = true;
-                variant.avoids = avoids;
+        for (const bool avoids : {false, true}) {
+            KernelVariant variant;
+            variant.adaptive = adaptive;
+            variant.avoids = avoids;
+            variants.emplace_back(variant).groups = true;
+            variants.emplace_back(variant).ending = Ending::light;
+            if (!adaptive) {
+                variant.ending = Ending::reach;
+                variants.push_back(variant);
+                variants.emplace_back(variant).points = true;
             }
         }
         if (!adaptive) {

@@ -55,21 +55,34 @@ constexpr std::size_t index_of(DomainKind kind) {
     X(trims, kSpecTrims)            /* Disks that make very many windows trim them. */             \
     X(avoids, kSpecAvoids)          /* Points to avoid have disks. */                              \
     X(classes, kSpecClasses)        /* Candidates have classes. */                                 \
+    X(points, kSpecPoints)          /* Disks tell which candidates they reach, not vertices. */    \
     X(lanes_apart, kSpecLanesApart) /* Pool blocks of one lane, whatever Tuning::pool_block is. */
 // clang-format on
+
+/// What disks are computed for. All but the first are of settled samples alone, by kernels of their
+/// own.
+enum class Ending : std::uint8_t {
+    conflicts, ///< Candidates in them are listed and decided.
+    light,     ///< How they light faces is recorded (gpu::LitRec).
+    reach,     ///< What they reach, and how far it is, is recorded (gpu::HitRec).
+};
 
 /// What the kernels of a job are specialized for, besides what all jobs of a device share.
 struct KernelVariant {
     DomainKind domain = DomainKind::surface;
     std::uint32_t dimension = 0; ///< Of a grid.
     bool groups = false;         ///< Work groups compute disks, by a kernel of their own.
-    bool lights = false; ///< Disks of settled samples record how they light faces, likewise.
+    Ending ending = Ending::conflicts;
 #define GEODISK_SWITCH(name, constant) bool name = false;
     GEODISK_KERNEL_SWITCHES(GEODISK_SWITCH)
 #undef GEODISK_SWITCH
 
     friend auto operator<=>(const KernelVariant&, const KernelVariant&) = default;
 
+    /// Returns true if disks only record what they find: no candidate is decided.
+    bool records() const {
+        return ending != Ending::conflicts;
+    }
     /// Returns as much of it as a kernel has specialization constants for.
     KernelVariant of(Kernel kernel) const;
 };

@@ -68,7 +68,8 @@ Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVari
         const KernelInfo& info = kernel_info(kernel);
         if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain) ||
             (kernel == Kernel::group_detect && !variant.groups) ||
-            (kernel == Kernel::light && !variant.lights)) {
+            (kernel == Kernel::light && variant.ending != Ending::light) ||
+            (kernel == Kernel::reach && variant.ending != Ending::reach)) {
             continue;
         }
         const auto compiled = pipeline_of(kernel, variant.of(kernel));

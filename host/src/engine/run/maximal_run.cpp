@@ -102,17 +102,17 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
         if (!domain) {
             co_return domain.error();
         }
-        LitRecords lit;
+        DiskRecords lit;
         const auto set = co_await run_job(runner_, *domain, &lit);
         if (!set) {
             co_return set.error();
         }
         set_.report.add(set->report);
-        if (lit.wanted > lit.records.size()) {
+        if (lit.wanted > lit.lights.size()) {
             records_per_disk_ = std::max(lit.wanted / settled, records_per_disk_) * kSpareRecords;
             continue; // Again, with room for all.
         }
-        lit_.add(lit.records);
+        lit_.add(lit.lights);
         samples = samples.subspan(params.given.size());
         avoid = avoid.subspan(params.avoid.size());
     }

@@ -47,7 +47,7 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
             return planned.error();
         }
         RunPlan wanted = runner.options.plan;
-        wanted.disks_by = of.kernels.lights ? DisksBy::automatic : wanted.disks_by;
+        wanted.disks_by = of.kernels.records() ? DisksBy::automatic : wanted.disks_by;
         Fitting fitting{overridden(*planned, wanted)};
         RunPlan& plan = fitting.plan;
         // Darts always come one stage at a time, and a list has one.

@@ -26,10 +26,10 @@ class Run {
   public:
     /// Takes at most so many bytes on the device. `before` reports earlier starts of the run.
     Run(Runner::Impl& runner, const Domain& domain, std::uint64_t most_bytes,
-        const RunReport& before, LitRecords* lit)
+        const RunReport& before, DiskRecords* records)
         : runner_(runner), domain_(domain), most_bytes_(most_bytes), of_(Domain::Impl::of(domain)),
           memory_(*runner.workspace), kept_(runner.jobs[index_of(of_.kernels.domain)]),
-          job_(kept_.job), submissions_(runner, memory_, of_), lit_(lit) {
+          job_(kept_.job), submissions_(runner, memory_, of_), records_(records) {
         report_.seconds = before.seconds;
         report_.starts = before.starts + 1;
     }
@@ -58,7 +58,7 @@ class Run {
     std::uint32_t record_all(VkCommandBuffer commands, Budget& budget);
     void record_samples(VkCommandBuffer commands);
     Task<Result<std::vector<gpu::SampleRec>>> read_samples();
-    Task<Result<Done>> read_lit();
+    Task<Result<Done>> read_records();
     Job::Impl& job() { return Job::Impl::of(*job_); }
     const gpu::ControlRec& control() const { return submissions_.control(); }
 
@@ -87,7 +87,7 @@ class Run {
     std::vector<StagedRecords> staged_; ///< Yet to be written.
     std::size_t staged_records_ = 0;
     bool has_piece_ = false; ///< A piece of the upload is in flight.
-    LitRecords* lit_;        ///< Where to read those of a domain of lights, or null.
+    DiskRecords* records_;   ///< Where to read what disks record, or null.
     RunReport report_;
 };
 
@@ -355,16 +355,23 @@ Task<Result<std::vector<gpu::SampleRec>>> Run::read_samples() {
     co_return samples;
 }
 
-Task<Result<Done>> Run::read_lit() {
-    std::array<std::uint32_t, 4> head{};
+Task<Result<Done>> Run::read_records() {
+    std::array<std::uint32_t, 4> head{}; // Their number, the room, the row where they begin.
     auto read = co_await memory_.read(BufferRole::weights, std::as_writable_bytes(std::span(head)));
-    if (read) {
-        lit_->wanted = head[0];
-        lit_->records.resize(std::min(head[0], head[1]));
-        read = co_await memory_.read(BufferRole::weights,
-                                     std::as_writable_bytes(std::span(lit_->records)), sizeof head);
+    if (!read) {
+        co_return read;
     }
-    co_return read;
+    records_->wanted = head[0];
+    const std::size_t count = std::min(head[0], head[1]);
+    std::span<std::byte> out;
+    if (of_.kernels.ending == Ending::light) {
+        records_->lights.resize(count);
+        out = std::as_writable_bytes(std::span(records_->lights));
+    } else {
+        records_->hits.resize(count);
+        out = std::as_writable_bytes(std::span(records_->hits));
+    }
+    co_return co_await memory_.read(BufferRole::weights, out, head[2] * sizeof head);
 }
 
 Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
@@ -396,8 +403,8 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     if (!samples) {
         co_return samples.error();
     }
-    if (lit_ != nullptr) {
-        if (auto read = co_await read_lit(); !read) {
+    if (records_ != nullptr) {
+        if (auto read = co_await read_records(); !read) {
             co_return read.error();
         }
     }
@@ -439,7 +446,7 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
     return maximal ? run_maximal(runner, *maximal) : run_job(runner, domain, nullptr);
 }
 
-Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, LitRecords* lit) {
+Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, DiskRecords* records) {
     if (auto usable = runner.submitter->ready(); !usable) {
         co_return usable.error();
     }
@@ -454,7 +461,7 @@ Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, LitR
         }
         RunPlan plan = fitting->plan;
         runner.keep();
-        Run run(runner, domain, most, before, lit);
+        Run run(runner, domain, most, before, records);
         auto set = co_await run.go(plan);
         if (set && *set) {
             releaser.has_succeeded = true;

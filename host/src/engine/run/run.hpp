@@ -14,14 +14,15 @@ namespace geodisk {
 /// it. Where it is destroyed before its end, nothing must be running any more.
 Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain);
 
-/// How the disks of a domain of lights light faces.
-struct LitRecords {
-    std::vector<gpu::LitRec> records;
+/// What the disks of a domain record, by its Ending.
+struct DiskRecords {
+    std::vector<gpu::LitRec> lights;
+    std::vector<gpu::HitRec> hits;
     std::uint32_t wanted = 0; ///< How many there would be with room for all.
 };
 
-/// Runs a single job, also the first one of a maximal set. `lit` is not null for a domain of
-/// lights.
-Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, LitRecords* lit);
+/// Runs a single job, also the first one of a maximal set. `records` is null if candidates are
+/// decided.
+Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, DiskRecords* records);
 
 } // namespace geodisk

@@ -78,6 +78,19 @@ std::chrono::duration<double> Runner::Impl::stall_limit() const {
                                                                    : kStallSeconds);
 }
 
+Result<Done> Runner::Impl::begin(const Domain& domain, DiskRecords* records,
+                                 const ProgressCallback& callback) {
+    if (run) {
+        return Error{Status::invalid_argument, "a run is in progress"};
+    }
+    progress = {};
+    progress.candidates = static_cast<std::uint32_t>(Domain::Impl::of(domain).stages.candidates());
+    on_progress = callback;
+    run.emplace(records == nullptr ? geodisk::run(*this, domain) : run_job(*this, domain, records));
+    run->resume();
+    return Done{};
+}
+
 Runner::Runner(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 Runner::Runner(Runner&&) noexcept = default;
 Runner& Runner::operator=(Runner&&) noexcept = default;
@@ -237,18 +250,7 @@ Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const Sample
 }
 
 Result<Done> Runner::start(const Domain& domain, const ProgressCallback& progress) noexcept {
-    return guarded([&]() -> Result<Done> {
-        if (impl_->run) {
-            return Error{Status::invalid_argument, "a run is in progress"};
-        }
-        impl_->progress = {};
-        impl_->progress.candidates =
-            static_cast<std::uint32_t>(Domain::Impl::of(domain).stages.candidates());
-        impl_->on_progress = progress;
-        impl_->run.emplace(geodisk::run(*impl_, domain));
-        impl_->run->resume();
-        return Done{};
-    });
+    return guarded([&] { return impl_->begin(domain, nullptr, progress); });
 }
 
 Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience) noexcept {

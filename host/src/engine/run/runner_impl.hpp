@@ -24,6 +24,8 @@
 
 namespace geodisk {
 
+struct DiskRecords;
+
 struct Runner::Impl {
     std::shared_ptr<const Sampler> shared_sampler;
     const Sampler& sampler = *shared_sampler;
@@ -87,6 +89,9 @@ struct Runner::Impl {
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// Submits recordings of a job, as Submitter::submit; StageClock::collect returns their times.
     Result<Done> submit_timed(const std::function<void(VkCommandBuffer)>& record);
+    /// Begins a run, as Runner::start(). `records` as for run_job().
+    Result<Done> begin(const Domain& domain, DiskRecords* records,
+                       const ProgressCallback& progress);
     /// Ends the run in progress.
     void cancel() noexcept;
     bool is_cpu() const { return engine().report.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }

@@ -1,0 +1,79 @@
+// Neighbours: which points of a surface are near which, and how far it is along the surface.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/sample.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+/// What the neighbours of a source are among.
+enum class NeighbourKind : std::uint32_t {
+    vertices, ///< The vertices of the mesh, by their index.
+    points,   ///< NeighbourQuery::points, by their index.
+    sources,  ///< The other sources, by their index.
+};
+
+/// Which neighbours to find. Everything it refers to must outlive the call. Lengths are in mesh
+/// units.
+struct NeighbourQuery {
+    /// Points of faces, at least one. Weights are rounded to multiples of 2^-24. For vertices see
+    /// vertex_points().
+    std::span<const Sample> sources{};
+    /// A neighbour is at most so far away, along the surface. Positive and finite.
+    double within = 0;
+    /// The same for each source of its own, in place of `within`; empty if all have that.
+    std::span<const double> radii{};
+    NeighbourKind kind = NeighbourKind::vertices;
+    std::span<const Sample> points{}; ///< At least one if `kind` asks for them, up to 2^28.
+    /// Keep only so many of each source, the nearest ones; 0 for all. Of equally near ones those of
+    /// lower index.
+    std::uint32_t nearest = 0;
+    /// Most pairs to find in all. The call ends as soon as it expects more.
+    std::uint64_t most_pairs = std::uint64_t{1} << 30;
+};
+
+/// The neighbours of each source, one source after the other (CSR). Eight bytes per pair.
+struct Neighbours {
+    /// Where the neighbours of each source begin, and one past the last.
+    std::vector<std::uint64_t> offsets;
+    /// Index of each neighbour: ascending for each source, or with NeighbourQuery::nearest by
+    /// distance.
+    std::vector<std::uint32_t> indices;
+    /// Geodesic distance of each neighbour, in mesh units. A vertex or point at the source itself
+    /// has 0; a source is not its own neighbour.
+    std::vector<float> distances;
+    /// Distances are at most so far from exact ones on the mesh, in mesh units. Neighbours may be
+    /// missing, or there, that are so near to the limit.
+    double error = 0;
+    RunReport report;
+};
+
+/// Finds the neighbours of all sources: the exact geodesic disk of each. The result is the same on
+/// every device, whatever the memory. Takes part of the device's memory at a time, as
+/// RunnerOptions say. Progress counts sources as candidates; returns `cancelled` if it asks to
+/// stop.
+///
+/// Errors: `invalid_argument` for no source, for a source or point, naming it, in a face that does
+/// not exist or repeats a vertex or with weights that are negative or do not sum to 1; for a
+/// distance that is not positive and finite; for another number of radii; for an edge longer than
+/// 4,000 times the largest distance. `job_too_large` for more than `most_pairs`, naming how many to
+/// expect. Others as Runner::sample_and_wait().
+GEODISK_API Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
+                                               const NeighbourQuery& query,
+                                               const ProgressCallback& progress = {}) noexcept;
+
+/// Returns each vertex as a point of one of its faces, in the order of their indices. A vertex
+/// without a face that has three different vertices is left out; `vertices`, if not null, gets the
+/// index of each point's vertex.
+GEODISK_API Result<std::vector<Sample>>
+vertex_points(const PreparedMesh& mesh, std::vector<std::uint32_t>* vertices = nullptr) noexcept;
+
+} // namespace geodisk

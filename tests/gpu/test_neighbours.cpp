@@ -1,0 +1,307 @@
+// Neighbours: exact distances from sources to what is near.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <geodisk/neighbours.hpp>
+
+#include "device_run.hpp"
+#include "sets.hpp"
+#include "support/geodesic_query.hpp"
+#include "support/meshes.hpp"
+#include "support/oracle_geodesic.hpp"
+
+namespace geodisk::test {
+namespace {
+
+// Part of the distance asked for that a float result may be off, as the library promises.
+constexpr double kPrecision = 1e-5;
+
+Runner& shared_runner() {
+    static Runner runner =
+        expect(Runner::create(shared_context().device(), shared_context().queue()));
+    return runner;
+}
+
+Neighbours found_by(const RunnerOptions& options, const PreparedMesh& mesh,
+                    const NeighbourQuery& query) {
+    Runner runner =
+        expect(Runner::create(shared_context().device(), shared_context().queue(), options));
+    return expect(find_neighbours(runner, mesh, query));
+}
+
+/// With the plan of the library, by a runner that is kept.
+Neighbours found(const PreparedMesh& mesh, const NeighbourQuery& query) {
+    return expect(find_neighbours(shared_runner(), mesh, query));
+}
+
+Error refusal(const PreparedMesh& mesh, const NeighbourQuery& query,
+              const ProgressCallback& progress = {}) {
+    Runner& runner = shared_runner();
+    auto neighbours = find_neighbours(runner, mesh, query, progress);
+    REQUIRE_FALSE(neighbours);
+    // The runner stays usable.
+    NeighbourQuery small;
+    const std::vector<Sample> source{{0, {1, 0, 0}}};
+    small.sources = source;
+    small.within = std::sqrt(mesh.statistics().area);
+    CHECK(find_neighbours(runner, mesh, small));
+    return neighbours.error();
+}
+
+std::vector<Sample> samples_of(const std::vector<Point>& points) {
+    std::vector<Sample> samples;
+    for (const Point& p : points) {
+        samples.push_back({p.face,
+                           {static_cast<float>(1 - p.weight1 - p.weight2),
+                            static_cast<float>(p.weight1), static_cast<float>(p.weight2)}});
+    }
+    return samples;
+}
+
+std::vector<Point> points_of(std::span<const Sample> samples) {
+    std::vector<Point> points;
+    for (const Sample& s : samples) {
+        points.push_back({s.face, s.weights[1], s.weights[2]});
+    }
+    return points;
+}
+
+/// Checks the row of a source against distances to all targets.
+void check_row(const Neighbours& lists, std::size_t source, double within,
+               const std::vector<double>& distances, double error) {
+    std::size_t at = lists.offsets[source];
+    const std::size_t end = lists.offsets[source + 1];
+    double worst = 0;
+    std::size_t missing = 0, beyond = 0;
+    for (std::uint32_t target = 0; target < distances.size(); ++target) {
+        if (at < end && lists.indices[at] == target) {
+            const double distance{lists.distances[at++]};
+            worst = std::max(worst, std::abs(distance - distances[target]));
+            beyond += distance > within;
+        } else {
+            missing += distances[target] <= within - error;
+        }
+    }
+    CHECK(at == end);
+    CHECK(worst <= error);
+    CHECK(missing == 0);
+    CHECK(beyond == 0);
+}
+
+/// Checks all rows against the twin in double precision.
+void check_as_twin(const PreparedMesh& mesh, const NeighbourQuery& query,
+                   const std::vector<Point>& targets, const Neighbours& lists) {
+    REQUIRE(lists.offsets.size() == query.sources.size() + 1);
+    CHECK(lists.offsets.front() == 0);
+    CHECK(lists.offsets.back() == lists.indices.size());
+    CHECK(lists.distances.size() == lists.indices.size());
+    ref::Tolerances tolerances = tight_tolerances();
+    tolerances.limit = 1.001f;
+    GeodesicQuery<double> twin(mesh, query.within, targets, tolerances);
+    const std::vector<Point> sources = points_of(query.sources);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        check_row(lists, i, query.within, twin.from(sources[i]),
+                  std::min(lists.error, kPrecision * query.within));
+    }
+}
+
+/// Checks the neighbours of some vertices and random points, among vertices and points. Returns
+/// those of the vertices.
+Neighbours check_mesh(const PreparedMesh& mesh, double within) {
+    std::vector<Sample> sources = expect(vertex_points(mesh));
+    REQUIRE(sources.size() == mesh.vertex_count());
+    const std::vector<Point> vertices = points_of(sources);
+    std::vector<Sample> some;
+    for (std::size_t i = 0; i < sources.size(); i += std::max<std::size_t>(1, sources.size() / 20)) {
+        some.push_back(sources[i]);
+    }
+    const std::vector<Sample> points = samples_of(random_points(mesh, 7, 300));
+    some.insert(some.end(), points.begin(), points.begin() + 20);
+    NeighbourQuery query;
+    query.sources = some;
+    query.within = within;
+    const Neighbours lists = found(mesh, query);
+    check_as_twin(mesh, query, vertices, lists);
+    CHECK(lists.error < 10 * kPrecision * within);
+    query.kind = NeighbourKind::points;
+    query.points = points;
+    check_as_twin(mesh, query, points_of(points), found(mesh, query));
+    return lists;
+}
+
+/// Checks that nothing changes with little memory, other kernels and few lanes.
+void check_narrow(const PreparedMesh& mesh, const NeighbourQuery& query, const Neighbours& lists) {
+    RunnerOptions narrow;
+    narrow.plan.slots = 16;
+    narrow.plan.window_capacity = 8;
+    narrow.plan.table_capacity = 16;
+    narrow.plan.disks_by = DisksBy::groups;
+    narrow.sampler.tuning.reads = Reads::storage;
+    narrow.device_bytes = 4 << 20;
+    const Neighbours other = found_by(narrow, mesh, query);
+    CHECK(other.offsets == lists.offsets);
+    CHECK(other.indices == lists.indices);
+    CHECK(other.distances == lists.distances);
+}
+
+} // namespace
+
+TEST_SUITE("neighbours") {
+    TEST_CASE("are those that the twin finds, at the same distances") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 8));
+        const double within = 3 * std::sqrt(knot.statistics().area / knot.vertex_count());
+        check_mesh(knot, within);
+        check_mesh(knot, 20 * within);
+        for (const auto& [name, resolution] :
+             {std::pair("cube", 4), std::pair("plate", 4), std::pair("moebius", 4),
+              std::pair("icosphere", 3)}) {
+            const PreparedMesh mesh = prepared(builtin(name, resolution));
+            check_mesh(mesh, std::sqrt(mesh.statistics().area) / 5);
+            check_mesh(mesh, 1000 * std::sqrt(mesh.statistics().area));
+        }
+        check_mesh(prepared(tetrahedra(2, 0.2)), 0.6);
+    }
+
+    TEST_CASE("lie at the distances that CGAL finds") {
+        for (const auto& [name, resolution] :
+             {std::pair("torus-knot", 4), std::pair("icosphere", 2), std::pair("plate", 3)}) {
+            const TestMesh shape = builtin(name, resolution);
+            const PreparedMesh mesh = prepared(shape);
+            std::vector<std::uint32_t> vertices;
+            const std::vector<Sample> all = expect(vertex_points(mesh, &vertices));
+            NeighbourQuery query;
+            query.within = std::sqrt(mesh.statistics().area) / 3;
+            query.sources = std::span(all).first(8);
+            const Neighbours lists = found(mesh, query);
+            GeodesicOracle oracle(shape);
+            const std::vector<Point> targets = points_of(all);
+            for (std::size_t i = 0; i < query.sources.size(); ++i) {
+                check_row(lists, i, query.within, oracle.distances(targets[i], targets),
+                          kPrecision * query.within);
+            }
+        }
+    }
+
+    TEST_CASE("do not depend on memory, kernels or lanes") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 12));
+        const std::vector<Sample> sources = expect(vertex_points(knot));
+        NeighbourQuery query;
+        query.sources = sources;
+        query.within = 3 * std::sqrt(knot.statistics().area / knot.vertex_count());
+        const Neighbours lists = found(knot, query);
+        CHECK(lists.indices.size() > 20 * sources.size());
+        for (std::size_t i = 0; i < sources.size(); ++i) { // Each finds itself, and is found.
+            const auto row = std::span(lists.indices).subspan(lists.offsets[i],
+                                                              lists.offsets[i + 1] - lists.offsets[i]);
+            const auto own = std::ranges::lower_bound(row, i);
+            REQUIRE((own != row.end() && *own == i));
+            CHECK(lists.distances[static_cast<std::size_t>(&*own - lists.indices.data())] == 0);
+        }
+        check_narrow(knot, query, lists);
+        query.kind = NeighbourKind::sources;
+        check_narrow(knot, query, found(knot, query));
+        query.within *= 4;
+        query.sources = std::span(sources).first(50);
+        check_narrow(knot, query, found(knot, query));
+    }
+
+    TEST_CASE("each source has a distance of its own") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 8));
+        const std::vector<Sample> sources = samples_of(random_points(knot, 3, 90));
+        const double least = std::sqrt(knot.statistics().area / knot.vertex_count());
+        std::vector<double> radii;
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            radii.push_back(least * (1 + static_cast<double>(i % 10)));
+        }
+        NeighbourQuery query;
+        query.sources = sources;
+        query.radii = radii;
+        const Neighbours lists = found(knot, query);
+        const std::vector<Point> vertices = points_of(expect(vertex_points(knot)));
+        ref::Tolerances tolerances = tight_tolerances();
+        GeodesicQuery<double> twin(knot, 11 * least, vertices, tolerances);
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            check_row(lists, i, radii[i], twin.from(points_of(sources)[i]), kPrecision * 10 * least);
+        }
+        check_narrow(knot, query, lists);
+    }
+
+    TEST_CASE("other sources, and only the nearest") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 8));
+        const std::vector<Sample> sources = samples_of(random_points(knot, 5, 200));
+        NeighbourQuery query;
+        query.sources = sources;
+        query.within = std::sqrt(knot.statistics().area) / 4;
+        query.kind = NeighbourKind::sources;
+        const Neighbours all = found(knot, query);
+        query.nearest = 5;
+        const Neighbours near = found(knot, query);
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            std::vector<std::pair<float, std::uint32_t>> row, kept;
+            for (std::size_t at = all.offsets[i]; at < all.offsets[i + 1]; ++at) {
+                CHECK(all.indices[at] != i);
+                row.emplace_back(all.distances[at], all.indices[at]);
+            }
+            for (std::size_t at = near.offsets[i]; at < near.offsets[i + 1]; ++at) {
+                kept.emplace_back(near.distances[at], near.indices[at]);
+            }
+            std::ranges::sort(row);
+            row.resize(std::min<std::size_t>(row.size(), 5));
+            CHECK(row == kept);
+        }
+    }
+
+    TEST_CASE("what cannot be asked is refused") {
+        const PreparedMesh cube = prepared(builtin("cube", 2));
+        std::vector<Sample> sources = expect(vertex_points(cube));
+        NeighbourQuery good;
+        good.sources = sources;
+        good.within = 0.5;
+        const auto message = [&](auto change) {
+            NeighbourQuery query = good;
+            change(query);
+            const Error error = refusal(cube, query);
+            CHECK(error.status == Status::invalid_argument);
+            return error.message;
+        };
+        using Query = NeighbourQuery;
+        CHECK(message([](Query& q) { q.sources = {}; }) == "there is no source");
+        for (const double within : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                                    std::numeric_limits<double>::quiet_NaN()}) {
+            CHECK(message([&](Query& q) { q.within = within; })
+                      .find("which is not positive and finite") != std::string::npos);
+        }
+        std::vector<double> radii(sources.size() - 1, 1);
+        CHECK(message([&](Query& q) { q.radii = radii; }) == "there are 25 radii for 26 sources");
+        radii.push_back(0);
+        CHECK(message([&](Query& q) { q.radii = radii; }) ==
+              "the radius of source 25 is 0, which is not positive and finite");
+        CHECK(message([](Query& q) { q.kind = NeighbourKind::points; }) ==
+              "there is no point among which neighbours are");
+        CHECK(message([](Query& q) { q.within = 1e-5; })
+                  .find("the distance is too small for this mesh: its longest edge is") == 0);
+        sources[3] = {1000, {1, 0, 0}};
+        CHECK(message([](Query&) {}) == "source 3 is in face 1000, but there are 48");
+        sources[3] = {0, {1, 1, 0}};
+        CHECK(message([](Query&) {}) ==
+              "source 3 has weights that are negative or do not sum to 1");
+        sources[3] = {0, {1, 0, 0}};
+        good.most_pairs = 100;
+        good.within = 10;
+        const Error too_many = refusal(cube, good);
+        CHECK(too_many.status == Status::job_too_large);
+        CHECK(too_many.message.find("about 676 pairs are to be expected, more than the 100") == 0);
+        good.most_pairs = 676;
+        CHECK(found(cube, good).indices.size() == 676);
+        CHECK(refusal(cube, good, [](const Progress&) { return false; }).status ==
+              Status::cancelled);
+    }
+}
+
+} // namespace geodisk::test
