@@ -9,7 +9,7 @@
 #include <tiny_gltf.h>
 
 #include "files/block_writer.hpp"
-#include "files/ply_file.hpp"
+#include "files/byte_order.hpp"
 #include "files/sample_writers.hpp"
 #include "program/failure.hpp"
 #include "program/safe_text.hpp"

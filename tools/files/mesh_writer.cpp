@@ -1,10 +1,10 @@
 #include <span>
 #include <string>
 
+#include "files/byte_order.hpp"
 #include "files/input_file.hpp"
 #include "files/mesh_file.hpp"
 #include "files/output_file.hpp"
-#include "files/ply_file.hpp"
 #include "geometry/mesh.hpp"
 #include "program/failure.hpp"
 

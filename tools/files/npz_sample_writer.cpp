@@ -3,7 +3,7 @@
 #include <geodisk/uninitialized.hpp>
 
 #include "files/block_writer.hpp"
-#include "files/ply_file.hpp"
+#include "files/byte_order.hpp"
 #include "files/sample_writers.hpp"
 #include "files/zip_writer.hpp"
 #include "program/exact_text.hpp"

@@ -1,8 +1,7 @@
 // Samples in PCD files, of geodisk or other programs.
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
+#include "files/byte_order.hpp"
 #include "files/sample_rows.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
@@ -12,20 +11,11 @@
 namespace geodisk::tools {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "as PCD files are");
-
 struct Field {
     std::string name;
     std::size_t size = 4, count = 1, offset = 0; ///< In bytes; the offset in values for text.
     char type = 'F';
 };
-
-template <class Value>
-double value_at(const char* bytes) {
-    Value value;
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<double>(value);
-}
 
 class PcdReader {
   public:
@@ -191,21 +181,21 @@ class PcdReader {
     double binary_value(const Field& field, const char* bytes) const {
         switch (field.type * 16 + static_cast<int>(field.size)) {
         case 'F' * 16 + 4:
-            return value_at<float>(bytes);
+            return number_of_bytes<float>(bytes);
         case 'F' * 16 + 8:
-            return value_at<double>(bytes);
+            return number_of_bytes<double>(bytes);
         case 'U' * 16 + 1:
-            return value_at<std::uint8_t>(bytes);
+            return number_of_bytes<std::uint8_t>(bytes);
         case 'U' * 16 + 2:
-            return value_at<std::uint16_t>(bytes);
+            return number_of_bytes<std::uint16_t>(bytes);
         case 'U' * 16 + 4:
-            return value_at<std::uint32_t>(bytes);
+            return number_of_bytes<std::uint32_t>(bytes);
         case 'I' * 16 + 1:
-            return value_at<std::int8_t>(bytes);
+            return number_of_bytes<std::int8_t>(bytes);
         case 'I' * 16 + 2:
-            return value_at<std::int16_t>(bytes);
+            return number_of_bytes<std::int16_t>(bytes);
         case 'I' * 16 + 4:
-            return value_at<std::int32_t>(bytes);
+            return number_of_bytes<std::int32_t>(bytes);
         default:
             fail("field " + in_quotes(field.name) + " is of type " + std::string(1, field.type) +
                  " and size " + std::to_string(field.size) + ", which is not read");

@@ -1,8 +1,10 @@
 #include "files/ply_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "files/byte_order.hpp"
 #include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
@@ -12,29 +14,22 @@
 namespace geodisk::tools {
 namespace {
 
-template <typename Value>
-double value_of(const unsigned char* bytes) {
-    Value value;
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<double>(value);
-}
-
 struct TypeInfo {
     std::string_view name, other_name;
     std::size_t size;
-    double (*value)(const unsigned char* bytes); ///< In the byte order of this machine.
+    double (*value)(const char* bytes, bool is_little);
 };
 
 /// By PlyType.
 constexpr std::array<TypeInfo, 8> kTypes{{
-    {"char", "int8", 1, value_of<std::int8_t>},
-    {"uchar", "uint8", 1, value_of<std::uint8_t>},
-    {"short", "int16", 2, value_of<std::int16_t>},
-    {"ushort", "uint16", 2, value_of<std::uint16_t>},
-    {"int", "int32", 4, value_of<std::int32_t>},
-    {"uint", "uint32", 4, value_of<std::uint32_t>},
-    {"float", "float32", 4, value_of<float>},
-    {"double", "float64", 8, value_of<double>},
+    {"char", "int8", 1, number_of_bytes<std::int8_t>},
+    {"uchar", "uint8", 1, number_of_bytes<std::uint8_t>},
+    {"short", "int16", 2, number_of_bytes<std::int16_t>},
+    {"ushort", "uint16", 2, number_of_bytes<std::uint16_t>},
+    {"int", "int32", 4, number_of_bytes<std::int32_t>},
+    {"uint", "uint32", 4, number_of_bytes<std::uint32_t>},
+    {"float", "float32", 4, number_of_bytes<float>},
+    {"double", "float64", 8, number_of_bytes<double>},
 }};
 
 const TypeInfo& info_of(PlyType type) {
@@ -286,14 +281,9 @@ std::optional<double> PlyFile::read_binary_value(PlyType type) {
     if (bytes_.size() - position_ < size) {
         return std::nullopt;
     }
-    std::array<unsigned char, 8> bytes;
-    std::memcpy(bytes.data(), bytes_.data() + position_, size);
+    const char* const bytes = bytes_.data() + position_;
     position_ += size;
-    const bool file_is_little = format_ == Format::little_endian;
-    if (file_is_little != (std::endian::native == std::endian::little)) {
-        std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
-    }
-    return info_of(type).value(bytes.data());
+    return info_of(type).value(bytes, format_ == Format::little_endian);
 }
 
 void PlyFile::read_binary_record(const PlyElement& element, std::uint64_t index,

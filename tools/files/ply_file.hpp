@@ -2,10 +2,7 @@
 // of meshes; ply_reader.cpp and sample_reader.cpp pick what they need.
 #pragma once
 
-#include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <optional>
 #include <string>
@@ -115,22 +112,5 @@ class PlyFile {
     char line_end_ = '\n';                 ///< CR in files that have no LF after it.
     std::vector<std::string_view> tokens_; ///< Of the ascii record being parsed.
 };
-
-/// Stores a value as the binary files that are written have it.
-template <typename Byte, typename Value>
-void store_little_endian(Byte* out, Value value) {
-    std::memcpy(out, &value, sizeof value);
-    if constexpr (std::endian::native == std::endian::big) {
-        std::reverse(out, out + sizeof value);
-    }
-}
-
-/// Appends a value in the same way.
-template <typename Value>
-void append_little_endian(std::string& bytes, Value value) {
-    char raw[sizeof value];
-    store_little_endian(raw, value);
-    bytes.append(raw, sizeof raw);
-}
 
 } // namespace geodisk::tools

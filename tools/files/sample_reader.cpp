@@ -60,10 +60,10 @@ SampleFile read_ply_samples(PlyFile file, SampleDomain domain, const std::string
 /// Refuses formats that are written alone, whatever the file holds.
 void check_read_back(const Path& path) {
     const std::string extension = lower_extension(path);
-    for (const char* const written : {".npz", ".gltf", ".glb"}) {
+    for (const char* const written : {".gltf", ".glb"}) {
         if (extension == written) {
             fail_input(path, "geodisk writes samples as " + extension +
-                                 " but does not read them back; use .ply, .csv or .pcd");
+                                 " but does not read them back; use .ply, .csv, .npz or .pcd");
         }
     }
 }
@@ -87,7 +87,14 @@ std::string format_of(const Path& path, std::string_view bytes) {
 
 SampleFile read_in(const Path& path, SampleDomain domain, const std::string& numbers) {
     check_read_back(path);
-    std::string bytes = read_text(path);
+    std::string bytes = read_file(path);
+    if (is_of_numpy(bytes)) {
+        return read_numpy_samples(path, bytes, domain, numbers);
+    }
+    refuse_other_content(path, bytes);
+    if (lower_extension(path) == ".npz" || lower_extension(path) == ".npy") {
+        fail_input(path, "is no file of numpy; write it again, or give it the name that it needs");
+    }
     const std::string format = format_of(path, bytes);
     if (format == "ply") {
         return read_ply_samples(PlyFile(path, std::move(bytes)), domain, numbers);

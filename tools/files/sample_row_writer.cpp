@@ -1,5 +1,5 @@
 #include "files/block_writer.hpp"
-#include "files/ply_file.hpp"
+#include "files/byte_order.hpp"
 #include "files/sample_writers.hpp"
 #include "program/exact_text.hpp"
 

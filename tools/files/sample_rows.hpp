@@ -139,5 +139,10 @@ SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDo
 SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain,
                             const std::string& numbers);
 SampleFile read_obj_points(const Path& path, std::string_view bytes);
+SampleFile read_numpy_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+                              const std::string& numbers);
+
+/// Returns true for the bytes of an .npy or an .npz file.
+bool is_of_numpy(std::string_view bytes);
 
 } // namespace geodisk::tools

@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "files/byte_order.hpp"
 #include "files/checksum.hpp"
-#include "files/ply_file.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
