@@ -30,7 +30,7 @@ void write_back(const TemporaryFolder& folder, const tools::SampleFile& samples)
 
 TEST_CASE("samples pass, in every format with faces") {
     const TemporaryFolder folder;
-    for (const std::string output : {"a.ply", "a.csv"}) {
+    for (const std::string output : {"a.ply", "a.csv", "a.npz", "a.pcd"}) {
         REQUIRE(run(folder, {"sample", kMesh, "-o", output, "-n", "400"}).status == 0);
         const Outcome outcome = run(folder, {"verify", kMesh, output});
         INFO(outcome.out, outcome.err);
@@ -43,10 +43,6 @@ TEST_CASE("samples pass, in every format with faces") {
         CHECK(run(folder, {"verify", kMesh, output, "-q"}).out.empty());
     }
     REQUIRE(run(folder, {"sample", kMesh, "-o", "a.xyz", "-n", "9"}).status == 0);
-    const Outcome bare = run(folder, {"verify", kMesh, "a.xyz"});
-    CHECK(bare.status == 2);
-    CHECK(contains(bare.err, "a.xyz: its header has no minimum distance; give --min-distance"));
-    CHECK(run(folder, {"verify", kMesh, "a.xyz", "-d", "1e-3"}).status == 0);
 }
 
 TEST_CASE("meshes of every kind pass") {
@@ -190,7 +186,8 @@ TEST_CASE("points of other programs are put on the nearest face") {
         run(folder, {"verify", "cube.ply", "points.csv", "-d", ".3", "--json", "a.json"});
     CHECK(passed.status == 0);
     CHECK(contains(passed.err, "points.csv: 3 points without faces put on the nearest face of "
-                               "cube.ply, from up to 2e-07 away (tolerance 0.00173)"));
+                               "cube.ply, from up to 2e-07 away, 1e-07 on average (tolerance "
+                               "0.00173)"));
     CHECK(contains(bytes_of(folder / "a.json"), "points_moved"));
     CHECK(run(folder, {"verify", "cube.ply", "points.csv", "-d", "2"}).status == 1);
     const Outcome far =
@@ -206,7 +203,8 @@ TEST_CASE("points of other programs are put on the nearest face") {
         run(folder, {"analyze", "cube.ply", "points.csv", "-d", ".3", "--tolerance", "1.5e-7"});
     CHECK(analyzed.status == 3);
     CHECK(contains(analyzed.err, "1 point lies farther off cube.ply than --tolerance allows; "
-                                 "sample 1 is 2e-07 away"));
+                                 "sample 1 is 2e-07 away. Give the mesh that the points were made "
+                                 "on, or raise --tolerance"));
     const Outcome moved =
         run(folder, {"transfer", "points.csv", "cube.ply", "cube.ply", "-o", "moved.ply"});
     CHECK(moved.status == 0);
@@ -218,11 +216,37 @@ TEST_CASE("the distance comes from the option or the header") {
     tools::SampleFile samples = make_samples(folder);
     samples.header.entries.clear();
     write_back(folder, samples);
-    check_fails(folder, 2, "give --min-distance", {"verify", kMesh, "b.csv"});
+    check_fails(folder, 2, "give --min-distance", {"analyze", kMesh, "b.csv"});
     CHECK(run(folder, {"verify", kMesh, "b.csv", "--min-distance", "0.1%"}).status == 0);
     samples.header.entries = {{"min_distance", "wide"}};
     write_back(folder, samples);
     check_fails(folder, 3, "'wide'", {"verify", kMesh, "b.csv"});
+}
+
+TEST_CASE("without a distance the closest pair is told, and that none was checked") {
+    const TemporaryFolder folder;
+    folder.write("points.xyz", "-0.5 -0.5 -0.5\n-0.5 -0.5 -0.25\n-0.375 -0.5 -0.5\n0.5 0.5 0.5\n");
+    const Outcome outcome =
+        run(folder, {"verify", "builtin:cube", "points.xyz", "--json", "a.json"});
+    INFO(outcome.out, outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.out, "smallest      0.125 in mesh units, samples 0 and 2\n"));
+    CHECK_FALSE(contains(outcome.out, "violations"));
+    CHECK(contains(outcome.err, "points.xyz: no minimum distance is known, so none was checked; "
+                                "give --min-distance"));
+    const auto report = nlohmann::json::parse(bytes_of(folder / "a.json"));
+    CHECK(report["smallest"]["samples"] == nlohmann::json({0, 2}));
+    CHECK(report["min_distance"].is_null());
+    CHECK(report["violations"].is_null());
+    const Outcome maximal = run(folder, {"verify", "builtin:cube", "points.xyz", "--maximal"});
+    CHECK(maximal.status == 2);
+    CHECK(contains(maximal.err, "--maximal needs a minimum distance; give --min-distance"));
+
+    // What else is wrong is found all the same.
+    folder.write("far.xyz", "-0.5 -0.5 -0.5\n2 0 0\n");
+    CHECK(run(folder, {"verify", "builtin:cube", "far.xyz"}).status == 1);
+    folder.write("one.xyz", "-0.5 -0.5 -0.5\n");
+    CHECK(contains(run(folder, {"verify", "builtin:cube", "one.xyz"}).out, "smallest      none"));
 }
 
 TEST_CASE("no samples are no violation") {

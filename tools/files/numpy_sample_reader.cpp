@@ -160,10 +160,8 @@ class NumpyReader {
         const auto& shape = points.shape();
         constexpr std::size_t kMost = kNumberedColumnNames.size();
         if (!points.has_numbers() || shape.size() != 2 || shape[1] == 0 || shape[1] > kMost) {
-            const bool is_turned = shape.size() == 2 && shape[0] > 0 && shape[0] <= kMost;
             fail_input(path_, "its points are " + points.description() +
-                                  ", not numbers of shape (n, 3)" +
-                                  (is_turned ? "; transpose them" : ""));
+                                  "; save them as float64 of shape (n, 3)");
         }
     }
 

@@ -93,7 +93,7 @@ SampleFile read_in(const Path& path, SampleDomain domain, const std::string& num
     }
     refuse_other_content(path, bytes);
     if (lower_extension(path) == ".npz" || lower_extension(path) == ".npy") {
-        fail_input(path, "is no file of numpy; write it again, or give it the name that it needs");
+        fail_input(path, "is no file of numpy; write it with numpy.save or numpy.savez");
     }
     const std::string format = format_of(path, bytes);
     if (format == "ply") {

@@ -21,12 +21,26 @@ void put_on(SampleRow& row, const SurfacePoint& place, const MeshInput& mesh) {
     mesh.place(row);
 }
 
-void warn_of_moves(const std::string& path, const std::string& mesh_path, std::size_t count,
-                   double farthest, double tolerance, std::vector<MeshWarning>& warnings) {
-    warnings.push_back({"points_moved", count, "",
-                        counted(count, "point", "points") + " without faces put on the nearest " +
-                            "face of " + mesh_path + ", from up to " + rounded(farthest, 3) +
-                            " away (tolerance " + rounded(tolerance, 3) + ")",
+/// How far points were moved.
+struct Moves {
+    std::size_t count = 0;
+    double farthest = 0, sum = 0;
+
+    void add(double distance) {
+        ++count;
+        farthest = std::max(farthest, distance);
+        sum += distance;
+    }
+    double mean() const { return sum / static_cast<double>(count); }
+};
+
+void warn_of_moves(const std::string& path, const std::string& mesh_path, const Moves& moves,
+                   double tolerance, std::vector<MeshWarning>& warnings) {
+    warnings.push_back({"points_moved", moves.count, "",
+                        counted(moves.count, "point", "points") + " without faces put on the " +
+                            "nearest face of " + mesh_path + ", from up to " +
+                            rounded(moves.farthest, 3) + " away, " + rounded(moves.mean(), 3) +
+                            " on average (tolerance " + rounded(tolerance, 3) + ")",
                         path});
 }
 
@@ -39,7 +53,7 @@ std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& m
     const NearestFace faces(mesh.file);
     const double tolerance = tolerance_on(given, faces.diagonal());
     std::vector<StrayRow> strays;
-    double farthest = 0;
+    Moves moves;
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         if (i % 1024 == 0) {
             check_interrupted();
@@ -48,16 +62,15 @@ std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& m
         SampleRow& row = samples.rows[i];
         const SurfacePoint place = faces.find(std::span(row.position).first(mesh.dimension()));
         if (place.distance <= tolerance) {
-            farthest = std::max(farthest, place.distance);
+            moves.add(place.distance);
         } else {
             strays.push_back({i, place.distance});
         }
         put_on(row, place, mesh);
     }
     progress.clear();
-    const std::size_t moved = samples.rows.size() - strays.size();
-    if (moved > 0) {
-        warn_of_moves(path, mesh_path, moved, farthest, tolerance, warnings);
+    if (moves.count > 0) {
+        warn_of_moves(path, mesh_path, moves, tolerance, warnings);
     }
     return strays;
 }
@@ -98,7 +111,8 @@ SampleFile without_strays(const std::string& path, const std::string& mesh_path,
     }
     fail_input(path, counted(input.strays.size(), "point lies", "points lie") + " farther off " +
                          mesh_path + " than --tolerance allows; " + sample +
-                         rounded(first.offset, 3) + " away");
+                         rounded(first.offset, 3) +
+                         " away. Give the mesh that the points were made on, or raise --tolerance");
 }
 
 } // namespace

@@ -60,6 +60,12 @@ std::size_t SpacingResult::violating_samples() const {
     return static_cast<std::size_t>(std::unique(rows.begin(), rows.end()) - rows.begin());
 }
 
+std::string closest_text(const std::optional<ClosePair>& closest) {
+    return closest ? rounded(closest->distance, 9) + " in mesh units, samples " +
+                         std::to_string(closest->row_a) + " and " + std::to_string(closest->row_b)
+                   : "none, no path joins two of them";
+}
+
 std::string smallest_text(const SpacingResult& result, double min_distance) {
     return result.closest ? rounded(result.closest->distance, 9) + ", " +
                                 rounded(result.closest->ratio, 9) + " of the minimum distance"

@@ -97,6 +97,9 @@ std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const Sam
 SpacingResult check_box_spacing(const BoxParams& box, std::span<const SampleRow> rows,
                                 ProgressLine& progress);
 
+/// The smallest distance in mesh units and its pair, of find_closest().
+std::string closest_text(const std::optional<ClosePair>& closest);
+
 /// The smallest distance, and what part of `min_distance` it is, the least for all pairs.
 std::string smallest_text(const SpacingResult& result, double min_distance);
 

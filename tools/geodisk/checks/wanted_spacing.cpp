@@ -68,6 +68,11 @@ WantedSpacing wanted_spacing(const VerifyOptions& options, const SampleFile& sam
         return spacing;
     }
     spacing.radii_vary = mesh.radii || (has_radii(samples.rows) && options.min_distance.empty());
+    spacing.is_known = spacing.radii_vary || !options.min_distance.empty() ||
+                       samples.header.find("min_distance") != nullptr;
+    if (!spacing.is_known) {
+        return spacing;
+    }
     if (mesh.radii || !spacing.radii_vary) {
         spacing.min_distance = distance_of(options, samples, mesh);
     }

@@ -13,6 +13,7 @@ namespace geodisk::tools {
 
 /// How far samples must be apart.
 struct WantedSpacing {
+    bool is_known = true; ///< Else nothing says how far, and nothing follows.
     ClassTable classes;
     double min_distance = 0; ///< Of all pairs, or of two with the largest radius; 0 if not known.
     bool radii_vary = false;
@@ -21,7 +22,8 @@ struct WantedSpacing {
 };
 
 /// With density options the radii are computed again; without, those of the file count, unless a
-/// distance is given. Throws UserError if neither says how far, or the file lacks classes.
+/// distance is given. A file with neither radii nor a distance in its header leaves it unknown.
+/// Throws UserError if density options or classes need that distance, or the file lacks classes.
 WantedSpacing wanted_spacing(const VerifyOptions& options, const SampleFile& samples,
                              const MeshInput& mesh);
 

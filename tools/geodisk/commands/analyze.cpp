@@ -157,9 +157,9 @@ void add_analyze_command(Command app) {
     add_mesh_argument(command, options->mesh, "Mesh that the samples were made on");
     command
         .add_option("SAMPLES", options->samples, "",
-                    "Samples to analyze: *.ply, *.csv or *.pcd, or points of\n"
-                    "another program, also *.obj and *.xyz. Give several files with\n"
-                    "different seeds to test whether samples are spread evenly")
+                    "Samples to analyze: *.ply, *.csv, *.npz or *.pcd, or points of\n"
+                    "another program, also *.npy, *.obj and *.xyz. Give several files\n"
+                    "with different seeds to test whether samples are spread evenly")
         .required();
     add_distance_options(command, options->distance);
     add_probes_option(command, options->probes);

@@ -116,14 +116,8 @@ std::string summary_text(const TransferOptions& options, const MeshInput& from, 
     out << mesh_lines("from", options.from.mesh, options.from.additions(), from)
         << mesh_lines("to", options.to.mesh, options.to.additions(), to) << "samples       "
         << grouped(samples.rows.size()) << " of " << one_line(options.samples) << '\n'
-        << "smallest      ";
-    if (closest) {
-        out << rounded(closest->distance, 9) << " in mesh units, "
-            << "samples " << closest->row_a << " and " << closest->row_b << '\n';
-    } else {
-        out << "none, no path joins two of them\n";
-    }
-    out << "file          " << one_line(options.out.output) << '\n';
+        << "smallest      " << closest_text(closest) << '\n'
+        << "file          " << one_line(options.out.output) << '\n';
     return out.str();
 }
 
@@ -160,8 +154,8 @@ void add_transfer_command(Command app) {
     const auto options = std::make_shared<TransferOptions>();
     command
         .add_option("SAMPLES", options->samples, "",
-                    "Samples of MESH_A: *.ply, *.csv or *.pcd, or points of\n"
-                    "another program, also *.obj and *.xyz")
+                    "Samples of MESH_A: *.ply, *.csv, *.npz or *.pcd, or points of\n"
+                    "another program, also *.npy, *.obj and *.xyz")
         .required();
     add_mesh_argument(command, options->from, "Mesh that the samples were made on", "MESH_A");
     add_mesh_argument(command, options->to, "Mesh with identical faces to move them to", "MESH_B");

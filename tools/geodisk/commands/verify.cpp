@@ -31,8 +31,33 @@ namespace {
 constexpr const char* kExamples[] = {
     "geodisk verify bunny.obj points.csv",
     "geodisk verify bunny.obj points.csv --min-distance 0.01",
+    "geodisk verify bunny.obj points_of_another_program.npy",
     "geodisk verify box.csv",
 };
+
+/// Computes the distances of all pairs that may be too close, or finds the closest pair where
+/// nothing says what is too close.
+GivenSpacing measure_spacing(const MeshInput& mesh, const SampleFile& samples,
+                             const WantedSpacing& wanted, ProgressLine& progress) {
+    if (!wanted.is_known) {
+        GivenSpacing found;
+        found.others.closest = find_closest(mesh, samples.rows, progress);
+        return found;
+    }
+    const auto classes = samples.extra_values(kClassColumn);
+    const PairDistances distances =
+        wanted.classes.is_given() ? PairDistances{{}, classes, wanted.classes, wanted.min_distance}
+                                  : PairDistances{wanted.radii};
+    return check_spacing(mesh, samples.rows, distances, samples.extra_values(kGivenColumn),
+                         progress);
+}
+
+void warn_of_unknown_spacing(const VerifyOptions& options, std::vector<MeshWarning>& warnings) {
+    warnings.push_back({"no_min_distance", 1, "",
+                        "no minimum distance is known, so none was checked; give --min-distance",
+                        options.samples});
+    print_warning(options.samples + ": " + warnings.back().message);
+}
 
 void run_verify(const VerifyOptions& options) {
     options.check();
@@ -48,6 +73,9 @@ void run_verify(const VerifyOptions& options) {
     auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
                                              options.tolerance, warnings, progress);
     WantedSpacing spacing = wanted_spacing(options, samples, mesh);
+    if (options.is_maximal && !spacing.is_known) {
+        fail_usage("--maximal needs a minimum distance; give --min-distance");
+    }
     if (options.is_maximal && !(spacing.min_distance > 0)) {
         fail_usage("--maximal needs the radii of all points; give the --radius-factor option that "
                    "the samples were made with");
@@ -55,12 +83,10 @@ void run_verify(const VerifyOptions& options) {
     if (options.is_maximal && spacing.classes.is_given()) {
         fail_usage("--maximal is for samples without classes");
     }
-    PairDistances distances{spacing.radii};
-    if (spacing.classes.is_given()) {
-        distances = {{}, samples.extra_values(kClassColumn), spacing.classes, spacing.min_distance};
+    if (!spacing.is_known) {
+        warn_of_unknown_spacing(options, warnings);
     }
-    GivenSpacing found =
-        check_spacing(mesh, samples.rows, distances, samples.extra_values(kGivenColumn), progress);
+    GivenSpacing found = measure_spacing(mesh, samples, spacing, progress);
     ConstraintOptions constraints = options.constraints;
     constraints.tolerance = options.tolerance;
     const std::size_t before = warnings.size();
@@ -77,7 +103,7 @@ void run_verify(const VerifyOptions& options) {
             find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided, progress);
     }
     std::vector<LevelSpacing> levels;
-    if (options.min_distance.empty()) {
+    if (options.min_distance.empty() && spacing.is_known) {
         levels =
             check_levels(options.samples, samples, mesh, spacing.radii, found.others, progress);
     }

@@ -26,8 +26,8 @@ void add_render_options(Command command, RenderOptions& options) {
                       "Mesh that the samples were made on; or, without SAMPLES,\n"
                       "samples of geodisk box in 2 or 3 dimensions");
     command.add_option("SAMPLES", options.samples, "",
-                       "Samples to show: *.ply, *.csv or *.pcd, or points of another\nprogram, "
-                       "also *.obj and *.xyz");
+                       "Samples to show: *.ply, *.csv, *.npz or *.pcd, or points of\n"
+                       "another program, also *.npy, *.obj and *.xyz");
     add_tolerance_option(command, options.tolerance);
     add_output_argument(command, options.out, "Picture to write: *.png");
     command.add_option("--size", options.size, "WxH", "Size of the picture in pixels")

@@ -74,12 +74,12 @@ void add_verify_options(Command command, VerifyOptions& options) {
                       "Mesh that the samples were made on; or, without SAMPLES,\n"
                       "samples of geodisk box");
     command.add_option("SAMPLES", options.samples, "",
-                       "Samples to check: *.ply, *.csv or *.pcd, or points of another\n"
-                       "program, also *.obj and *.xyz");
+                       "Samples to check: *.ply, *.csv, *.npz or *.pcd, or points of\n"
+                       "another program, also *.npy, *.obj and *.xyz");
     command.add_option("-d,--min-distance", options.min_distance, "D",
                        "Minimum distance along the surface, in mesh units or % of the\n"
                        "bounding-box diagonal (default: radii in the file, else the\n"
-                       "distance in its header)");
+                       "distance in its header, else none: report the smallest)");
     command.add_flag("--maximal", options.is_maximal,
                      "Check that no further sample fits, and tell the largest gap");
     add_avoid_option(command, options.constraints);

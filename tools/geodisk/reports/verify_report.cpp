@@ -19,6 +19,9 @@ constexpr std::size_t kNamedStrays = 10;
 
 std::string smallest_text(const SampleCheck& check) {
     const SpacingResult& result = check.result;
+    if (!check.spacing.is_known) {
+        return closest_text(result.closest);
+    }
     if (check.spacing.radii_vary || check.spacing.classes.is_given()) {
         return (result.closest ? rounded(result.closest->ratio, 9)
                                : "> " + rounded(result.cut, 6)) +
@@ -45,8 +48,7 @@ Json intrusions_json(const std::vector<Intrusion>& intrusions) {
 
 std::size_t SampleCheck::given() const {
     const auto values = samples.extra_values(kGivenColumn);
-    return static_cast<std::size_t>(
-        std::ranges::count_if(values, [](auto v) { return v != 0; }));
+    return static_cast<std::size_t>(std::ranges::count_if(values, [](auto v) { return v != 0; }));
 }
 
 double SampleCheck::rho() const {
@@ -98,7 +100,9 @@ std::string report_text(const SampleCheck& check) {
         out << "classes       " << counts << " samples\n";
     }
     const bool has_ratios = spacing.radii_vary || spacing.classes.is_given();
-    print_violations(out, check.samples, check.result, has_ratios ? check.least_text() : "");
+    if (spacing.is_known) {
+        print_violations(out, check.samples, check.result, has_ratios ? check.least_text() : "");
+    }
     out << level_lines(check.levels);
     if (const std::size_t given = check.given(); given > 0) {
         const std::size_t pairs = check.among_given.violations.size();
@@ -162,10 +166,12 @@ std::string report_json(const SampleCheck& check) {
         {"rho", has_distance ? Json(check.rho()) : Json(nullptr)},
         {"radii_vary", spacing.radii_vary},
         {"classes", spacing.classes.is_given() ? Json(check.class_counts()) : Json(nullptr)},
-        {"cut", spacing.radii_vary ? Json(nullptr) : Json(result.cut * spacing.min_distance)},
+        {"cut", spacing.radii_vary || !spacing.is_known ? Json(nullptr)
+                                                        : Json(result.cut * spacing.min_distance)},
         {"smallest", pair_json(result.closest)},
-        {"smallest_ratio", result.closest ? Json(result.closest->ratio) : Json(nullptr)},
-        {"violations", violations_json(result)},
+        {"smallest_ratio",
+         result.closest && spacing.is_known ? Json(result.closest->ratio) : Json(nullptr)},
+        {"violations", spacing.is_known ? violations_json(result) : Json(nullptr)},
         {"given", given == 0
                       ? Json(nullptr)
                       : Json{{"samples", given}, {"violations", violations_json(among_given)}}},
