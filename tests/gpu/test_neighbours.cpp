@@ -118,7 +118,8 @@ Neighbours check_mesh(const PreparedMesh& mesh, double within) {
     REQUIRE(sources.size() == mesh.vertex_count());
     const std::vector<Point> vertices = points_of(sources);
     std::vector<Sample> some;
-    for (std::size_t i = 0; i < sources.size(); i += std::max<std::size_t>(1, sources.size() / 20)) {
+    for (std::size_t i = 0; i < sources.size();
+         i += std::max<std::size_t>(1, sources.size() / 20)) {
         some.push_back(sources[i]);
     }
     const std::vector<Sample> points = samples_of(random_points(mesh, 7, 300));
@@ -197,8 +198,9 @@ TEST_SUITE("neighbours") {
         const Neighbours lists = found(knot, query);
         CHECK(lists.indices.size() > 20 * sources.size());
         for (std::size_t i = 0; i < sources.size(); ++i) { // Each finds itself, and is found.
-            const auto row = std::span(lists.indices).subspan(lists.offsets[i],
-                                                              lists.offsets[i + 1] - lists.offsets[i]);
+            const auto row =
+                std::span(lists.indices)
+                    .subspan(lists.offsets[i], lists.offsets[i + 1] - lists.offsets[i]);
             const auto own = std::ranges::lower_bound(row, i);
             REQUIRE((own != row.end() && *own == i));
             CHECK(lists.distances[static_cast<std::size_t>(&*own - lists.indices.data())] == 0);
@@ -227,7 +229,8 @@ TEST_SUITE("neighbours") {
         ref::Tolerances tolerances = tight_tolerances();
         GeodesicQuery<double> twin(knot, 11 * least, vertices, tolerances);
         for (std::size_t i = 0; i < sources.size(); ++i) {
-            check_row(lists, i, radii[i], twin.from(points_of(sources)[i]), kPrecision * 10 * least);
+            check_row(lists, i, radii[i], twin.from(points_of(sources)[i]),
+                      kPrecision * 10 * least);
         }
         check_narrow(knot, query, lists);
     }
@@ -274,8 +277,9 @@ TEST_SUITE("neighbours") {
         CHECK(message([](Query& q) { q.sources = {}; }) == "there is no source");
         for (const double within : {0.0, -1.0, std::numeric_limits<double>::infinity(),
                                     std::numeric_limits<double>::quiet_NaN()}) {
-            CHECK(message([&](Query& q) { q.within = within; })
-                      .find("which is not positive and finite") != std::string::npos);
+            CHECK(message([&](Query& q) {
+                      q.within = within;
+                  }).find("which is not positive and finite") != std::string::npos);
         }
         std::vector<double> radii(sources.size() - 1, 1);
         CHECK(message([&](Query& q) { q.radii = radii; }) == "there are 25 radii for 26 sources");
@@ -284,8 +288,9 @@ TEST_SUITE("neighbours") {
               "the radius of source 25 is 0, which is not positive and finite");
         CHECK(message([](Query& q) { q.kind = NeighbourKind::points; }) ==
               "there is no point among which neighbours are");
-        CHECK(message([](Query& q) { q.within = 1e-5; })
-                  .find("the distance is too small for this mesh: its longest edge is") == 0);
+        CHECK(message([](Query& q) {
+                  q.within = 1e-5;
+              }).find("the distance is too small for this mesh: its longest edge is") == 0);
         sources[3] = {1000, {1, 0, 0}};
         CHECK(message([](Query&) {}) == "source 3 is in face 1000, but there are 48");
         sources[3] = {0, {1, 1, 0}};

@@ -4,25 +4,13 @@
 
 #include "files/block_writer.hpp"
 #include "files/byte_order.hpp"
+#include "files/npz_arrays.hpp"
 #include "files/sample_writers.hpp"
 #include "files/zip_writer.hpp"
 #include "program/exact_text.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-/// A .npy file of version 1.0 without its content: `type` and `shape` as numpy writes them, "<f8"
-/// and "(2, 3)".
-std::string array_header(const std::string& type, const std::string& shape) {
-    std::string text =
-        "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
-    constexpr std::size_t kBefore = 10, kAlignment = 64;
-    text.append(kAlignment - (kBefore + text.size() + 1) % kAlignment, ' ');
-    text += '\n';
-    std::string header("\x93NUMPY\x01\x00", 8);
-    append_little_endian(header, static_cast<std::uint16_t>(text.size()));
-    return header + text;
-}
 
 std::string column_shape(std::size_t rows) {
     return '(' + std::to_string(rows) + ",)";

@@ -33,6 +33,7 @@ void set_up(geodisk::tools::Command app) {
     geodisk::tools::add_spectrum_command(app);
     geodisk::tools::add_render_command(app);
     geodisk::tools::add_report_command(app);
+    geodisk::tools::add_neighbours_command(app);
     geodisk::tools::add_transfer_command(app);
     geodisk::tools::add_box_command(app);
     geodisk::tools::add_shapes_command(app);

@@ -71,6 +71,9 @@ void render_box(const RenderOptions& options);
 /// Samples a mesh on a Vulkan device and writes a page that shows the samples and tells of them.
 void add_report_command(Command app);
 
+/// Finds what is near each vertex or point along the surface, on a Vulkan device.
+void add_neighbours_command(Command app);
+
 /// Carries samples over to another mesh of the same connectivity.
 void add_transfer_command(Command app);
 

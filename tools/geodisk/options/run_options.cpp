@@ -102,7 +102,7 @@ void add_seed_option(Command command, RunOptions& options) {
 void add_limit_options(Command command, RunOptions& options) {
     command.add_option("--memory", options.memory, "BYTES",
                        "Maximum bytes on the device, with K, M or G; does not\n"
-                       "change the samples");
+                       "change the result");
     command.add_option("--stall-timeout", options.stall_timeout, "SECONDS",
                        "Abort if the device does not respond for SECONDS\n"
                        "(default 120; CPU 600)");

@@ -101,12 +101,12 @@ Json run_json(const DeviceRun& done, const SecondsByStage& seconds) {
 }
 
 std::string run_text(const DeviceRun& done, const SecondsByStage& seconds,
-                     const std::string& output) {
+                     const std::string& output, const std::string& work) {
     double total = 0;
     for (const auto& [stage, value] : seconds) {
         total += value;
     }
-    return "time          " + seconds_text(done.run.seconds.sample) + " sampling, " +
+    return "time          " + seconds_text(done.run.seconds.sample) + ' ' + work + ", " +
            seconds_text(total) + " in all\ndevice        " + one_line(done.device.name) +
            "\nfile          " + one_line(output) + '\n';
 }

@@ -43,8 +43,8 @@ SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done,
 /// What the JSON of a run ends with: guard, memory, seconds, tuning, device.
 Json run_json(const DeviceRun& done, const SecondsByStage& seconds);
 
-/// What the summary of a run ends with: time, device, file.
+/// What the summary of a run ends with: time, also of the `work` itself, device, file.
 std::string run_text(const DeviceRun& done, const SecondsByStage& seconds,
-                     const std::string& output);
+                     const std::string& output, const std::string& work = "sampling");
 
 } // namespace geodisk::tools

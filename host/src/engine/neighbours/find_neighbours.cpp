@@ -83,8 +83,7 @@ Result<Done> check_edges(const PreparedMesh& mesh, double largest) {
         return Done{};
     }
     return invalid("the distance is too small for this mesh: its longest edge is " +
-                   number_text(longest) +
-                   " times as long, and single precision resolves at most " +
+                   number_text(longest) + " times as long, and single precision resolves at most " +
                    number_text(kLongestEdge) + " times; split long edges");
 }
 
@@ -136,8 +135,7 @@ class Search {
 };
 
 double Search::first_guess() const {
-    const auto all =
-        static_cast<double>(targets_.empty() ? mesh_.vertex_count() : targets_.size());
+    const auto all = static_cast<double>(targets_.empty() ? mesh_.vertex_count() : targets_.size());
     const double part = 3.2 * params_.min_distance * params_.min_distance / mesh_.statistics().area;
     return kPathsPerTarget * all * std::min(1.0, part) + kMoreRecords;
 }
@@ -154,10 +152,9 @@ bool Search::report(const Progress& now) const {
     const auto all = static_cast<std::uint32_t>(query_.sources.size());
     const auto sources = static_cast<std::uint32_t>(done_) + now.disks;
     const std::uint64_t pairs = lists_.pairs();
-    return !progress_ ||
-           progress_({std::min(sources, all), all,
-                      static_cast<std::uint32_t>(std::min<std::uint64_t>(pairs, ~0u)),
-                      report_.disks + now.disks, report_.windows + now.windows});
+    return !progress_ || progress_({std::min(sources, all), all,
+                                    static_cast<std::uint32_t>(std::min<std::uint64_t>(pairs, ~0u)),
+                                    report_.disks + now.disks, report_.windows + now.windows});
 }
 
 Result<bool> Search::find(std::size_t sources, std::uint32_t room) {
@@ -198,16 +195,16 @@ Result<bool> Search::find(std::size_t sources, std::uint32_t room) {
     }
     const auto& of = static_cast<const SurfaceDomain&>(Domain::Impl::of(*domain));
     const double start = impl_.now();
-    lists_.add(sources, records.hits, targets_.empty() ? std::span<const std::uint32_t>()
-                                                       : of.target_numbers());
+    lists_.add(sources, records.hits,
+               targets_.empty() ? std::span<const std::uint32_t>() : of.target_numbers());
     report_.seconds.readback += impl_.now() - start;
     return true;
 }
 
 Result<Done> Search::check_pairs() const {
     const auto pairs = static_cast<double>(lists_.pairs());
-    const double expected = pairs / static_cast<double>(done_) *
-                            static_cast<double>(query_.sources.size());
+    const double expected =
+        pairs / static_cast<double>(done_) * static_cast<double>(query_.sources.size());
     if (done_ < kFewSources && done_ < query_.sources.size()) {
         return Done{};
     }
@@ -233,7 +230,8 @@ Result<Neighbours> Search::go() {
         // One source takes what it needs.
         const double room = std::clamp(wanted * sources + kLeastRecords, kLeastRecords,
                                        std::max(most, wanted) + kLeastRecords);
-        const auto found = find(static_cast<std::size_t>(sources), static_cast<std::uint32_t>(room));
+        const auto found =
+            find(static_cast<std::size_t>(sources), static_cast<std::uint32_t>(room));
         if (!found) {
             return found.error();
         }
@@ -285,8 +283,8 @@ Result<std::vector<Sample>> vertex_points(const PreparedMesh& mesh,
         }
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
             const VertexFan& fan = mesh.fans()[v];
-            for (const std::uint32_t h : mesh.corners().subspan(fan.first_corner,
-                                                                    fan.corner_count)) {
+            for (const std::uint32_t h :
+                 mesh.corners().subspan(fan.first_corner, fan.corner_count)) {
                 Sample point{h / 3, {0, 0, 0}};
                 point.weights[h % 3] = 1;
                 if (fault_of(point, mesh).empty()) {

@@ -46,15 +46,15 @@ void NeighbourLists::add(std::size_t sources, std::span<const gpu::HitRec> recor
     std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
     for (const gpu::HitRec& record : records) {
         const std::uint32_t target = numbers.empty() ? record.target : numbers[record.target];
-        hits[next[record.sample_index]++] = {
-            target, static_cast<float>(double{record.distance} * unit_)};
+        hits[next[record.sample_index]++] = {target,
+                                             static_cast<float>(double{record.distance} * unit_)};
     }
     const std::size_t first = lists_.offsets.size() - 1;
     std::vector<std::size_t> counts(sources);
     for_blocks(threads_, sources, [&](std::size_t begin, std::size_t end) noexcept {
         for (std::size_t i = begin; i < end; ++i) {
-            counts[i] = reduce(first + i,
-                               std::span(hits).subspan(starts[i], starts[i + 1] - starts[i]));
+            counts[i] =
+                reduce(first + i, std::span(hits).subspan(starts[i], starts[i + 1] - starts[i]));
         }
     });
     for (std::size_t i = 0; i < sources; ++i) {

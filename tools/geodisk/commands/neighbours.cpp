@@ -1,0 +1,250 @@
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geodisk/checks/run_warnings.hpp"
+#include "geodisk/checks/sample_input.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/neighbour_run.hpp"
+#include "geodisk/opened_device.hpp"
+#include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/run_options.hpp"
+#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/neighbour_report.hpp"
+#include "program/arguments.hpp"
+#include "program/command.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk neighbours brain.obj --within 10 -o near.npz",
+    "geodisk neighbours brain.obj electrodes.csv --within 10 -o near.csv",
+    "geodisk neighbours terrain.ply wells.csv --within reach --among houses.csv -o near.csv",
+    "geodisk neighbours bunny.ply points.ply --within 5% --among sources --nearest 6 -o graph.npz",
+};
+
+struct NeighbourOptions {
+    MeshOptions mesh;
+    OutputOptions out;
+    RunOptions run;
+    std::string points, vertices, within, among = "vertices", nearest, most_pairs, tolerance;
+
+    /// Returns the file of the points to search; "" for others.
+    std::string searched() const {
+        return among == "vertices" || among == "sources" ? "" : among;
+    }
+};
+
+/// The distance of all sources, or the column that has one for each.
+struct Within {
+    std::optional<Length> length;
+    std::string column;
+};
+
+Within parsed_within(const NeighbourOptions& options) {
+    if (options.within.empty()) {
+        fail_usage("--within: give the distance within which neighbours are");
+    }
+    const char first = options.within.front();
+    const bool is_number = (first >= '0' && first <= '9') || first == '+' || first == '-' ||
+                           first == '.';
+    if (is_number) {
+        return {parse_length("--within", options.within), {}};
+    }
+    if (options.points.empty()) {
+        fail_usage("--within: " + in_quotes(options.within) +
+                   " is no length; a column is one of POINTS");
+    }
+    return {{}, options.within};
+}
+
+/// "0,5,17-20".
+std::vector<std::uint32_t> parsed_vertices(const std::string& text) {
+    std::vector<std::uint32_t> vertices;
+    const auto fail = [](const std::string& item) {
+        fail_usage("--vertices: " + in_quotes(item) +
+                   " is neither a number nor a range such as 10-20");
+    };
+    for (std::size_t begin = 0; begin <= text.size() && !text.empty();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string item(trimmed(std::string_view(text).substr(begin, end - begin)));
+        const std::size_t dash = item.find('-');
+        const auto first = parse_integer<std::uint32_t>(std::string_view(item).substr(0, dash));
+        const auto last = dash == std::string::npos
+                              ? first
+                              : parse_integer<std::uint32_t>(std::string_view(item).substr(dash + 1));
+        if (!first || !last || *last < *first) {
+            fail(item);
+        }
+        for (std::uint64_t v = *first; v <= *last; ++v) {
+            vertices.push_back(static_cast<std::uint32_t>(v));
+        }
+        begin = end + 1;
+    }
+    return vertices;
+}
+
+void check_files(const NeighbourOptions& options) {
+    std::vector<NamedFile> read;
+    options.mesh.add_files(read, "the mesh");
+    if (!options.points.empty()) {
+        read.push_back({"the sources", options.points});
+    }
+    if (!options.searched().empty()) {
+        read.push_back({"the points to search", options.searched()});
+    }
+    check_outputs(options.out, "the neighbours", read, [](const Path&) {});
+}
+
+/// Points of a file, on the mesh.
+SampleFile read_points(const NeighbourOptions& options, const std::string& path,
+                       const std::string& column, const MeshInput& mesh,
+                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
+    const HeaderEntries additions = options.mesh.additions();
+    SampleFile file = read_samples_silently_on(path, options.mesh.mesh, mesh, &additions,
+                                               options.tolerance, warnings, progress, column);
+    if (file.rows.empty()) {
+        fail_input(path, "has no points");
+    }
+    return file;
+}
+
+std::vector<Sample> samples_in(const SampleFile& file) {
+    std::vector<Sample> samples;
+    samples.reserve(file.rows.size());
+    for (const SampleRow& row : file.rows) {
+        samples.push_back({row.face, {row.bary[0], row.bary[1], row.bary[2]}});
+    }
+    return samples;
+}
+
+std::vector<double> radii_in(const std::string& path, const std::string& column,
+                             const SampleFile& file) {
+    for (std::size_t i = 0; i < file.numbers.size(); ++i) {
+        if (!(file.numbers[i] > 0) || !std::isfinite(file.numbers[i])) {
+            fail_input(path, "point " + std::to_string(i) + ": its " + column + " is " +
+                                 exact_text(file.numbers[i]) + ", not a positive distance");
+        }
+    }
+    return file.numbers;
+}
+
+NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
+                      const std::vector<std::uint32_t>& vertices, const MeshInput& mesh,
+                      std::vector<MeshWarning>& warnings, ProgressLine& progress) {
+    NeighbourJob job;
+    if (options.points.empty()) {
+        job.sources = vertices_of(mesh, vertices);
+    } else {
+        const SampleFile file =
+            read_points(options, options.points, within.column, mesh, warnings, progress);
+        job.sources.points = samples_in(file);
+        if (!within.length) {
+            job.radii = radii_in(options.points, within.column, file);
+        }
+    }
+    if (within.length) {
+        job.within = distance_on_mesh(*within.length, mesh.prepared.statistics());
+    }
+    if (const std::string path = options.searched(); !path.empty()) {
+        job.kind = NeighbourKind::points;
+        job.points = samples_in(read_points(options, path, {}, mesh, warnings, progress));
+    } else if (options.among == "sources") {
+        job.kind = NeighbourKind::sources;
+    }
+    return job;
+}
+
+void run_neighbours(const NeighbourOptions& options) {
+    const SampleTarget target = neighbour_target(options.out.output, options.out.format);
+    const Within within = parsed_within(options);
+    if (!options.points.empty() && !options.vertices.empty()) {
+        fail_usage("--vertices contradicts POINTS: sources are either");
+    }
+    const std::vector<std::uint32_t> vertices = parsed_vertices(options.vertices);
+    constexpr double kMost = 0xffffffffp0;
+    const double nearest =
+        options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
+    const double pairs =
+        options.most_pairs.empty() ? 0 : parse_count("--most-pairs", options.most_pairs);
+    RunnerOptions runner;
+    runner.device_bytes = options.run.device_bytes();
+    runner.stall_seconds = options.run.stall_seconds();
+    check_tolerance(options.tolerance);
+    check_files(options);
+
+    ProgressLine progress(options.out.quiet);
+    const MeshInput mesh = load_mesh(options.mesh, progress);
+    std::vector<MeshWarning> warnings;
+    NeighbourJob job = make_job(options, within, vertices, mesh, warnings, progress);
+    job.nearest = static_cast<std::uint32_t>(std::min(nearest, kMost));
+    job.most_pairs = static_cast<std::uint64_t>(pairs);
+    print_warnings(warnings);
+    warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
+    RunDevice device(options.run.device, runner);
+    const NeighbourResult result =
+        search_neighbours(job, mesh, device, runner.device_bytes != 0, progress);
+    check_validation(device.context());
+    const NeighbourReport report{options.mesh,
+                                 mesh,
+                                 warnings,
+                                 job,
+                                 result,
+                                 options.out.output,
+                                 options.points.empty() ? "vertices" : "points",
+                                 options.searched().empty() ? options.among : "points"};
+    write_outputs(options.out, "the neighbours", progress, report,
+                  [&](AtomicFile& file) { write_neighbours(file, target, result.table); });
+}
+
+} // namespace
+
+void add_neighbours_command(Command app) {
+    const Command command = app.add_command(
+        "neighbours", "Find what is within a distance along the surface, of each vertex or\n"
+                      "point, and how far it is");
+    const auto options = std::make_shared<NeighbourOptions>();
+    add_mesh_argument(command, options->mesh, "Mesh to search");
+    command.add_option("POINTS", options->points, "",
+                       "Sources: samples of MESH, or points of another program,\n"
+                       "put on the nearest face; without it all vertices");
+    add_output_argument(command, options->out,
+                        "File to write: *.npz (arrays sources, offsets, targets,\n"
+                        "distances) or *.csv (source, target, distance)");
+    command
+        .add_option("--within", options->within, "R",
+                    "Distance along the surface: in mesh units, or 1% of the\n"
+                    "diagonal, or the column of POINTS that has one for each")
+        .required();
+    command.add_option("--vertices", options->vertices, "LIST",
+                       "Sources are only these vertices, such as 0,5,10-20");
+    command.add_option("--among", options->among, "WHAT",
+                       "What to find: vertices (the default), sources (all\n"
+                       "others), or the points of a file");
+    command.add_option("--nearest", options->nearest, "K",
+                       "Keep only the K nearest of each, the nearest first");
+    command.add_option("--most-pairs", options->most_pairs, "N",
+                       "Stop if more pairs are to be expected (default 2^30)");
+    add_mesh_options(command, options->mesh);
+    add_tolerance_option(command, options->tolerance);
+    add_json_option(command, options->out);
+    command.add_option("--format", options->out.format, "FORMAT",
+                       "npz or csv, whatever the name of OUT");
+    add_quiet_option(command, options->out);
+    add_device_options(command, options->run.device);
+    add_verbose_option(command, options->run.device);
+    add_limit_options(command, options->run);
+    command.has_footer(help_footer(kExamples));
+    command.calls([options] { run_neighbours(*options); });
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,50 @@
+// A search of neighbours on a mesh: its sources and targets by the numbers of the file, and the run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <geodisk/neighbours.hpp>
+
+#include "files/neighbour_file.hpp"
+#include "geodisk/device_run.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+
+namespace geodisk::tools {
+
+/// Points of a mesh with the numbers that a file gives them.
+struct NumberedPoints {
+    std::vector<Sample> points;
+    std::vector<std::uint32_t> numbers; ///< Empty for 0, 1, 2 ...
+};
+
+/// Returns the vertices of the mesh that faces use, or those of `wanted` in that order. Of vertices
+/// that are joined, each has the place of all. Throws UserError(usage) for one that there is not,
+/// or that no face uses.
+NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<std::uint32_t>& wanted);
+
+/// What to search for.
+struct NeighbourJob {
+    NumberedPoints sources;
+    NeighbourKind kind = NeighbourKind::vertices;
+    std::vector<Sample> points; ///< To search, if `kind` says so.
+    double within = 0;
+    std::vector<double> radii; ///< Of each source, or empty.
+    std::uint32_t nearest = 0;
+    std::uint64_t most_pairs = 0; ///< 0 for the library's.
+};
+
+struct NeighbourResult {
+    NeighbourTable table;
+    double error = 0; ///< Bound on that of distances, in mesh units.
+    DeviceRun done;
+};
+
+/// Opens the device where need be and searches. Targets that are vertices are those of the file:
+/// where some are joined, all of them. Throws UserError.
+NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh,
+                                  RunDevice& device, bool is_bounded, ProgressLine& progress);
+
+} // namespace geodisk::tools

@@ -1,0 +1,81 @@
+#include "geodisk/reports/neighbour_report.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <geodisk/version.hpp>
+
+#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/mesh_report.hpp"
+#include "geodisk/reports/run_report.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+SecondsByStage seconds_of(const NeighbourReport& report, double write_seconds) {
+    return stage_seconds(
+        {{"load", report.mesh.load_seconds}, {"prepare", report.mesh.prepare_seconds}},
+        report.result.done, {{"write", write_seconds}});
+}
+
+struct RowSizes {
+    std::uint64_t least, most;
+    double mean;
+};
+
+RowSizes sizes_of(const NeighbourTable& table) {
+    RowSizes sizes{~std::uint64_t{0}, 0, 0};
+    for (std::size_t i = 0; i + 1 < table.offsets.size(); ++i) {
+        const std::uint64_t size = table.offsets[i + 1] - table.offsets[i];
+        sizes.least = std::min(sizes.least, size);
+        sizes.most = std::max(sizes.most, size);
+    }
+    sizes.mean = static_cast<double>(table.targets.size()) /
+                 static_cast<double>(table.offsets.size() - 1);
+    return sizes;
+}
+
+double largest_distance(const NeighbourJob& job) {
+    return job.radii.empty() ? job.within : *std::ranges::max_element(job.radii);
+}
+
+} // namespace
+
+std::string NeighbourReport::json(double write_seconds) const {
+    const RowSizes sizes = sizes_of(result.table);
+    Json document{{"version", GEODISK_VERSION_STRING},
+                  {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
+                  {"warnings", warnings_json(warnings)},
+                  {"sources", {{"kind", sources}, {"count", result.table.sources.size()}}},
+                  {"targets", targets},
+                  {"within", largest_distance(job)},
+                  {"nearest", job.nearest == 0 ? Json(nullptr) : Json(job.nearest)},
+                  {"pairs", result.table.targets.size()},
+                  {"per_source", {{"least", sizes.least}, {"mean", sizes.mean}, {"most", sizes.most}}},
+                  {"error", result.error},
+                  {"disks", result.done.run.disks},
+                  {"windows", result.done.run.windows},
+                  {"output", output}};
+    Json run = run_json(result.done, seconds_of(*this, write_seconds));
+    run.erase("guard"); // Of samples.
+    document.update(run);
+    return text_of(document);
+}
+
+std::string NeighbourReport::summary(double write_seconds) const {
+    const RowSizes sizes = sizes_of(result.table);
+    std::ostringstream out;
+    out << mesh_lines("mesh", options.mesh, options.additions(), mesh) << "sources       "
+        << grouped(result.table.sources.size()) << ' ' << sources << '\n'
+        << "neighbours    " << grouped(result.table.targets.size()) << " in all, "
+        << grouped(sizes.least) << " to " << grouped(sizes.most) << " each, "
+        << rounded(sizes.mean, 4) << " on average, among " << targets << '\n'
+        << "within        " << (job.radii.empty() ? "" : "up to ")
+        << rounded(largest_distance(job), 6) << " in mesh units, exact to "
+        << rounded(result.error, 2) << '\n'
+        << run_text(result.done, seconds_of(*this, write_seconds), output, "searching");
+    return out.str();
+}
+
+} // namespace geodisk::tools

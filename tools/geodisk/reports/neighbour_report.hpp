@@ -1,0 +1,26 @@
+// What `neighbours` tells of a search: to people and to programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geodisk/neighbour_run.hpp"
+#include "geodisk/options/mesh_options.hpp"
+
+namespace geodisk::tools {
+
+/// A search that is done, for write_outputs().
+struct NeighbourReport {
+    const MeshOptions& options;
+    const MeshInput& mesh;
+    const std::vector<MeshWarning>& warnings; ///< Of mesh and points.
+    const NeighbourJob& job;
+    const NeighbourResult& result;
+    const std::string& output;
+    std::string sources, targets; ///< What they are.
+
+    std::string json(double write_seconds) const;
+    std::string summary(double write_seconds) const;
+};
+
+} // namespace geodisk::tools
