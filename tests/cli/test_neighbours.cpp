@@ -105,8 +105,8 @@ TEST_CASE("where seams are joined, neighbours name all vertices of the file") {
     CHECK(found(folder, {"split.obj", "--within", "2", "--vertices", "0", "--keep-seams"}) ==
           "source,target,distance\n0,0,0\n0,1,1\n0,2,1.4142\n");
     const auto message = [&](const char* vertex) {
-        const Outcome outcome =
-            run(folder, {"neighbours", "split.obj", "--within", "1", "--vertices", vertex, "-o", "no.csv"});
+        const Outcome outcome = run(folder, {"neighbours", "split.obj", "--within", "1",
+                                             "--vertices", vertex, "-o", "no.csv"});
         CHECK(outcome.status == 2);
         CHECK_FALSE(std::filesystem::exists(folder / "no.csv"));
         return outcome.err;
@@ -150,8 +150,7 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     refused(2, "the distance is too small for this mesh", {"--within", "1e-5"});
     refused(2, "--vertices: 'x' is neither", {"--within", "1", "--vertices", "x"});
     refused(2, "--vertices: '3-1' is neither", {"--within", "1", "--vertices", "3-1"});
-    refused(2, "--vertices contradicts POINTS",
-            {"points.csv", "--within", "1", "--vertices", "1"});
+    refused(2, "--vertices contradicts POINTS", {"points.csv", "--within", "1", "--vertices", "1"});
     refused(2, "--nearest", {"--within", "1", "--nearest", "0"});
     refused(3, "points.csv: point 0: its reach is 0", {"points.csv", "--within", "reach"});
     refused(3, "width", {"points.csv", "--within", "width"});
@@ -161,10 +160,11 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     refused(6, "about 16 pairs are to be expected", {"--within", "9", "--most-pairs", "15"});
     check_fails(folder, 2, "neighbours are written as .npz or .csv",
                 {"neighbours", "square.obj", "--within", "1", "-o", "near.ply"});
-    check_fails(folder, 2, "square.obj", {"neighbours", "square.obj", "--within", "1", "-o",
-                                          "square.obj", "--format", "csv"});
-    check_fails(folder, 2, "points.csv", {"neighbours", "square.obj", "points.csv", "--within", "1",
-                                          "-o", "points.csv"});
+    check_fails(
+        folder, 2, "square.obj",
+        {"neighbours", "square.obj", "--within", "1", "-o", "square.obj", "--format", "csv"});
+    check_fails(folder, 2, "points.csv",
+                {"neighbours", "square.obj", "points.csv", "--within", "1", "-o", "points.csv"});
 }
 
 } // namespace geodisk::test

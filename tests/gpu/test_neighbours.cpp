@@ -114,7 +114,7 @@ void check_as_twin(const PreparedMesh& mesh, const NeighbourQuery& query,
 /// Checks the neighbours of some vertices and random points, among vertices and points. Returns
 /// those of the vertices.
 Neighbours check_mesh(const PreparedMesh& mesh, double within) {
-    std::vector<Sample> sources = expect(vertex_points(mesh));
+    std::vector<Sample> sources = expect(vertex_points(mesh)).points;
     REQUIRE(sources.size() == mesh.vertex_count());
     const std::vector<Point> vertices = points_of(sources);
     std::vector<Sample> some;
@@ -174,8 +174,7 @@ TEST_SUITE("neighbours") {
              {std::pair("torus-knot", 4), std::pair("icosphere", 2), std::pair("plate", 3)}) {
             const TestMesh shape = builtin(name, resolution);
             const PreparedMesh mesh = prepared(shape);
-            std::vector<std::uint32_t> vertices;
-            const std::vector<Sample> all = expect(vertex_points(mesh, &vertices));
+            const std::vector<Sample> all = expect(vertex_points(mesh)).points;
             NeighbourQuery query;
             query.within = std::sqrt(mesh.statistics().area) / 3;
             query.sources = std::span(all).first(8);
@@ -191,7 +190,7 @@ TEST_SUITE("neighbours") {
 
     TEST_CASE("do not depend on memory, kernels or lanes") {
         const PreparedMesh knot = prepared(builtin("torus-knot", 12));
-        const std::vector<Sample> sources = expect(vertex_points(knot));
+        const std::vector<Sample> sources = expect(vertex_points(knot)).points;
         NeighbourQuery query;
         query.sources = sources;
         query.within = 3 * std::sqrt(knot.statistics().area / knot.vertex_count());
@@ -225,7 +224,7 @@ TEST_SUITE("neighbours") {
         query.sources = sources;
         query.radii = radii;
         const Neighbours lists = found(knot, query);
-        const std::vector<Point> vertices = points_of(expect(vertex_points(knot)));
+        const std::vector<Point> vertices = points_of(expect(vertex_points(knot)).points);
         ref::Tolerances tolerances = tight_tolerances();
         GeodesicQuery<double> twin(knot, 11 * least, vertices, tolerances);
         for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -262,7 +261,7 @@ TEST_SUITE("neighbours") {
 
     TEST_CASE("what cannot be asked is refused") {
         const PreparedMesh cube = prepared(builtin("cube", 2));
-        std::vector<Sample> sources = expect(vertex_points(cube));
+        std::vector<Sample> sources = expect(vertex_points(cube)).points;
         NeighbourQuery good;
         good.sources = sources;
         good.within = 0.5;

@@ -29,22 +29,23 @@ void write_neighbours(AtomicFile& file, const SampleTarget& target, const Neighb
         return;
     }
     file.write("source,target,distance\n");
-    write_rows(file, table.targets.size(), [&](std::string& bytes, std::size_t begin,
-                                               std::size_t end) {
-        auto row = static_cast<std::size_t>(std::ranges::upper_bound(table.offsets, begin) -
-                                            table.offsets.begin()) - 1;
-        for (std::size_t i = begin; i < end; ++i) {
-            while (table.offsets[row + 1] <= i) {
-                ++row;
+    write_rows(
+        file, table.targets.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
+            auto row = static_cast<std::size_t>(std::ranges::upper_bound(table.offsets, begin) -
+                                                table.offsets.begin()) -
+                       1;
+            for (std::size_t i = begin; i < end; ++i) {
+                while (table.offsets[row + 1] <= i) {
+                    ++row;
+                }
+                append_number(bytes, table.sources[row]);
+                bytes += ',';
+                append_number(bytes, table.targets[i]);
+                bytes += ',';
+                append_number(bytes, table.distances[i]);
+                bytes += '\n';
             }
-            append_number(bytes, table.sources[row]);
-            bytes += ',';
-            append_number(bytes, table.targets[i]);
-            bytes += ',';
-            append_number(bytes, table.distances[i]);
-            bytes += '\n';
-        }
-    });
+        });
 }
 
 } // namespace geodisk::tools

@@ -1,4 +1,5 @@
-// A search of neighbours on a mesh: its sources and targets by the numbers of the file, and the run.
+// A search of neighbours on a mesh: its sources and targets by the numbers of the file, and the
+// run.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +45,7 @@ struct NeighbourResult {
 
 /// Opens the device where need be and searches. Targets that are vertices are those of the file:
 /// where some are joined, all of them. Throws UserError.
-NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh,
-                                  RunDevice& device, bool is_bounded, ProgressLine& progress);
+NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh, RunDevice& device,
+                                  bool is_bounded, ProgressLine& progress);
 
 } // namespace geodisk::tools

@@ -582,6 +582,66 @@ GEODISK_C_API geodisk_status geodisk_samples_report(const geodisk_samples *sampl
 
 GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
 
+/* ---- Neighbours -------------------------------------------------------------------------------- */
+
+/* What the neighbours of a source are among. */
+typedef int32_t geodisk_neighbour_kind;
+enum {
+    GEODISK_AMONG_VERTICES = 0, /* Vertices of the mesh. Where vertices are joined, all of them. */
+    GEODISK_AMONG_POINTS = 1,   /* geodisk_neighbour_params.points. */
+    GEODISK_AMONG_SOURCES = 2   /* The other sources. */
+};
+
+/* Which neighbours to find. Lengths are in mesh units. */
+typedef struct geodisk_neighbour_params {
+    size_t struct_size;
+    /* Sources: points, or vertices of the mesh. NULL both for all vertices that a face uses. */
+    const geodisk_surface_point *sources;
+    const uint32_t *source_vertices;
+    size_t source_count;
+    double within;        /* A neighbour is at most so far away, along the surface. */
+    const double *radii;  /* The same for each source of its own; NULL if all have `within`. */
+    geodisk_neighbour_kind kind;
+    const geodisk_surface_point *points; /* To find, for GEODISK_AMONG_POINTS. */
+    size_t point_count;
+    uint32_t nearest;     /* Not 0: keep only so many of each source, the nearest ones. */
+    uint64_t most_pairs;  /* Most pairs to find in all; 0 for 2^30. */
+    /* Lowest vertex that each vertex is joined with, if the caller has joined vertices; NULL for
+     * those that geodisk_mesh_create joined. Sources and neighbours are all vertices of a place. */
+    const uint32_t *joined;
+} geodisk_neighbour_params;
+
+/* The neighbours of sources. */
+typedef struct geodisk_neighbours geodisk_neighbours;
+
+/* Finds the neighbours of all sources and waits for the result. It is the same on every device.
+ * `progress` may be NULL, and counts sources as candidates; `user` is passed to it. */
+GEODISK_C_API geodisk_status geodisk_find_neighbours(geodisk_sampler *sampler,
+                                                     const geodisk_mesh *mesh,
+                                                     const geodisk_neighbour_params *params,
+                                                     geodisk_progress_fn progress, void *user,
+                                                     geodisk_neighbours **neighbours,
+                                                     geodisk_error *error);
+
+/* The arrays of neighbours, which live as long as these. The neighbours of source i are those from
+ * offsets[i] up to offsets[i + 1]: by index, or with `nearest` by distance. */
+typedef struct geodisk_neighbour_arrays {
+    size_t struct_size;
+    size_t source_count;
+    size_t pair_count;
+    const uint32_t *vertices;  /* Index of each source's vertex; NULL if sources are points. */
+    const uint64_t *offsets;   /* One more than sources. */
+    const uint32_t *indices;   /* Of each neighbour: of its vertex, point or source. */
+    const float *distances;    /* Of each neighbour, in mesh units; 0 at the source itself. */
+    double error;              /* Distances are at most so far from exact ones, in mesh units. */
+} geodisk_neighbour_arrays;
+
+GEODISK_C_API geodisk_status geodisk_neighbours_describe(const geodisk_neighbours *neighbours,
+                                                         geodisk_neighbour_arrays *arrays,
+                                                         geodisk_error *error);
+
+GEODISK_C_API void geodisk_neighbours_release(geodisk_neighbours *neighbours);
+
 /* ---- Recording --------------------------------------------------------------------------------- */
 
 /* A run in the caller's command buffers and memory, on a borrowed device. It allocates no device

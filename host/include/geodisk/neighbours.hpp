@@ -33,6 +33,9 @@ struct NeighbourQuery {
     std::span<const double> radii{};
     NeighbourKind kind = NeighbourKind::vertices;
     std::span<const Sample> points{}; ///< At least one if `kind` asks for them, up to 2^28.
+    /// If vertices of the mesh are joined, WeldedMesh::vertices. Vertices found are then all those
+    /// of a place, not just the lowest one, which alone the mesh uses.
+    std::span<const std::uint32_t> joined{};
     /// Keep only so many of each source, the nearest ones; 0 for all. Of equally near ones those of
     /// lower index.
     std::uint32_t nearest = 0;
@@ -61,7 +64,7 @@ struct Neighbours {
 /// RunnerOptions say. Progress counts sources as candidates; returns `cancelled` if it asks to
 /// stop.
 ///
-/// Errors: `invalid_argument` for no source, for a source or point, naming it, in a face that does
+/// Errors: `invalid_argument` for no source; for a source or point, naming it, in a face that does
 /// not exist or repeats a vertex or with weights that are negative or do not sum to 1; for a
 /// distance that is not positive and finite; for another number of radii; for an edge longer than
 /// 4,000 times the largest distance. `job_too_large` for more than `most_pairs`, naming how many to
@@ -70,10 +73,16 @@ GEODISK_API Result<Neighbours> find_neighbours(Runner& runner, const PreparedMes
                                                const NeighbourQuery& query,
                                                const ProgressCallback& progress = {}) noexcept;
 
-/// Returns each vertex as a point of one of its faces, in the order of their indices. A vertex
-/// without a face that has three different vertices is left out; `vertices`, if not null, gets the
-/// index of each point's vertex.
-GEODISK_API Result<std::vector<Sample>>
-vertex_points(const PreparedMesh& mesh, std::vector<std::uint32_t>* vertices = nullptr) noexcept;
+/// Vertices as points of a surface.
+struct VertexPoints {
+    std::vector<Sample> points;
+    std::vector<std::uint32_t> vertices; ///< Index of the vertex at each point.
+};
+
+/// Returns each vertex as a point of one of its faces, in the order of their indices. Leaves out
+/// vertices without a face of three different vertices. `joined` is WeldedMesh::vertices: vertices
+/// that are joined have the same point. Empty if none are.
+GEODISK_API Result<VertexPoints> vertex_points(const PreparedMesh& mesh,
+                                               std::span<const std::uint32_t> joined = {}) noexcept;
 
 } // namespace geodisk

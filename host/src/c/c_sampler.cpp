@@ -7,19 +7,6 @@
 #include "c/c_samples.hpp"
 
 namespace geodisk::c {
-namespace {
-
-/// Runs `body(state)` unless another call uses the sampler.
-template <class Body>
-geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, const Body& body) {
-    return answer(error, [&]() -> Result<Done> {
-        if (sampler == nullptr) {
-            return wrong("sampler is NULL");
-        }
-        const std::shared_ptr<SamplerState> state = sampler->shared;
-        return hold(state->is_held, "the sampler", [&]() -> Result<Done> { return body(*state); });
-    });
-}
 
 Error run_in_progress() {
     return Error{Status::busy,
@@ -30,6 +17,18 @@ geodisk_progress progress_of(const Progress& state) {
     return {sizeof(geodisk_progress), state.decided, state.candidates,
             state.accepted,           state.disks,   state.windows};
 }
+
+ProgressCallback SamplerState::callback(geodisk_progress_fn progress, void* user) {
+    return [this, progress, user](const Progress& so_far) {
+        if (is_cancelled || progress == nullptr) {
+            return !is_cancelled;
+        }
+        const geodisk_progress told = progress_of(so_far);
+        return progress(user, &told) == 0;
+    };
+}
+
+namespace {
 
 Result<Done> hand_over(const SamplerState& state, std::shared_ptr<const DomainState> domain,
                        SampleSet set, geodisk_samples** samples) {
@@ -92,17 +91,8 @@ geodisk_status geodisk_sample(geodisk_sampler* sampler, const geodisk_domain* do
             return run_in_progress();
         }
         state.is_cancelled = false;
-        const auto go_on = [&](const Progress& so_far) {
-            if (state.is_cancelled) {
-                return false;
-            }
-            if (progress == nullptr) {
-                return true;
-            }
-            const geodisk_progress told = progress_of(so_far);
-            return progress(user, &told) == 0;
-        };
-        auto set = state.runner.sample_and_wait(*domain->shared->domain, go_on);
+        auto set =
+            state.runner.sample_and_wait(*domain->shared->domain, state.callback(progress, user));
         if (!set) {
             return set.error();
         }

@@ -8,6 +8,7 @@
 #include <geodisk/geodisk.h>
 #include <geodisk/runner.hpp>
 
+#include "c/c_call.hpp"
 #include "c/c_device.hpp"
 #include "c/c_domain.hpp"
 
@@ -23,10 +24,35 @@ struct SamplerState {
     std::atomic<bool> is_cancelled = false;
     std::shared_ptr<const DomainState> running; ///< Domain of the run in progress, if one was
                                                 ///< started.
+
+    /// Returns what tells the caller's function of progress, if there is one, and stops the run
+    /// once it is cancelled.
+    ProgressCallback callback(geodisk_progress_fn progress, void* user);
 };
+
+/// Returns the error of a call that a run in progress does not allow.
+Error run_in_progress();
+
+geodisk_progress progress_of(const Progress& state);
 
 } // namespace geodisk::c
 
 struct geodisk_sampler {
     std::shared_ptr<geodisk::c::SamplerState> shared;
 };
+
+namespace geodisk::c {
+
+/// Runs `body(state)` unless another call uses the sampler.
+template <class Body>
+geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, const Body& body) {
+    return answer(error, [&]() -> Result<Done> {
+        if (sampler == nullptr) {
+            return wrong("sampler is NULL");
+        }
+        const std::shared_ptr<SamplerState> state = sampler->shared;
+        return hold(state->is_held, "the sampler", [&]() -> Result<Done> { return body(*state); });
+    });
+}
+
+} // namespace geodisk::c

@@ -39,9 +39,7 @@ struct NeighbourOptions {
     std::string points, vertices, within, among = "vertices", nearest, most_pairs, tolerance;
 
     /// Returns the file of the points to search; "" for others.
-    std::string searched() const {
-        return among == "vertices" || among == "sources" ? "" : among;
-    }
+    std::string searched() const { return among == "vertices" || among == "sources" ? "" : among; }
 };
 
 /// The distance of all sources, or the column that has one for each.
@@ -55,8 +53,8 @@ Within parsed_within(const NeighbourOptions& options) {
         fail_usage("--within: give the distance within which neighbours are");
     }
     const char first = options.within.front();
-    const bool is_number = (first >= '0' && first <= '9') || first == '+' || first == '-' ||
-                           first == '.';
+    const bool is_number =
+        (first >= '0' && first <= '9') || first == '+' || first == '-' || first == '.';
     if (is_number) {
         return {parse_length("--within", options.within), {}};
     }
@@ -79,9 +77,10 @@ std::vector<std::uint32_t> parsed_vertices(const std::string& text) {
         const std::string item(trimmed(std::string_view(text).substr(begin, end - begin)));
         const std::size_t dash = item.find('-');
         const auto first = parse_integer<std::uint32_t>(std::string_view(item).substr(0, dash));
-        const auto last = dash == std::string::npos
-                              ? first
-                              : parse_integer<std::uint32_t>(std::string_view(item).substr(dash + 1));
+        const auto last =
+            dash == std::string::npos
+                ? first
+                : parse_integer<std::uint32_t>(std::string_view(item).substr(dash + 1));
         if (!first || !last || *last < *first) {
             fail(item);
         }
@@ -172,8 +171,7 @@ void run_neighbours(const NeighbourOptions& options) {
     }
     const std::vector<std::uint32_t> vertices = parsed_vertices(options.vertices);
     constexpr double kMost = 0xffffffffp0;
-    const double nearest =
-        options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
+    const double nearest = options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
     const double pairs =
         options.most_pairs.empty() ? 0 : parse_count("--most-pairs", options.most_pairs);
     RunnerOptions runner;

@@ -31,8 +31,8 @@ RowSizes sizes_of(const NeighbourTable& table) {
         sizes.least = std::min(sizes.least, size);
         sizes.most = std::max(sizes.most, size);
     }
-    sizes.mean = static_cast<double>(table.targets.size()) /
-                 static_cast<double>(table.offsets.size() - 1);
+    sizes.mean =
+        static_cast<double>(table.targets.size()) / static_cast<double>(table.offsets.size() - 1);
     return sizes;
 }
 
@@ -44,19 +44,20 @@ double largest_distance(const NeighbourJob& job) {
 
 std::string NeighbourReport::json(double write_seconds) const {
     const RowSizes sizes = sizes_of(result.table);
-    Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
-                  {"warnings", warnings_json(warnings)},
-                  {"sources", {{"kind", sources}, {"count", result.table.sources.size()}}},
-                  {"targets", targets},
-                  {"within", largest_distance(job)},
-                  {"nearest", job.nearest == 0 ? Json(nullptr) : Json(job.nearest)},
-                  {"pairs", result.table.targets.size()},
-                  {"per_source", {{"least", sizes.least}, {"mean", sizes.mean}, {"most", sizes.most}}},
-                  {"error", result.error},
-                  {"disks", result.done.run.disks},
-                  {"windows", result.done.run.windows},
-                  {"output", output}};
+    Json document{
+        {"version", GEODISK_VERSION_STRING},
+        {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
+        {"warnings", warnings_json(warnings)},
+        {"sources", {{"kind", sources}, {"count", result.table.sources.size()}}},
+        {"targets", targets},
+        {"within", largest_distance(job)},
+        {"nearest", job.nearest == 0 ? Json(nullptr) : Json(job.nearest)},
+        {"pairs", result.table.targets.size()},
+        {"per_source", {{"least", sizes.least}, {"mean", sizes.mean}, {"most", sizes.most}}},
+        {"error", result.error},
+        {"disks", result.done.run.disks},
+        {"windows", result.done.run.windows},
+        {"output", output}};
     Json run = run_json(result.done, seconds_of(*this, write_seconds));
     run.erase("guard"); // Of samples.
     document.update(run);

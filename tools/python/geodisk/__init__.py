@@ -24,6 +24,7 @@ from ._errors import (
 from ._library import version
 from ._many import sample_many
 from ._mesh import Mesh
+from ._neighbours import Neighbours, neighbours
 from ._picture import Picture, render
 from ._reading import read
 from ._sample import Sample
@@ -43,6 +44,7 @@ __all__ = [
     "Mesh",
     "MeshRejected",
     "MeshWarning",
+    "Neighbours",
     "NoDevice",
     "NoProgram",
     "OutOfMemory",
@@ -51,6 +53,7 @@ __all__ = [
     "Samples",
     "Verification",
     "devices",
+    "neighbours",
     "read",
     "render",
     "sample",

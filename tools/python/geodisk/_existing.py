@@ -26,7 +26,7 @@ def existing_of(surface: Surface, existing: ExistingLike | None) -> NDArray[Any]
     """Returns the samples to keep as the library takes them; none for None."""
     if existing is None:
         return np.empty(0, POINT)
-    return _points_of(surface, existing, "existing")
+    return points_of(surface, existing, "existing")
 
 
 def avoided_of(
@@ -37,14 +37,15 @@ def avoided_of(
         return np.empty(0, POINT), np.empty(0)
     if not isinstance(avoid, (tuple, list)) or len(avoid) != 2:
         raise TypeError("avoid is a pair: points, as for existing, and their radius or radii")
-    points = _points_of(surface, avoid[0], "avoid")
+    points = points_of(surface, avoid[0], "avoid")
     radii = real(avoid[1], "avoid").astype(np.float64)
     if radii.ndim > 0 and radii.shape != points.shape:
         raise e.invalid(f"avoid has {len(points)} points and radii of the shape {radii.shape}")
     return points, np.ascontiguousarray(np.broadcast_to(radii, points.shape))
 
 
-def _points_of(surface: Surface, given: ExistingLike, name: str) -> NDArray[Any]:
+def points_of(surface: Surface, given: ExistingLike, name: str) -> NDArray[Any]:
+    """Returns points as the library takes them."""
     if isinstance(given, Samples):
         if given.face_index is None or given.barycentric is None:
             raise e.invalid(

@@ -126,24 +126,24 @@ def _read(
         for index, name in enumerate(names):
             values = ctypes.POINTER(kind)()
             c.call(f"geodisk_source_{what}", handle.value, index, ctypes.byref(values))
-            views[name] = _view(values, (count,), handle)
+            views[name] = view_of(values, (count,), handle)
         return views
 
     return Source(
-        vertices=_view(arrays.positions, (arrays.vertex_count, arrays.dimension), handle),
-        triangles=_view(arrays.triangles, (arrays.triangle_count, 3), handle),
-        polygons=_view(arrays.polygons, (arrays.triangle_count,), handle)
+        vertices=view_of(arrays.positions, (arrays.vertex_count, arrays.dimension), handle),
+        triangles=view_of(arrays.triangles, (arrays.triangle_count, 3), handle),
+        polygons=view_of(arrays.polygons, (arrays.triangle_count,), handle)
         if arrays.polygons
         else None,
         attributes=named("attribute", ctypes.c_double, attributes, arrays.vertex_count),
         handle=handle,
-        joined=_view(arrays.joined, (arrays.vertex_count,), handle) if arrays.joined else None,
+        joined=view_of(arrays.joined, (arrays.vertex_count,), handle) if arrays.joined else None,
         joined_edges=arrays.joined_edges,
         columns=named("column", ctypes.c_uint32, columns, arrays.triangle_count),
     )
 
 
-def _view(pointer: Any, shape: tuple[int, ...], handle: c.Handle) -> NDArray[Any]:
+def view_of(pointer: Any, shape: tuple[int, ...], handle: c.Handle) -> NDArray[Any]:
     """Returns the memory as an array that cannot be written, and keeps `handle`."""
     count = int(np.prod(shape))
     memory: Any = (pointer._type_ * count).from_address(

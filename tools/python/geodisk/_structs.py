@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from ctypes import (
+    CFUNCTYPE,
     POINTER,
     Structure,
     c_char,
     c_char_p,
     c_double,
+    c_float,
     c_int32,
     c_size_t,
     c_uint8,
@@ -21,6 +23,8 @@ from typing import Any
 FLOAT64, FLOAT32, UINT32, UINT16 = range(4)
 FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART, CLASS = range(7)
 METRICS = {"geodesic": 0, "euclidean": 1, "approximate": 2}
+AMONG = {"vertices": 0, "sources": 2}
+AMONG_POINTS = 1
 NO_ELEMENT = 2**64 - 1
 
 
@@ -162,6 +166,9 @@ class Progress(_Sized):
     ]
 
 
+PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, POINTER(Progress))
+
+
 class Report(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -185,6 +192,36 @@ class Report(_Sized):
         ("is_certified", c_int32),
         ("maximal_cells", c_uint64),
         ("largest_gap", c_double),
+    ]
+
+
+class NeighbourParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("sources", c_void_p),
+        ("source_vertices", c_void_p),
+        ("source_count", c_size_t),
+        ("within", c_double),
+        ("radii", c_void_p),
+        ("kind", c_int32),
+        ("points", c_void_p),
+        ("point_count", c_size_t),
+        ("nearest", c_uint32),
+        ("most_pairs", c_uint64),
+        ("joined", c_void_p),
+    ]
+
+
+class NeighbourArrays(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("source_count", c_size_t),
+        ("pair_count", c_size_t),
+        ("vertices", POINTER(c_uint32)),
+        ("offsets", POINTER(c_uint64)),
+        ("indices", POINTER(c_uint32)),
+        ("distances", POINTER(c_float)),
+        ("error", c_double),
     ]
 
 

@@ -13,6 +13,7 @@
 #include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
+#include "engine/neighbours/joined_vertices.hpp"
 #include "engine/neighbours/neighbour_lists.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/runner_impl.hpp"
@@ -49,6 +50,19 @@ Result<Done> check_points(const PreparedMesh& mesh, const char* name,
     return Done{};
 }
 
+Result<Done> check_joined(const PreparedMesh& mesh, std::span<const std::uint32_t> joined) {
+    if (!joined.empty() && joined.size() != mesh.vertex_count()) {
+        return invalid("joined vertices are told for " + std::to_string(joined.size()) +
+                       " vertices, but there are " + std::to_string(mesh.vertex_count()));
+    }
+    const auto wrong = std::ranges::find_if(
+        joined, [&](std::uint32_t to) { return to >= joined.size() || joined[to] != to; });
+    return wrong == joined.end()
+               ? Result<Done>(Done{})
+               : invalid("vertex " + std::to_string(wrong - joined.begin()) +
+                         " is joined with one that is joined itself, or that there is not");
+}
+
 Result<Done> check_query(const PreparedMesh& mesh, const NeighbourQuery& query) {
     const auto is_length = [](double length) { return length > 0 && std::isfinite(length); };
     if (query.sources.empty()) {
@@ -71,7 +85,8 @@ Result<Done> check_query(const PreparedMesh& mesh, const NeighbourQuery& query) 
     if (query.kind == NeighbourKind::points && query.points.empty()) {
         return invalid("there is no point among which neighbours are");
     }
-    auto checked = check_points(mesh, "source", query.sources);
+    auto checked = check_joined(mesh, query.joined);
+    checked = checked ? check_points(mesh, "source", query.sources) : checked;
     return checked && query.kind == NeighbourKind::points
                ? check_points(mesh, "point", query.points)
                : checked;
@@ -243,6 +258,9 @@ Result<Neighbours> Search::go() {
         }
     }
     Neighbours neighbours = lists_.take();
+    if (query_.kind == NeighbourKind::vertices && !query_.joined.empty()) {
+        name_joined(query_.joined, query_.nearest, neighbours);
+    }
     neighbours.error = ErrorModel(frame_).error_of(report_.longest_chain) * frame_.unit;
     neighbours.report = report_;
     return neighbours;
@@ -274,29 +292,27 @@ Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
     });
 }
 
-Result<std::vector<Sample>> vertex_points(const PreparedMesh& mesh,
-                                          std::vector<std::uint32_t>* vertices) noexcept {
-    return guarded([&]() -> Result<std::vector<Sample>> {
-        std::vector<Sample> points;
-        if (vertices != nullptr) {
-            vertices->clear();
+Result<VertexPoints> vertex_points(const PreparedMesh& mesh,
+                                   std::span<const std::uint32_t> joined) noexcept {
+    return guarded([&]() -> Result<VertexPoints> {
+        if (auto checked = check_joined(mesh, joined); !checked) {
+            return checked.error();
         }
+        VertexPoints found;
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-            const VertexFan& fan = mesh.fans()[v];
+            const VertexFan& fan = mesh.fans()[joined.empty() ? v : joined[v]];
             for (const std::uint32_t h :
                  mesh.corners().subspan(fan.first_corner, fan.corner_count)) {
                 Sample point{h / 3, {0, 0, 0}};
                 point.weights[h % 3] = 1;
                 if (fault_of(point, mesh).empty()) {
-                    points.push_back(point);
-                    if (vertices != nullptr) {
-                        vertices->push_back(v);
-                    }
+                    found.points.push_back(point);
+                    found.vertices.push_back(v);
                     break;
                 }
             }
         }
-        return points;
+        return found;
     });
 }
 

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/neighbours.hpp>
+
+#include "c/c_call.hpp"
+#include "c/c_mesh.hpp"
+#include "c/c_sampler.hpp"
+
+/// Immutable.
+struct geodisk_neighbours {
+    geodisk::Neighbours lists;
+    std::vector<std::uint32_t> vertices; ///< Of each source; empty if sources are points.
+};
+
+namespace geodisk::c {
+namespace {
+
+/// Where the sources are.
+struct Sources {
+    std::vector<Sample> points;
+    std::vector<std::uint32_t> vertices;
+};
+
+std::vector<Sample> samples_of(const geodisk_surface_point* points, std::size_t count) {
+    std::vector<Sample> samples;
+    samples.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        samples.push_back(
+            {points[i].face, {points[i].weights[0], points[i].weights[1], points[i].weights[2]}});
+    }
+    return samples;
+}
+
+std::span<const std::uint32_t> joined_of(const Mesh& mesh,
+                                         const geodisk_neighbour_params& params) {
+    return params.joined == nullptr ? std::span<const std::uint32_t>(mesh.joined)
+                                    : std::span(params.joined, mesh.prepared.vertex_count());
+}
+
+Result<Sources> sources_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
+    if (params.sources != nullptr && params.source_vertices != nullptr) {
+        return wrong("params->sources and params->source_vertices contradict each other");
+    }
+    if (params.sources != nullptr) {
+        return Sources{samples_of(params.sources, params.source_count), {}};
+    }
+    auto all = vertex_points(mesh.prepared, joined_of(mesh, params));
+    if (!all) {
+        return all.error();
+    }
+    if (params.source_vertices == nullptr) {
+        return Sources{std::move(all->points), std::move(all->vertices)};
+    }
+    Sources sources;
+    for (std::size_t i = 0; i < params.source_count; ++i) {
+        const std::uint32_t vertex = params.source_vertices[i];
+        const auto at = std::ranges::lower_bound(all->vertices, vertex);
+        if (at == all->vertices.end() || *at != vertex) {
+            return wrong("source " + std::to_string(i) + " is vertex " + std::to_string(vertex) +
+                         ", which no face uses");
+        }
+        sources.points.push_back(all->points[static_cast<std::size_t>(at - all->vertices.begin())]);
+        sources.vertices.push_back(vertex);
+    }
+    return sources;
+}
+
+Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
+    switch (kind) {
+    case GEODISK_AMONG_VERTICES:
+        return NeighbourKind::vertices;
+    case GEODISK_AMONG_POINTS:
+        return NeighbourKind::points;
+    case GEODISK_AMONG_SOURCES:
+        return NeighbourKind::sources;
+    default:
+        return wrong("params->kind is no geodisk_neighbour_kind");
+    }
+}
+
+Result<geodisk_neighbours*> found(SamplerState& state, const Mesh& mesh,
+                                  const geodisk_neighbour_params& params,
+                                  const ProgressCallback& progress) {
+    const auto kind = kind_of(params.kind);
+    if (!kind) {
+        return kind.error();
+    }
+    auto sources = sources_of(mesh, params);
+    if (!sources) {
+        return sources.error();
+    }
+    if (params.points == nullptr && params.point_count != 0) {
+        return wrong("params->points is NULL");
+    }
+    const std::vector<Sample> points = samples_of(params.points, params.point_count);
+    NeighbourQuery query;
+    query.sources = sources->points;
+    query.within = params.within;
+    if (params.radii != nullptr) {
+        query.radii = std::span(params.radii, sources->points.size());
+    }
+    query.kind = *kind;
+    query.points = points;
+    query.joined = joined_of(mesh, params);
+    query.nearest = params.nearest;
+    query.most_pairs = params.most_pairs == 0 ? query.most_pairs : params.most_pairs;
+    auto lists = find_neighbours(state.runner, mesh.prepared, query, progress);
+    if (!lists) {
+        return lists.error();
+    }
+    if (const auto checked = state.device->check_validation(); !checked) {
+        return checked.error();
+    }
+    return new geodisk_neighbours{std::move(*lists), std::move(sources->vertices)};
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_find_neighbours(geodisk_sampler* sampler, const geodisk_mesh* mesh,
+                                       const geodisk_neighbour_params* params,
+                                       geodisk_progress_fn progress, void* user,
+                                       geodisk_neighbours** neighbours, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (mesh == nullptr || neighbours == nullptr) {
+            return wrong("mesh or neighbours is NULL");
+        }
+        const auto wanted = taken(params, "params");
+        if (!wanted) {
+            return wanted.error();
+        }
+        if (state.running) {
+            return run_in_progress();
+        }
+        state.is_cancelled = false;
+        const auto made =
+            found(state, *mesh->shared, *wanted, state.callback(progress, user));
+        if (!made) {
+            return made.error();
+        }
+        *neighbours = *made;
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_neighbours_describe(const geodisk_neighbours* neighbours,
+                                           geodisk_neighbour_arrays* arrays,
+                                           geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (neighbours == nullptr) {
+            return wrong("neighbours is NULL");
+        }
+        const Neighbours& lists = neighbours->lists;
+        geodisk_neighbour_arrays value{};
+        value.source_count = lists.offsets.size() - 1;
+        value.pair_count = lists.indices.size();
+        value.vertices = neighbours->vertices.empty() ? nullptr : neighbours->vertices.data();
+        value.offsets = lists.offsets.data();
+        value.indices = lists.indices.data();
+        value.distances = lists.distances.data();
+        value.error = lists.error;
+        return give(arrays, "arrays", value);
+    });
+}
+
+void geodisk_neighbours_release(geodisk_neighbours* neighbours) {
+    delete neighbours;
+}
+
+} // extern "C"

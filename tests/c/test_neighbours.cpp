@@ -1,0 +1,152 @@
+// Neighbours by the C API are those of the C++ API.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <geodisk/neighbours.hpp>
+#include <geodisk/runner.hpp>
+
+#include "c/api.hpp"
+#include "device_run.hpp"
+
+namespace geodisk::test {
+namespace {
+
+struct Release {
+    void operator()(geodisk_neighbours* neighbours) const {
+        geodisk_neighbours_release(neighbours);
+    }
+};
+using Lists = std::unique_ptr<geodisk_neighbours, Release>;
+
+geodisk_neighbour_params params_within(double within) {
+    geodisk_neighbour_params params{};
+    params.struct_size = sizeof params;
+    params.within = within;
+    return params;
+}
+
+Lists found(const geodisk_mesh* mesh, const geodisk_neighbour_params& params) {
+    geodisk_neighbours* lists = nullptr;
+    geodisk_error error{};
+    error.struct_size = sizeof error;
+    const geodisk_status status = geodisk_find_neighbours(shared_sampler(), mesh, &params, nullptr,
+                                                          nullptr, &lists, &error);
+    INFO(error.message);
+    REQUIRE(status == GEODISK_OK);
+    return Lists(lists);
+}
+
+geodisk_neighbour_arrays arrays_of(const Lists& lists) {
+    geodisk_neighbour_arrays arrays{};
+    arrays.struct_size = sizeof arrays;
+    REQUIRE(geodisk_neighbours_describe(lists.get(), &arrays, nullptr) == GEODISK_OK);
+    return arrays;
+}
+
+std::string refusal(const geodisk_mesh* mesh, const geodisk_neighbour_params& params,
+                    geodisk_progress_fn progress = nullptr) {
+    geodisk_neighbours* lists = nullptr;
+    geodisk_error error{};
+    error.struct_size = sizeof error;
+    CHECK(geodisk_find_neighbours(shared_sampler(), mesh, &params, progress, nullptr, &lists,
+                                  &error) != GEODISK_OK);
+    CHECK(lists == nullptr);
+    return error.message;
+}
+
+} // namespace
+
+TEST_CASE("neighbours are those of C++") {
+    const TestMesh shape = builtin("torus-knot", 8);
+    const PreparedMesh prepared_mesh = prepared(shape);
+    const VertexPoints vertices = expect(vertex_points(prepared_mesh));
+    NeighbourQuery query;
+    query.sources = vertices.points;
+    query.within = 0.3;
+    Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+    const Neighbours expected = expect(find_neighbours(runner, prepared_mesh, query));
+
+    const auto mesh = mesh_of(shape);
+    const Lists lists = found(mesh.get(), params_within(0.3));
+    const geodisk_neighbour_arrays arrays = arrays_of(lists);
+    REQUIRE(arrays.source_count == vertices.points.size());
+    REQUIRE(arrays.pair_count == expected.indices.size());
+    CHECK(std::vector(arrays.vertices, arrays.vertices + arrays.source_count) ==
+          vertices.vertices);
+    CHECK(std::vector(arrays.offsets, arrays.offsets + arrays.source_count + 1) ==
+          expected.offsets);
+    CHECK(std::vector(arrays.indices, arrays.indices + arrays.pair_count) == expected.indices);
+    CHECK(std::vector(arrays.distances, arrays.distances + arrays.pair_count) ==
+          expected.distances);
+    CHECK(arrays.error == expected.error);
+
+    geodisk_neighbour_params some = params_within(0.3);
+    const std::uint32_t wanted[] = {7, 3};
+    some.source_vertices = wanted;
+    some.source_count = 2;
+    some.kind = GEODISK_AMONG_SOURCES;
+    CHECK(arrays_of(found(mesh.get(), some)).pair_count <= 2);
+    some.kind = GEODISK_AMONG_VERTICES;
+    some.nearest = 1; // Itself.
+    const Lists few = found(mesh.get(), some);
+    CHECK(arrays_of(few).indices[0] == 7);
+    CHECK(arrays_of(few).indices[1] == 3);
+    CHECK(arrays_of(few).distances[1] == 0);
+}
+
+TEST_CASE("neighbours among points, with distances of their own") {
+    const auto mesh = mesh_of(builtin("cube", 2));
+    const geodisk_surface_point points[] = {{0, {1, 0, 0}}, {0, {0, 1, 0}}, {1, {0, 0, 1}}};
+    const double radii[] = {0.01, 9, 9};
+    geodisk_neighbour_params params = params_within(0);
+    params.sources = params.points = points;
+    params.source_count = params.point_count = 3;
+    params.radii = radii;
+    params.kind = GEODISK_AMONG_POINTS;
+    const Lists lists = found(mesh.get(), params);
+    const geodisk_neighbour_arrays arrays = arrays_of(lists);
+    CHECK(arrays.vertices == nullptr);
+    CHECK(arrays.offsets[1] >= 1);
+    CHECK(arrays.offsets[2] - arrays.offsets[1] == 3);
+    params.kind = GEODISK_AMONG_SOURCES;
+    CHECK(arrays_of(found(mesh.get(), params)).offsets[3] <= 6);
+}
+
+TEST_CASE("neighbours that cannot be found are refused") {
+    const auto mesh = mesh_of(builtin("cube", 2));
+    geodisk_neighbour_params params = params_within(0);
+    CHECK(refusal(mesh.get(), params).find("which is not positive and finite") !=
+          std::string::npos);
+    params = params_within(1);
+    params.kind = 7;
+    CHECK(refusal(mesh.get(), params) == "params->kind is no geodisk_neighbour_kind");
+    params = params_within(1);
+    const std::uint32_t vertex = 26;
+    params.source_vertices = &vertex;
+    params.source_count = 1;
+    CHECK(refusal(mesh.get(), params) ==
+          "source 0 is vertex 26, which no face uses");
+    const geodisk_surface_point point{};
+    params.sources = &point;
+    CHECK(refusal(mesh.get(), params) ==
+          "params->sources and params->source_vertices contradict each other");
+    params = params_within(1);
+    params.point_count = 2;
+    CHECK(refusal(mesh.get(), params) == "params->points is NULL");
+    params = params_within(1);
+    params.most_pairs = 3;
+    CHECK(refusal(mesh.get(), params).find("pairs are to be expected") != std::string::npos);
+    CHECK(refusal(nullptr, params_within(1)) == "mesh or neighbours is NULL");
+    CHECK(refusal(mesh.get(), params_within(1), [](void*, const geodisk_progress*) {
+              return 1;
+          }) == "cancelled");
+    CHECK(geodisk_neighbours_describe(nullptr, nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
+    geodisk_neighbours_release(nullptr);
+}
+
+} // namespace geodisk::test

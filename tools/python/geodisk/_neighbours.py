@@ -1,0 +1,252 @@
+"""What is near each vertex or point of a mesh, along the surface."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref
+from dataclasses import dataclass
+from typing import Any, Iterator, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._arrays import indices, real
+from ._background import interruptible
+from ._devices import DeviceLike, forget, name_of, sampler_on
+from ._existing import ExistingLike, points_of
+from ._mesh import Mesh, mesh_of
+from ._protocols import Faces, MeshLike
+from ._running import Bar, ProgressCallback
+from ._samples import Samples
+from ._source import view_of
+from ._values import integer
+
+#: Vertices, by their indices, or points as of ExistingLike.
+SourcesLike = Union[ArrayLike, ExistingLike]
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """The neighbours of each source, one source after the other (CSR).
+
+    Attributes
+    ----------
+    sources : ndarray of uint32, shape (n,), or None
+        Index of the vertex of each source. None if sources are points.
+    offsets : ndarray of uint64, shape (n + 1,)
+        Where the neighbours of each source begin, and the end of the last.
+    indices : ndarray of uint32, shape (pairs,)
+        Index of each neighbour: of its vertex, point or source.
+    distances : ndarray of float32, shape (pairs,)
+        Geodesic distance of each neighbour; 0 for a vertex or point at the source itself.
+    error : float
+        Distances are at most so far from exact ones on the mesh.
+
+    Notes
+    -----
+    ``neighbours[i]`` is the pair of indices and distances of source i.
+    ``scipy.sparse.csr_matrix((n.distances, n.indices, n.offsets))`` makes a sparse matrix.
+    """
+
+    sources: NDArray[np.uint32] | None
+    offsets: NDArray[np.uint64]
+    indices: NDArray[np.uint32]
+    distances: NDArray[np.float32]
+    error: float
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, source: int) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
+        if not -len(self) <= source < len(self):
+            raise IndexError(f"source {source} of {len(self)}")
+        row = source % len(self)
+        part = slice(int(self.offsets[row]), int(self.offsets[row + 1]))
+        return self.indices[part], self.distances[part]
+
+    def __iter__(self) -> Iterator[tuple[NDArray[np.uint32], NDArray[np.float32]]]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        return f"<geodisk.Neighbours of {len(self)} sources, {len(self.indices)} pairs>"
+
+
+def neighbours(
+    vertices: ArrayLike | MeshLike,
+    faces: Faces | None = None,
+    sources: SourcesLike | None = None,
+    *,
+    within: float | ArrayLike,
+    among: str | ExistingLike = "vertices",
+    nearest: int = 0,
+    most_pairs: int = 2**30,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+    keep_seams: bool = False,
+    mesh_format: str | None = None,
+    device: DeviceLike | None = None,
+    progress: bool | ProgressCallback = False,
+) -> Neighbours:
+    """Returns what is within a distance of each source, along the surface, and how far it is.
+
+    Parameters
+    ----------
+    vertices, faces, edge_lengths, weld, keep_seams, mesh_format
+        The mesh, as for :class:`Mesh`.
+    sources : array_like of int, Samples, or a pair of face_index and barycentric, optional
+        Vertices by their indices, or points. By default all vertices that a triangle uses.
+    within : float, or array_like of float, shape (n,)
+        Distance in units of the mesh: one, or one for each source.
+    among : {"vertices", "sources"}, Samples, or a pair of face_index and barycentric
+        What to find: vertices of the mesh, the other sources, or points. Where seams are joined,
+        all vertices of a place are found.
+    nearest : int
+        If not 0, keep only so many of each source: the nearest ones, in the order of their
+        distances. Otherwise the neighbours of a source are in the order of their indices.
+    most_pairs : int
+        Fail as soon as more pairs are to be expected in all.
+    device, progress
+        As for :func:`sample`; progress counts sources. A callback is called on another thread.
+
+    Returns
+    -------
+    Neighbours
+
+    Raises
+    ------
+    InvalidArgument, TypeError
+        For values out of range, and arrays of a wrong type or shape.
+    OutOfMemory
+        For more than `most_pairs`.
+    Others as :func:`sample`.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]]
+    >>> near = geodisk.neighbours(*square, within=1.2)
+    >>> near[0][0].tolist()
+    [0, 1, 3]
+    >>> float(near[0][1][1])
+    1.0
+    """
+    mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams, mesh_format=mesh_format)
+    params = s.NeighbourParams(
+        nearest=integer(nearest, "nearest", 2**32 - 1),
+        most_pairs=integer(most_pairs, "most_pairs", 2**64 - 1),
+    )
+    kept: list[NDArray[Any]] = []  # What the library reads.
+
+    def address(array: NDArray[Any]) -> int:
+        kept.append(array)
+        return int(array.ctypes.data)
+
+    count = _set_sources(params, mesh, sources, address)
+    _set_within(params, within, count, address)
+    if isinstance(among, str):
+        if among not in s.AMONG:
+            raise e.invalid(f"among is {among!r}, none of {', '.join(s.AMONG)}, nor points")
+        params.kind = s.AMONG[among]
+    else:
+        points = points_of(mesh._surface, among, "among")
+        params.kind = s.AMONG_POINTS
+        params.points, params.point_count = address(points), len(points)
+    if mesh._surface.joined is not None:
+        params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
+    return _arrays_of(_found(mesh, params, name_of(device), progress))
+
+
+def _set_sources(
+    params: s.NeighbourParams, mesh: Mesh, sources: Any, address: Any
+) -> int | None:
+    """Returns the number of sources, None if these are all vertices."""
+    if sources is None:
+        return None
+    is_pair = isinstance(sources, tuple) and len(sources) == 2 and np.ndim(sources[1]) == 2
+    if isinstance(sources, Samples) or is_pair:
+        points = points_of(mesh._surface, sources, "sources")
+        params.sources, params.source_count = address(points), len(points)
+        return len(points)
+    chosen = indices(sources, "sources").astype(np.uint32)
+    if chosen.ndim != 1 or chosen.size == 0:
+        raise e.invalid(f"sources have the shape {chosen.shape}, not (n,) with n of at least 1")
+    params.source_vertices, params.source_count = address(chosen), len(chosen)
+    return len(chosen)
+
+
+def _set_within(
+    params: s.NeighbourParams, within: float | ArrayLike, count: int | None, address: Any
+) -> None:
+    distances = real(within, "within").astype(np.float64)
+    if distances.ndim == 0:
+        params.within = float(distances)
+        return
+    if count is None:
+        raise e.invalid("within is an array, so give the sources that it belongs to")
+    if distances.shape != (count,):
+        raise e.invalid(f"within has the shape {distances.shape}, but there are {count} sources")
+    params.radii = address(np.ascontiguousarray(distances))
+
+
+def _found(
+    mesh: Mesh, params: s.NeighbourParams, device: str, progress: bool | ProgressCallback
+) -> c.Handle:
+    bar = Bar() if progress is True else None
+    report = bar if bar is not None else (progress if callable(progress) else None)
+    failure: list[BaseException] = []
+
+    def search(stop: ctypes.c_int32) -> c.Handle:
+        def hear(_: Any, told: Any) -> int:
+            if report is None or stop.value:
+                return int(stop.value)
+            try:
+                state = told.contents
+                answer = report(state.decided / max(1, state.candidates), state.accepted)
+            except BaseException as raised:
+                failure.append(raised)
+                return 1
+            return int(isinstance(answer, (bool, np.bool_)) and not answer)
+
+        with sampler_on(device) as sampler:
+            return c.Handle(
+                "neighbours",
+                "geodisk_find_neighbours",
+                sampler,
+                mesh._handle.value,
+                byref(params),
+                s.PROGRESS_FN(hear),
+                None,
+            )
+
+    try:
+        return interruptible(search)
+    except e.Cancelled:
+        if failure:
+            raise failure[0] from None
+        raise e.Cancelled("the progress callback returned False", "cancelled") from None
+    except e.DeviceLost:
+        forget(device)
+        raise
+    finally:
+        if bar is not None:
+            bar.close()
+
+
+def _arrays_of(handle: c.Handle) -> Neighbours:
+    """Returns the arrays, which keep the library's object alive."""
+    told = s.NeighbourArrays()
+    c.call("geodisk_neighbours_describe", handle.value, byref(told))
+
+    def view(pointer: Any, count: int, dtype: Any) -> NDArray[Any]:
+        return view_of(pointer, (count,), handle) if count else np.empty(0, dtype)
+
+    return Neighbours(
+        view(told.vertices, told.source_count, np.uint32) if told.vertices else None,
+        view(told.offsets, told.source_count + 1, np.uint64),
+        view(told.indices, told.pair_count, np.uint32),
+        view(told.distances, told.pair_count, np.float32),
+        told.error,
+    )
