@@ -194,7 +194,8 @@ TEST_CASE("points of other programs are put on the nearest face") {
         run(folder, {"verify", "cube.ply", "points.csv", "-d", ".3", "--tolerance", "1.5e-7"});
     CHECK(far.status == 1);
     CHECK(contains(far.out, "sample 1: 2e-07 away from the surface"));
-    CHECK(contains(far.err, "1 point lies farther off the mesh than --tolerance allows"));
+    CHECK(contains(far.err, "1 point lies farther off the mesh than --tolerance allows. Give the "
+                            "mesh that the points were made on, or raise --tolerance"));
     check_fails(folder, 2, "--tolerance",
                 {"verify", "cube.ply", "points.csv", "-d", ".3", "--tolerance", "far"});
     // Other commands take no point that lies elsewhere.

@@ -34,6 +34,15 @@ def test_every_guide_is_told_of():
         assert f"`tools/examples/guides/{program.name}`" in page, program.name
 
 
+def test_samplers_of_other_projects_are_there():
+    """tools/bench/peers names functions of peer_samplers.py and calls them by name."""
+    peers = (SOURCE / "tools/bench/peers").read_text()
+    functions = re.findall(r"^def (\w+)\(mesh, count, distance, seed\):",
+                           (SOURCE / "tools/bench/peer_samplers.py").read_text(), re.M)
+    named = re.findall(r'^    Peer\("(\w+)"', peers, re.M)
+    assert len(named) >= 8 and sorted(named) == sorted(functions)
+
+
 def pages():
     folders = (".github", "host", "kernels_ref", "shaders", "tests", "tools")
     return [*SOURCE.glob("*.md"), *(page for name in folders for page in (SOURCE / name).rglob("*.md"))]

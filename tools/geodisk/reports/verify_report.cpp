@@ -218,6 +218,9 @@ std::string fault_text(const SampleCheck& check) {
                    std::string("the set is not maximal, a sample fits in ") +
                    uncovered_text(*check.gaps, check.mesh);
     }
+    if (!check.strays.empty() && !check.samples.has_faces) {
+        message += ". Give the mesh that the points were made on, or raise --tolerance";
+    }
     return message;
 }
 
