@@ -34,8 +34,8 @@ Lists found(const geodisk_mesh* mesh, const geodisk_neighbour_params& params) {
     geodisk_neighbours* lists = nullptr;
     geodisk_error error{};
     error.struct_size = sizeof error;
-    const geodisk_status status = geodisk_find_neighbours(shared_sampler(), mesh, &params, nullptr,
-                                                          nullptr, &lists, &error);
+    const geodisk_status status =
+        geodisk_find_neighbours(shared_sampler(), mesh, &params, nullptr, nullptr, &lists, &error);
     INFO(error.message);
     REQUIRE(status == GEODISK_OK);
     return Lists(lists);
@@ -76,8 +76,7 @@ TEST_CASE("neighbours are those of C++") {
     const geodisk_neighbour_arrays arrays = arrays_of(lists);
     REQUIRE(arrays.source_count == vertices.points.size());
     REQUIRE(arrays.pair_count == expected.indices.size());
-    CHECK(std::vector(arrays.vertices, arrays.vertices + arrays.source_count) ==
-          vertices.vertices);
+    CHECK(std::vector(arrays.vertices, arrays.vertices + arrays.source_count) == vertices.vertices);
     CHECK(std::vector(arrays.offsets, arrays.offsets + arrays.source_count + 1) ==
           expected.offsets);
     CHECK(std::vector(arrays.indices, arrays.indices + arrays.pair_count) == expected.indices);
@@ -129,8 +128,7 @@ TEST_CASE("neighbours that cannot be found are refused") {
     const std::uint32_t vertex = 26;
     params.source_vertices = &vertex;
     params.source_count = 1;
-    CHECK(refusal(mesh.get(), params) ==
-          "source 0 is vertex 26, which no face uses");
+    CHECK(refusal(mesh.get(), params) == "source 0 is vertex 26, which no face uses");
     const geodisk_surface_point point{};
     params.sources = &point;
     CHECK(refusal(mesh.get(), params) ==
@@ -142,9 +140,8 @@ TEST_CASE("neighbours that cannot be found are refused") {
     params.most_pairs = 3;
     CHECK(refusal(mesh.get(), params).find("pairs are to be expected") != std::string::npos);
     CHECK(refusal(nullptr, params_within(1)) == "mesh or neighbours is NULL");
-    CHECK(refusal(mesh.get(), params_within(1), [](void*, const geodisk_progress*) {
-              return 1;
-          }) == "cancelled");
+    CHECK(refusal(mesh.get(), params_within(1), [](void*, const geodisk_progress*) { return 1; }) ==
+          "cancelled");
     CHECK(geodisk_neighbours_describe(nullptr, nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
     geodisk_neighbours_release(nullptr);
 }

@@ -35,8 +35,7 @@ std::vector<Sample> samples_of(const geodisk_surface_point* points, std::size_t 
     return samples;
 }
 
-std::span<const std::uint32_t> joined_of(const Mesh& mesh,
-                                         const geodisk_neighbour_params& params) {
+std::span<const std::uint32_t> joined_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
     return params.joined == nullptr ? std::span<const std::uint32_t>(mesh.joined)
                                     : std::span(params.joined, mesh.prepared.vertex_count());
 }
@@ -142,8 +141,7 @@ geodisk_status geodisk_find_neighbours(geodisk_sampler* sampler, const geodisk_m
             return run_in_progress();
         }
         state.is_cancelled = false;
-        const auto made =
-            found(state, *mesh->shared, *wanted, state.callback(progress, user));
+        const auto made = found(state, *mesh->shared, *wanted, state.callback(progress, user));
         if (!made) {
             return made.error();
         }
@@ -153,8 +151,7 @@ geodisk_status geodisk_find_neighbours(geodisk_sampler* sampler, const geodisk_m
 }
 
 geodisk_status geodisk_neighbours_describe(const geodisk_neighbours* neighbours,
-                                           geodisk_neighbour_arrays* arrays,
-                                           geodisk_error* error) {
+                                           geodisk_neighbour_arrays* arrays, geodisk_error* error) {
     return answer(error, [&]() -> Result<Done> {
         if (neighbours == nullptr) {
             return wrong("neighbours is NULL");
