@@ -80,6 +80,10 @@ TEST_CASE("neighbours of vertices, points and each other") {
           "source,target,distance\n0,0,0.55902\n1,3,0\n");
     CHECK(found(folder, {"square.obj", "--within", "0.6", "--among", "points.csv"}) ==
           "source,target,distance\n0,0,0.55902\n1,0,0.55902\n3,1,0\n");
+    CHECK(found(folder, {"square.obj", "--among", "points.csv", "--nearest", "1"}) ==
+          "source,target,distance\n0,0,0.55902\n1,0,0.55902\n2,0,0.90139\n3,1,0\n");
+    CHECK(found(folder, {"square.obj", "--within", "0.6", "--among", "points.csv"}) ==
+          "source,target,distance\n0,0,0.55902\n1,0,0.55902\n3,1,0\n");
     const Json report = Json::parse(bytes_of(folder / "near.json"));
     CHECK(report["sources"]["kind"] == "vertices");
     CHECK(report["sources"]["count"] == 4);
@@ -143,7 +147,7 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
         more.insert(more.begin(), "square.obj");
         check_refused(folder, status, message, more);
     };
-    refused(2, "--within", {});
+    refused(2, "give --within", {});
     refused(2, "--within: '0'", {"--within", "0"});
     refused(2, "--within: '-1'", {"--within", "-1"});
     refused(2, "--within: 'reach' is no length", {"--within", "reach"});

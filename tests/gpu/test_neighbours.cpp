@@ -259,6 +259,49 @@ TEST_SUITE("neighbours") {
         }
     }
 
+    TEST_CASE("the nearest ones, however far they are") {
+        TestMesh two = builtin("icosphere", 2); // And another one, far away and without an end.
+        const std::uint32_t first = two.vertex_count(), faces = two.face_count();
+        for (std::uint32_t v = 0; v < first; ++v) {
+            const Vec3 p = two.vertex(v);
+            two.add_vertex({p.x + 9, p.y, p.z});
+        }
+        for (std::uint32_t f = 0; f < faces; ++f) {
+            const std::size_t at = std::size_t{3} * f;
+            two.add_triangle(two.triangles[at] + first, two.triangles[at + 1] + first,
+                             two.triangles[at + 2] + first);
+        }
+        const PreparedMesh mesh = prepared(two);
+        std::vector<Sample> points = samples_of(random_points(mesh, 5, 40));
+        std::erase_if(points, [&](const Sample& s) { return s.face >= faces + 60; });
+        const std::vector<Sample> sources = expect(vertex_points(mesh)).points;
+        NeighbourQuery query;
+        query.sources = sources;
+        query.kind = NeighbourKind::points;
+        query.points = points;
+        query.nearest = 3;
+        const Neighbours near = found(mesh, query);
+        query.within = 100;
+        const Neighbours all = found(mesh, query);
+        CHECK(near.offsets == all.offsets);
+        CHECK(near.indices == all.indices);
+        CHECK(near.offsets.back() < 3 * sources.size()); // Fewer there.
+        for (std::size_t i = 0; i < near.distances.size(); ++i) {
+            CHECK(std::abs(near.distances[i] - all.distances[i]) < 1e-5);
+        }
+        query.within = 0;
+        query.kind = NeighbourKind::sources;
+        query.nearest = 500; // All others of their sphere.
+        query.sources = points;
+        const Neighbours others = found(mesh, query);
+        const auto on_first = static_cast<std::uint64_t>(
+            std::ranges::count_if(points, [&](const Sample& s) { return s.face < faces; }));
+        const std::uint64_t on_second = points.size() - on_first;
+        CHECK(others.indices.size() == on_first * (on_first - 1) + on_second * (on_second - 1));
+        query.nearest = 0;
+        CHECK(refusal(mesh, query).message.find("is not positive and finite") != std::string::npos);
+    }
+
     TEST_CASE("what cannot be asked is refused") {
         const PreparedMesh cube = prepared(builtin("cube", 2));
         std::vector<Sample> sources = expect(vertex_points(cube)).points;

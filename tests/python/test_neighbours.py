@@ -40,6 +40,16 @@ def test_some_vertices_points_and_each_other():
     assert found.indices.tolist() == [0, 1, 2, 3, 4] and (found.distances == 0).all()
 
 
+def test_the_nearest_sample_of_each_vertex():
+    samples = geodisk.sample(KNOT, min_distance=0.5)
+    near = geodisk.neighbours(KNOT, among=samples, nearest=1)
+    assert np.array_equal(near.offsets, np.arange(len(KNOT.vertices) + 1))
+    everything = geodisk.neighbours(KNOT, sources=samples, within=100)
+    least = np.full(len(KNOT.vertices), np.inf)
+    np.minimum.at(least, everything.indices, everything.distances)
+    assert np.abs(near.distances - least).max() < 1e-4
+
+
 def test_all_vertices_of_a_seam_are_found():
     square = [[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]]
     near = geodisk.neighbours(square, [[0, 1, 2], [3, 4, 5]], within=1.2, sources=[3])
@@ -81,6 +91,7 @@ def test_what_cannot_be_asked():
     refuses("not positive", within=0)
     refuses("not positive", within=float("inf"))
     refuses("within", error=(TypeError, geodisk.InvalidArgument), within="x")
+    refuses("give within", within=None)
     refuses("give the sources", within=[1, 2])
     refuses("there are 2 sources", within=[1], sources=[0, 1])
     refuses("which no face uses", sources=[9999])

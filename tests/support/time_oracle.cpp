@@ -2,9 +2,9 @@
 //
 // usage: geodisk_time_oracle MESH SECONDS VERTEX...
 //
-// Prints a line for each vertex, until the time is up: its number and the distances of all vertices.
-// The last line is the rate.
-// The test data that it is linked with reports through doctest.
+// Prints a line for each vertex, until the time is up: its number and the distances of all
+// vertices. The last line is the rate. The test data that it is linked with reports through
+// doctest.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 

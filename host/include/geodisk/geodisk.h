@@ -599,7 +599,8 @@ typedef struct geodisk_neighbour_params {
     const geodisk_surface_point *sources;
     const uint32_t *source_vertices;
     size_t source_count;
-    double within;        /* A neighbour is at most so far away, along the surface. */
+    double within;        /* A neighbour is at most so far away, along the surface; 0 with `nearest`
+                           * for any distance. */
     const double *radii;  /* The same for each source of its own; NULL if all have `within`. */
     geodisk_neighbour_kind kind;
     const geodisk_surface_point *points; /* To find, for GEODISK_AMONG_POINTS. */

@@ -27,7 +27,8 @@ struct NeighbourQuery {
     /// Points of faces, at least one. Weights are rounded to multiples of 2^-24. For vertices see
     /// vertex_points().
     std::span<const Sample> sources{};
-    /// A neighbour is at most so far away, along the surface. Positive and finite.
+    /// A neighbour is at most so far away, along the surface. Positive and finite; or 0 with
+    /// `nearest`, to search as far as need be.
     double within = 0;
     /// The same for each source of its own, in place of `within`; empty if all have that.
     std::span<const double> radii{};
@@ -41,6 +42,9 @@ struct NeighbourQuery {
     std::uint32_t nearest = 0;
     /// Most pairs to find in all. The call ends as soon as it expects more.
     std::uint64_t most_pairs = std::uint64_t{1} << 30;
+
+    /// Returns false if it is to search as far as need be.
+    bool has_distances() const { return within != 0 || nearest == 0 || !radii.empty(); }
 };
 
 /// The neighbours of each source, one source after the other (CSR). Eight bytes per pair.

@@ -50,7 +50,10 @@ struct Within {
 
 Within parsed_within(const NeighbourOptions& options) {
     if (options.within.empty()) {
-        fail_usage("--within: give the distance within which neighbours are");
+        if (options.nearest.empty()) {
+            fail_usage("give --within, the distance within which neighbours are, or --nearest");
+        }
+        return {};
     }
     const char first = options.within.front();
     const bool is_number =
@@ -147,7 +150,7 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
         const SampleFile file =
             read_points(options, options.points, within.column, mesh, warnings, progress);
         job.sources.points = samples_in(file);
-        if (!within.length) {
+        if (!within.column.empty()) {
             job.radii = radii_in(options.points, within.column, file);
         }
     }
@@ -218,18 +221,17 @@ void add_neighbours_command(Command app) {
     add_output_argument(command, options->out,
                         "File to write: *.npz (arrays sources, offsets, targets,\n"
                         "distances) or *.csv (source, target, distance)");
-    command
-        .add_option("--within", options->within, "R",
-                    "Distance along the surface: in mesh units, or 1% of the\n"
-                    "diagonal, or the column of POINTS that has one for each")
-        .required();
+    command.add_option("--within", options->within, "R",
+                       "Distance along the surface: in mesh units, or 1% of the\n"
+                       "diagonal, or the column of POINTS that has one for each");
     command.add_option("--vertices", options->vertices, "LIST",
                        "Sources are only these vertices, such as 0,5,10-20");
     command.add_option("--among", options->among, "WHAT",
                        "What to find: vertices (the default), sources (all\n"
                        "others), or the points of a file");
     command.add_option("--nearest", options->nearest, "K",
-                       "Keep only the K nearest of each, the nearest first");
+                       "Keep only the K nearest of each, the nearest first; without\n"
+                       "--within as far away as need be");
     command.add_option("--most-pairs", options->most_pairs, "N",
                        "Stop if more pairs are to be expected (default 2^30)");
     add_mesh_options(command, options->mesh);

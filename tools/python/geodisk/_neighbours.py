@@ -79,7 +79,7 @@ def neighbours(
     faces: Faces | None = None,
     sources: SourcesLike | None = None,
     *,
-    within: float | ArrayLike,
+    within: float | ArrayLike | None = None,
     among: str | ExistingLike = "vertices",
     nearest: int = 0,
     most_pairs: int = 2**30,
@@ -98,8 +98,9 @@ def neighbours(
         The mesh, as for :class:`Mesh`.
     sources : array_like of int, Samples, or a pair of face_index and barycentric, optional
         Vertices by their indices, or points. By default all vertices that a triangle uses.
-    within : float, or array_like of float, shape (n,)
-        Distance in units of the mesh: one, or one for each source.
+    within : float, or array_like of float, shape (n,), optional
+        Distance in units of the mesh: one, or one for each source. Without it, the `nearest` ones
+        are found however far they are.
     among : {"vertices", "sources"}, Samples, or a pair of face_index and barycentric
         What to find: vertices of the mesh, the other sources, or points. Where seams are joined,
         all vertices of a place are found.
@@ -178,10 +179,16 @@ def _set_sources(
 
 
 def _set_within(
-    params: s.NeighbourParams, within: float | ArrayLike, count: int | None, address: Any
+    params: s.NeighbourParams, within: float | ArrayLike | None, count: int | None, address: Any
 ) -> None:
+    if within is None:
+        if params.nearest == 0:
+            raise e.invalid("give within, the distance within which neighbours are, or nearest")
+        return
     distances = real(within, "within").astype(np.float64)
     if distances.ndim == 0:
+        if float(distances) == 0:  # Which the library takes for any distance.
+            raise e.invalid("within is 0, which is not positive and finite")
         params.within = float(distances)
         return
     if count is None:

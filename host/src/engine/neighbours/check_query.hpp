@@ -1,0 +1,19 @@
+// Checks of a search for neighbours, before it begins.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <geodisk/mesh.hpp>
+#include <geodisk/neighbours.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+/// Checks vertices that are said to be joined. Errors name the first that is not so.
+Result<Done> check_joined(const PreparedMesh& mesh, std::span<const std::uint32_t> joined);
+
+/// Checks all that a query asks for, but for edges that are too long for its distances.
+Result<Done> check_query(const PreparedMesh& mesh, const NeighbourQuery& query);
+
+} // namespace geodisk

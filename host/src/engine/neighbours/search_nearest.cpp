@@ -1,0 +1,202 @@
+#include "engine/neighbours/search_nearest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <geodisk/vertex_sets.hpp>
+
+#include "engine/neighbours/search_within.hpp"
+#include "mesh/extent.hpp"
+
+namespace geodisk {
+namespace {
+
+// The first disks are so much larger than those that hold as many targets as wanted on average.
+constexpr double kFirst = 1.3;
+constexpr double kFactor = 2;
+
+/// Which parts of a mesh no path joins.
+class Components {
+  public:
+    explicit Components(const PreparedMesh& mesh) : mesh_(mesh), sets_(mesh.vertex_count()) {
+        const auto edges = mesh.half_edges();
+        for (std::size_t h = 0; h < edges.size(); h += 3) {
+            sets_.join(edges[h].origin, edges[h + 1].origin);
+            sets_.join(edges[h].origin, edges[h + 2].origin);
+        }
+    }
+    std::uint32_t of_vertex(std::uint32_t vertex) { return sets_.lowest(vertex); }
+    std::uint32_t of(const Sample& point) {
+        return of_vertex(mesh_.half_edges()[std::size_t{3} * point.face].origin);
+    }
+
+  private:
+    const PreparedMesh& mesh_;
+    VertexSets sets_;
+};
+
+class NearestSearch {
+  public:
+    NearestSearch(Runner& runner, const PreparedMesh& mesh, const NeighbourQuery& query,
+                  const ProgressCallback& progress)
+        : runner_(runner), mesh_(mesh), query_(query), progress_(progress) {}
+
+    Result<Neighbours> go();
+
+  private:
+    /// Tells how many neighbours each source can have, at most as many as wanted.
+    void count_wanted();
+    double first_distance() const;
+    /// Searches at this distance for those that lack neighbours. If it is the last one, they have
+    /// what it finds.
+    Result<Done> search(double within, bool is_last);
+    void keep(const Neighbours& found, bool is_last);
+    Neighbours all() const;
+    bool report(const Progress& now);
+
+    Runner& runner_;
+    const PreparedMesh& mesh_;
+    const NeighbourQuery& query_;
+    const ProgressCallback& progress_;
+    std::vector<std::uint32_t> wanted_;  ///< Neighbours of each source.
+    std::vector<std::uint32_t> pending_; ///< Sources that lack some.
+    std::vector<Sample> points_;         ///< Those of the search in work.
+    std::vector<std::vector<std::uint32_t>> indices_;
+    std::vector<std::vector<float>> distances_;
+    std::uint64_t targets_ = 0;
+    std::uint32_t told_ = 0;
+    double error_ = 0;
+    RunReport report_;
+};
+
+void NearestSearch::count_wanted() {
+    Components components(mesh_);
+    std::vector<std::uint32_t> targets(mesh_.vertex_count(), 0); // By component.
+    const bool among_sources = query_.kind == NeighbourKind::sources;
+    if (query_.kind == NeighbourKind::vertices) {
+        for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
+            targets[components.of_vertex(v)] += mesh_.fans()[v].corner_count > 0;
+        }
+    } else {
+        for (const Sample& point : among_sources ? query_.sources : query_.points) {
+            ++targets[components.of(point)];
+        }
+    }
+    for (const std::uint32_t count : targets) {
+        targets_ += count;
+    }
+    wanted_.reserve(query_.sources.size());
+    for (std::uint32_t i = 0; i < query_.sources.size(); ++i) {
+        const std::uint32_t there = targets[components.of(query_.sources[i])];
+        wanted_.push_back(std::min(query_.nearest, there - (among_sources ? 1 : 0)));
+        if (wanted_.back() > 0) {
+            pending_.push_back(i);
+        }
+    }
+}
+
+double NearestSearch::first_distance() const {
+    const double each = mesh_.statistics().area / static_cast<double>(targets_);
+    const double wanted = std::min<double>(query_.nearest, static_cast<double>(targets_));
+    const double needed = std::sqrt(each * wanted / std::numbers::pi);
+    // No edge may be too long for it.
+    return kFirst * std::max(needed, mesh_.statistics().longest_edge / 1000);
+}
+
+bool NearestSearch::report(const Progress& now) {
+    const auto all = static_cast<std::uint32_t>(query_.sources.size());
+    const std::uint32_t done = all - static_cast<std::uint32_t>(pending_.size()) + now.decided;
+    told_ = std::max(told_, std::min(done, all));
+    return progress_({told_, all, now.accepted, report_.disks + now.disks,
+                      report_.windows + now.windows});
+}
+
+Result<Done> NearestSearch::search(double within, bool is_last) {
+    points_.clear();
+    for (const std::uint32_t source : pending_) {
+        points_.push_back(query_.sources[source]);
+    }
+    NeighbourQuery query = query_;
+    query.sources = points_;
+    query.within = within;
+    if (query_.kind == NeighbourKind::sources) {
+        query.kind = NeighbourKind::points; // Of all, with itself.
+        query.points = query_.sources;
+        ++query.nearest;
+    }
+    const ProgressCallback heard = [this](const Progress& now) { return report(now); };
+    const auto found = search_within(runner_, mesh_, query, progress_ ? heard : nullptr);
+    if (!found) {
+        return found.error();
+    }
+    report_.add(found->report);
+    error_ = std::max(error_, found->error);
+    keep(*found, is_last);
+    return Done{};
+}
+
+void NearestSearch::keep(const Neighbours& found, bool is_last) {
+    std::vector<std::uint32_t> lacking;
+    for (std::size_t row = 0; row < pending_.size(); ++row) {
+        const std::uint32_t source = pending_[row];
+        std::vector<std::uint32_t> indices;
+        std::vector<float> distances;
+        for (std::size_t at = found.offsets[row]; at < found.offsets[row + 1]; ++at) {
+            const bool is_own =
+                query_.kind == NeighbourKind::sources && found.indices[at] == source;
+            if (!is_own && indices.size() < wanted_[source]) {
+                indices.push_back(found.indices[at]);
+                distances.push_back(found.distances[at]);
+            }
+        }
+        if (indices.size() < wanted_[source] && !is_last) {
+            lacking.push_back(source);
+            continue;
+        }
+        indices_[source] = std::move(indices);
+        distances_[source] = std::move(distances);
+    }
+    pending_ = std::move(lacking);
+}
+
+Neighbours NearestSearch::all() const {
+    Neighbours all;
+    all.offsets.push_back(0);
+    for (std::size_t source = 0; source < indices_.size(); ++source) {
+        all.indices.insert(all.indices.end(), indices_[source].begin(), indices_[source].end());
+        all.distances.insert(all.distances.end(), distances_[source].begin(),
+                             distances_[source].end());
+        all.offsets.push_back(all.indices.size());
+    }
+    all.error = error_;
+    all.report = report_;
+    return all;
+}
+
+Result<Neighbours> NearestSearch::go() {
+    count_wanted();
+    indices_.resize(query_.sources.size());
+    distances_.resize(query_.sources.size());
+    const double bound = distance_bound(mesh_);
+    for (double within = first_distance(); !pending_.empty(); within *= kFactor) {
+        if (auto searched = search(within, within > bound); !searched) {
+            return searched.error();
+        }
+    }
+    return all();
+}
+
+} // namespace
+
+Result<Neighbours> search_nearest(Runner& runner, const PreparedMesh& mesh,
+                                  const NeighbourQuery& query, const ProgressCallback& progress) {
+    NearestSearch search(runner, mesh, query, progress);
+    return search.go();
+}
+
+} // namespace geodisk
