@@ -197,6 +197,23 @@ def test_maximal_sets_are_verified():
     assert geodisk.verify(SAMPLES).is_maximal is None
 
 
+def test_points_of_other_programs():
+    mesh = (VERTICES, FACES)
+    points = geodisk.Samples(SAMPLES.points + 1e-9)
+    found = geodisk.verify(points, *mesh, min_distance=SAMPLES.min_distance * (1 - 1e-6))
+    assert found and found.samples == len(SAMPLES) and found.misplaced == 0
+    assert np.isclose(found.smallest, geodisk.verify(SAMPLES).smallest, rtol=1e-6)
+    assert geodisk.verify(points, *mesh, min_distance=0.1, tolerance=1e-12).misplaced > 0
+    with pytest.raises(ValueError, match="give min_distance"):
+        geodisk.verify(points, *mesh)
+    moved = geodisk.transfer(points, 2 * VERTICES, vertices=VERTICES, faces=FACES)
+    assert np.allclose(moved.points, 2 * SAMPLES.points, atol=1e-7)
+    assert geodisk.verify(moved) and (moved.face_index < len(FACES)).all()
+    assert geodisk.render(points, *mesh, min_distance=0.1, size=(64, 48)).size == (64, 48)
+    with pytest.raises(ValueError, match="lie on no mesh"):
+        geodisk.verify(geodisk.sample_box([1, 1], min_distance=0.3), *mesh)
+
+
 def test_render(tmp_path):
     picture = geodisk.render(SAMPLES, size=(64, 48), view=(-30, 20), background="transparent")
     assert picture.size == (64, 48) and "64 x 48" in repr(picture)

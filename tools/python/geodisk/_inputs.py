@@ -31,8 +31,8 @@ def surface_of(
             f"{type(samples).__name__}"
         )
     if vertices is not None:
-        if samples.face_index is None:
-            raise e.invalid("samples without face_index and barycentric lie on no mesh")
+        if samples.face_index is None and samples.extents is not None:
+            raise e.invalid("samples in a box lie on no mesh")
         return mesh_of(vertices, faces, edge_lengths, weld, keep_seams)._surface
     if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
         raise TypeError(

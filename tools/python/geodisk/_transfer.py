@@ -33,7 +33,7 @@ def transfer(
     Parameters
     ----------
     samples : Samples
-        Samples on a mesh.
+        Samples on a mesh, or points of other programs as for :func:`verify`.
     to : array_like of float, shape (v, d), or a mesh
         Positions of the vertices, or a mesh with identical faces.
     vertices, faces, edge_lengths, weld, keep_seams
@@ -84,8 +84,12 @@ def transfer(
     if points is not None:  # The program has three coordinates in the plane.
         points = np.ascontiguousarray(points[:, :dimension])
     distance = math.nan if closest is None else float(closest["distance"])
+    placed = {}
+    if samples.face_index is None:
+        placed = {"face_index": there.face_index, "barycentric": there.barycentric}
     return dataclasses.replace(
         samples,
+        **placed,
         points=points,
         normals=there.normals if dimension == 3 else None,
         radius=np.full(len(samples), distance / 2),

@@ -46,7 +46,8 @@ class Verification:
     complete : bool
         False if the check ended after a million violations.
     misplaced : int
-        Number of samples that are not at the point given by face and weights, or outside the box.
+        Number of samples that are not at the point given by face and weights, outside the box, or
+        farther from the mesh than the tolerance.
     wrong_radii : int
         Number of samples whose radius does not match the density.
     rho : float
@@ -141,6 +142,7 @@ def verify(
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
+    tolerance: float | None = None,
 ) -> Verification:
     """Computes the distances of samples again, on the CPU in double precision.
 
@@ -149,7 +151,8 @@ def verify(
     Parameters
     ----------
     samples : Samples
-        Samples on a mesh or in a box.
+        Samples on a mesh or in a box. With a mesh, also points of other programs without
+        `face_index`: ``Samples(points)``. They are put on the nearest triangles.
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     min_distance : float, optional
@@ -164,6 +167,9 @@ def verify(
     maximal : bool, default False
         Whether to check that no further sample fits anywhere. Takes `face_mask` and `avoid` into
         account.
+    tolerance : float, optional
+        Maximum distance of such points from the mesh, by default a thousandth of the bounding-box
+        diagonal. Points farther away count as misplaced.
 
     Returns
     -------
@@ -215,6 +221,8 @@ def verify(
             arguments += write_avoided(place, surface, *avoided_of(surface, avoid))
         if maximal:
             arguments.append("--maximal")
+        if tolerance is not None:
+            arguments += ["--tolerance", repr(float(tolerance))]
         values = radius_factor if density is None else density
         if varying and surface is not None and values is not None:
             arguments += write_density(place, surface, varying, values)
