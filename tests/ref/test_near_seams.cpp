@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "geodisk/weld.hpp"
+#include "mesh/face_loss.hpp"
 #include "support/meshes.hpp"
 
 using namespace geodisk;
@@ -117,4 +118,35 @@ TEST_CASE("near seams: parts far smaller than the whole have their own measure")
     mesh.positions.insert(mesh.positions.end(), {1, 0, 0, 2, 0, 0, 1, 1, 0});
     mesh.triangles.insert(mesh.triangles.end(), {first, first + 1, first + 2});
     CHECK(found_in(mesh).edges == 0);
+}
+
+TEST_CASE("near seams: faces that a chain of many vertices removes are told") {
+    // A long triangle beside a seam, and vertices that lead from one of its corners to another.
+    for (const std::uint32_t links : {2u, 40u, 400u, 4000u}) {
+        CAPTURE(links);
+        TestMesh mesh{{0, 0, 1, 0, 1, 1, 0, 1, 1.00002, 0, 2, 0, 2, 1, 1.00002, 1},
+                      {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7},
+                      2};
+        const double step = 1.9e-5, end = links * step;
+        const auto add = [&mesh](double x, double y) {
+            mesh.triangles.push_back(mesh.vertex_count());
+            mesh.positions.insert(mesh.positions.end(), {x, y});
+        };
+        add(0, 3), add(end, 3), add(0, 4);
+        for (std::uint32_t link = 1; link < links; ++link) {
+            add(link * step, 3), add(3, link), add(4, link);
+        }
+        const NearSeams seams = found_in(mesh);
+        REQUIRE(seams.edges == 2);
+        const auto joined = weld(mesh.view(), seams.epsilon);
+        REQUIRE(joined);
+        CHECK(seams.degenerate_faces == joined->degenerate_faces);
+        CHECK(joined->degenerate_faces == 1);
+    }
+}
+
+TEST_CASE("near seams: a soup with small gaps surely keeps its faces") {
+    const TestMesh soup = shaken(builtin("icosphere", 3), 1e-7);
+    CHECK(keeps_all_faces(soup.view(), 1e-6));
+    CHECK_FALSE(keeps_all_faces(soup.view(), 1e-2)); // Sides are about 0.15 long.
 }

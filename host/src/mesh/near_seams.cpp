@@ -13,6 +13,7 @@
 #include "geodisk/weld.hpp"
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
+#include "mesh/face_loss.hpp"
 #include "mesh/seams.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
@@ -273,11 +274,15 @@ double rounded_up(double least, int digits) {
 Result<Done> choose_epsilon(const MeshView& mesh, double least, NearSeams& seams) {
     for (const int digits : {0, 1, 3}) {
         const double epsilon = rounded_up(least, digits);
+        seams.epsilon = epsilon;
+        if (keeps_all_faces(mesh, epsilon)) {
+            seams.degenerate_faces = 0;
+            break;
+        }
         const auto welded = weld(mesh, epsilon);
         if (!welded) {
             return welded.error();
         }
-        seams.epsilon = epsilon;
         seams.degenerate_faces = welded->degenerate_faces;
         if (welded->degenerate_faces == 0) {
             break;
