@@ -116,6 +116,7 @@ TEST_CASE("where seams are joined, neighbours name all vertices of the file") {
         return outcome.err;
     };
     CHECK(message("6").find("--vertices: no face uses vertex 6") != std::string::npos);
+    CHECK(message("0-4000000000").find("there is no vertex 4000000000") != std::string::npos);
     CHECK(message("7").find("there is no vertex 7, since the mesh has 7") != std::string::npos);
 }
 

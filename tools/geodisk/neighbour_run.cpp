@@ -4,42 +4,60 @@
 #include <numeric>
 #include <utility>
 
+#include "geodisk/outputs/outputs.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/stopwatch.hpp"
+#include "program/time_estimate.hpp"
 
 namespace geodisk::tools {
 namespace {
 
+// Less of a search says little of how long the rest takes.
+constexpr double kEarly = 0.02;
+
+/// Says once if the search takes long, and stops it on a signal.
 ProgressCallback show_progress(ProgressLine& progress) {
-    return [&progress](const Progress& state) {
-        progress.update(static_cast<double>(state.decided) / state.candidates,
-                        grouped(state.accepted) + " pairs");
+    return [&progress, watch = Stopwatch(),
+            time = TimeEstimate(kEarly)](const Progress& state) mutable {
+        const double part = static_cast<double>(state.decided) / state.candidates;
+        time.note(watch.seconds(), part);
+        if (const auto seconds = time.long_run()) {
+            progress.clear();
+            print_warning("searching takes about " + seconds_text(*seconds) + " on this device");
+        }
+        std::string text = grouped(state.accepted) + " pairs";
+        if (const auto left = time.left(); left && *left >= 1) {
+            text += ", about " + seconds_text(*left) + " left";
+        }
+        progress.update(part, text);
         return !is_interrupted();
     };
 }
 
 } // namespace
 
-NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<std::uint32_t>& wanted) {
+NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted) {
     VertexPoints all = take(vertex_points(mesh.prepared, mesh.file.joined));
     if (wanted.empty()) {
         return {std::move(all.points), std::move(all.vertices)};
     }
     NumberedPoints found;
-    for (const std::uint32_t vertex : wanted) {
-        if (vertex >= mesh.prepared.vertex_count()) {
-            fail_usage("--vertices: there is no vertex " + std::to_string(vertex) +
+    for (const auto& [first, last] : wanted) {
+        if (last >= mesh.prepared.vertex_count()) {
+            fail_usage("--vertices: there is no vertex " + std::to_string(last) +
                        ", since the mesh has " + grouped(mesh.prepared.vertex_count()) +
                        ", counted from 0");
         }
-        const auto at = std::ranges::lower_bound(all.vertices, vertex);
-        if (at == all.vertices.end() || *at != vertex) {
-            fail_usage("--vertices: no face uses vertex " + std::to_string(vertex));
+        auto at = std::ranges::lower_bound(all.vertices, first);
+        for (std::uint32_t vertex = first; vertex <= last; ++vertex, ++at) {
+            if (at == all.vertices.end() || *at != vertex) {
+                fail_usage("--vertices: no face uses vertex " + std::to_string(vertex));
+            }
+            found.points.push_back(all.points[static_cast<std::size_t>(at - all.vertices.begin())]);
+            found.numbers.push_back(vertex);
         }
-        found.points.push_back(all.points[static_cast<std::size_t>(at - all.vertices.begin())]);
-        found.numbers.push_back(vertex);
     }
     return found;
 }

@@ -21,10 +21,15 @@ struct NumberedPoints {
     std::vector<std::uint32_t> numbers; ///< Empty for 0, 1, 2 ...
 };
 
+/// Vertices from the first to the last.
+struct VertexRange {
+    std::uint32_t first, last;
+};
+
 /// Returns the vertices of the mesh that faces use, or those of `wanted` in that order. Of vertices
 /// that are joined, each has the place of all. Throws UserError(usage) for one that there is not,
 /// or that no face uses.
-NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<std::uint32_t>& wanted);
+NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted);
 
 /// What to search for.
 struct NeighbourJob {

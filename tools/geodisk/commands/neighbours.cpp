@@ -69,8 +69,8 @@ Within parsed_within(const NeighbourOptions& options) {
 }
 
 /// "0,5,17-20".
-std::vector<std::uint32_t> parsed_vertices(const std::string& text) {
-    std::vector<std::uint32_t> vertices;
+std::vector<VertexRange> parsed_vertices(const std::string& text) {
+    std::vector<VertexRange> vertices;
     const auto fail = [](const std::string& item) {
         fail_usage("--vertices: " + in_quotes(item) +
                    " is neither a number nor a range such as 10-20");
@@ -87,9 +87,7 @@ std::vector<std::uint32_t> parsed_vertices(const std::string& text) {
         if (!first || !last || *last < *first) {
             fail(item);
         }
-        for (std::uint64_t v = *first; v <= *last; ++v) {
-            vertices.push_back(static_cast<std::uint32_t>(v));
-        }
+        vertices.push_back({*first, *last});
         begin = end + 1;
     }
     return vertices;
@@ -141,7 +139,7 @@ std::vector<double> radii_in(const std::string& path, const std::string& column,
 }
 
 NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
-                      const std::vector<std::uint32_t>& vertices, const MeshInput& mesh,
+                      const std::vector<VertexRange>& vertices, const MeshInput& mesh,
                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     NeighbourJob job;
     if (options.points.empty()) {
@@ -172,7 +170,7 @@ void run_neighbours(const NeighbourOptions& options) {
     if (!options.points.empty() && !options.vertices.empty()) {
         fail_usage("--vertices contradicts POINTS: sources are either");
     }
-    const std::vector<std::uint32_t> vertices = parsed_vertices(options.vertices);
+    const std::vector<VertexRange> vertices = parsed_vertices(options.vertices);
     constexpr double kMost = 0xffffffffp0;
     const double nearest = options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
     const double pairs =
@@ -201,7 +199,7 @@ void run_neighbours(const NeighbourOptions& options) {
                                  job,
                                  result,
                                  options.out.output,
-                                 options.points.empty() ? "vertices" : "points",
+                                 !options.points.empty(),
                                  options.searched().empty() ? options.among : "points"};
     write_outputs(options.out, "the neighbours", progress, report,
                   [&](AtomicFile& file) { write_neighbours(file, target, result.table); });

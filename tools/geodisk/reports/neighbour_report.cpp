@@ -1,6 +1,7 @@
 #include "geodisk/reports/neighbour_report.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include <geodisk/version.hpp>
@@ -36,8 +37,19 @@ RowSizes sizes_of(const NeighbourTable& table) {
     return sizes;
 }
 
-double largest_distance(const NeighbourJob& job) {
-    return job.radii.empty() ? job.within : *std::ranges::max_element(job.radii);
+/// Returns nothing where neighbours may be any distance away.
+std::optional<double> largest_distance(const NeighbourJob& job) {
+    if (!job.radii.empty()) {
+        return *std::ranges::max_element(job.radii);
+    }
+    return job.within > 0 ? std::optional(job.within) : std::nullopt;
+}
+
+std::string within_text(const NeighbourJob& job) {
+    const std::optional<double> distance = largest_distance(job);
+    return !distance
+               ? "any distance"
+               : (job.radii.empty() ? "" : "up to ") + rounded(*distance, 6) + " in mesh units";
 }
 
 } // namespace
@@ -48,9 +60,10 @@ std::string NeighbourReport::json(double write_seconds) const {
         {"version", GEODISK_VERSION_STRING},
         {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
         {"warnings", warnings_json(warnings)},
-        {"sources", {{"kind", sources}, {"count", result.table.sources.size()}}},
+        {"sources",
+         {{"kind", has_points ? "points" : "vertices"}, {"count", result.table.sources.size()}}},
         {"targets", targets},
-        {"within", largest_distance(job)},
+        {"within", json_of(largest_distance(job))},
         {"nearest", job.nearest == 0 ? Json(nullptr) : Json(job.nearest)},
         {"pairs", result.table.targets.size()},
         {"per_source", {{"least", sizes.least}, {"mean", sizes.mean}, {"most", sizes.most}}},
@@ -68,13 +81,13 @@ std::string NeighbourReport::summary(double write_seconds) const {
     const RowSizes sizes = sizes_of(result.table);
     std::ostringstream out;
     out << mesh_lines("mesh", options.mesh, options.additions(), mesh) << "sources       "
-        << grouped(result.table.sources.size()) << ' ' << sources << '\n'
+        << (has_points ? counted(result.table.sources.size(), "point", "points")
+                       : counted(result.table.sources.size(), "vertex", "vertices"))
+        << '\n'
         << "neighbours    " << grouped(result.table.targets.size()) << " in all, "
         << grouped(sizes.least) << " to " << grouped(sizes.most) << " each, "
         << rounded(sizes.mean, 4) << " on average, among " << targets << '\n'
-        << "within        " << (job.radii.empty() ? "" : "up to ")
-        << rounded(largest_distance(job), 6) << " in mesh units, exact to "
-        << rounded(result.error, 2) << '\n'
+        << "within        " << within_text(job) << ", exact to " << rounded(result.error, 2) << '\n'
         << run_text(result.done, seconds_of(*this, write_seconds), output, "searching");
     return out.str();
 }

@@ -17,7 +17,8 @@ struct NeighbourReport {
     const NeighbourJob& job;
     const NeighbourResult& result;
     const std::string& output;
-    std::string sources, targets; ///< What they are.
+    bool has_points;     ///< Sources are points, else vertices.
+    std::string targets; ///< What they are.
 
     std::string json(double write_seconds) const;
     std::string summary(double write_seconds) const;

@@ -112,8 +112,8 @@ bool NearestSearch::report(const Progress& now) {
     const auto all = static_cast<std::uint32_t>(query_.sources.size());
     const std::uint32_t done = all - static_cast<std::uint32_t>(pending_.size()) + now.decided;
     told_ = std::max(told_, std::min(done, all));
-    return progress_({told_, all, now.accepted, report_.disks + now.disks,
-                      report_.windows + now.windows});
+    return progress_(
+        {told_, all, now.accepted, report_.disks + now.disks, report_.windows + now.windows});
 }
 
 Result<Done> NearestSearch::search(double within, bool is_last) {
